@@ -31,7 +31,7 @@ def run(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: ob
 
 def paths(script: BuildScript) -> dict[str, bool]:
     """Installed paths, and whether they are conditional."""
-    return {provided.path: provided.conditional for provided in script.provides}
+    return {provided.path: provided.conditional for provided in script.installs}
 
 
 def mentioned(script: BuildScript) -> dict[tuple[str, str], Mention]:

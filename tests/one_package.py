@@ -53,4 +53,4 @@ def use(workspace: Workspace, package: str) -> Use:
 def placed(workspace: Workspace, package: str) -> tuple[Role, bool, bool]:
     """Return the role of the only use of a package, whether it is sure and whether it is optional."""
     found = use(workspace, package)
-    return found.role, found.sure, found.optional
+    return found.role, found.certain, found.optional

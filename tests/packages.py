@@ -65,12 +65,12 @@ def made(
         group_depends=tuple(_declared(depend, truth) for depend, truth in active if depend.tag == "group_depend"),
         colcon_depends=colcon_depends,
         files=files,
-        unseen=(),
+        unvisited_folders=(),
         nested=(),
         script=None,
         launch=(),
         uses=(),
-        traces={},
+        textual_mentions={},
         opaque=(),
     )
 

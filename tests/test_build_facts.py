@@ -64,8 +64,8 @@ def test_places_are_those_of_the_text() -> None:
         source = Text("CMakeLists.txt", text)
         (call,) = calls(text)
         assert [source.slice(call.span(index)) for index in range(len(words))] == words
-        assert source.slice(call.place) == "install"
-        assert source.slice(call.whole) == text.strip()
+        assert source.slice(call.name_span) == "install"
+        assert source.slice(call.extent) == text.strip()
 
 
 # --- setup.py
@@ -203,7 +203,7 @@ def test_files_that_models_look_up() -> None:
   <!-- <mesh filename="package://robot/meshes/d.stl"/> -->
   <mesh filename="package://robot/meshes/a.stl"/>
 </robot>"""
-    found = resource(Text("a.urdf.xacro", text)).look_ups
+    found = resource(Text("a.urdf.xacro", text)).lookups
     assert [(one.package, one.path, one.span.line) for one in found] == [
         ("robot", "meshes/a.stl", 2),
         ("robot", "urdf/b.xacro", 3),

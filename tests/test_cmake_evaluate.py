@@ -87,9 +87,9 @@ def test_programs() -> None:
     files = ("scripts/a.py", "scripts/b.py")
     text = "install(DIRECTORY scripts/ DESTINATION lib/pkg {})\n"
     plain = run(text.format(""), files, executables=frozenset({"scripts/a.py"}))
-    assert [provided.program for provided in plain.provides] == [False, False]
+    assert [provided.program for provided in plain.installs] == [False, False]
     kept = run(text.format("USE_SOURCE_PERMISSIONS"), files, executables=frozenset({"scripts/a.py"}))
-    assert [provided.program for provided in kept.provides] == [True, False]
+    assert [provided.program for provided in kept.installs] == [True, False]
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,7 @@ def test_a_project_from_elsewhere_takes_no_sources_of_the_package(lines: str, bu
     files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": "", "test/t.cpp": "#include <gtest/gtest.h>\n"}
     package = loaded({f"robot/{path}": text for path, text in files.items()}).packages[0]
     (found,) = (use for use in package.uses if "gtest" in use.package)
-    assert found.sure is built
+    assert found.certain is built
 
 
 def test_what_lies_among_the_sources_is_no_need() -> None:

@@ -21,14 +21,14 @@ def test_macros_mention_the_package_that_brings_them() -> None:
     mention = mentioned(script)[("macro", "ament_cmake_gtest")]
     assert (mention.what, mention.test, mention.span.line, mention.span.column) == ("ament_add_gtest()", True, 4, 3)
     assert [(target.name, target.sources, target.test) for target in script.targets] == [("t", ("test/t.cpp",), True)]
-    assert {"ament_add_gtest", "ament_package"} <= set(script.calls)
+    assert {"ament_add_gtest", "ament_package"} <= set(script.command_names)
 
 
 def test_the_place_for_install_rules_is_before_ament_package() -> None:
     script = run("\n  ament_package()\n")
-    assert str(script.end) == "src/pkg/CMakeLists.txt:4:3"
-    assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").end is not None
-    assert run("").end is None
+    assert str(script.insertion) == "src/pkg/CMakeLists.txt:4:3"
+    assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").insertion is not None
+    assert run("").insertion is None
 
 
 def test_ament_auto() -> None:
@@ -49,7 +49,7 @@ def test_ament_auto() -> None:
     assert {target.name: target.sources for target in script.targets} == {
         "core": ("src/core.cpp",), "talker": ("src/core.cpp", "src/main.cpp"), "node": (),
     }  # fmt: skip
-    assert {provided.path: provided.span.line for provided in script.provides}["lib/pkg/node"] == 7
+    assert {provided.path: provided.span.line for provided in script.installs}["lib/pkg/node"] == 7
 
 
 def test_macros_that_build_and_install_nothing_hide_nothing() -> None:
@@ -157,13 +157,13 @@ def test_macros_of_the_workspace_are_followed(name: str) -> None:
         "project(tools)\ninstall(FILES cmake/install_all.cmake DESTINATION share/tools/cmake)\n"
         "ament_package(CONFIG_EXTRAS cmake/tools-extras.cmake.in)\n",
     )
-    assert tools.script.extras == ("cmake/tools-extras.cmake.in",)
+    assert tools.script.config_extras == ("cmake/tools-extras.cmake.in",)
     found = sources(HEAD + "find_package(tools REQUIRED)\ninstall_all(launch)\n", ("launch/a.launch.py",))
     script = evaluate(found, helpers={"tools": tools})
     assert not script.opaque
     assert paths(script) == {"share/pkg/launch/a.launch.py": False}
     assert [(mention.name, mention.via) for mention in script.mentions] == [("tools", "cmake")]
-    assert str(script.provides[0].span) == "src/pkg/CMakeLists.txt:4:13"
+    assert str(script.installs[0].span) == "src/pkg/CMakeLists.txt:4:13"
     assert (
         hidden(evaluate(found))
         == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS

@@ -248,8 +248,8 @@ def test_look_ups_in_comments_do_not_count() -> None:
 )
 def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) -> None:
     facts = cpp.collect(source := Text("a.cpp", text))
-    assert [(found.package, found.path) for found in facts.look_ups] == expected
-    assert all(source.slice(found.span).strip("/") in found.path for found in facts.look_ups)
+    assert [(found.package, found.path) for found in facts.lookups] == expected
+    assert all(source.slice(found.span).strip("/") in found.path for found in facts.lookups)
     assert facts.mentions[0].name == "p"
 
 

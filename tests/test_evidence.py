@@ -48,10 +48,10 @@ def test_roles_come_from_where_a_file_goes() -> None:
             src__idle_dot_cpp="#include <shape_msgs/msg/plane.hpp>\n",
         )
     )
-    assert [(use.role, use.sure) for use in uses(workspace, "nav_msgs")] == [(Role.BUILD | Role.EXEC, True)]
-    assert [(use.role, use.sure) for use in uses(workspace, "sensor_msgs")] == [(Role.BUILD | Role.EXPORT | Role.EXEC, True)]
-    assert [(use.role, use.sure) for use in uses(workspace, "std_msgs")] == [(Role.TEST, True)]
-    assert [use.sure for use in uses(workspace, "shape_msgs")] == [False]
+    assert [(use.role, use.certain) for use in uses(workspace, "nav_msgs")] == [(Role.BUILD | Role.EXEC, True)]
+    assert [(use.role, use.certain) for use in uses(workspace, "sensor_msgs")] == [(Role.BUILD | Role.EXPORT | Role.EXEC, True)]
+    assert [(use.role, use.certain) for use in uses(workspace, "std_msgs")] == [(Role.TEST, True)]
+    assert [use.certain for use in uses(workspace, "shape_msgs")] == [False]
 
 
 def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
@@ -92,8 +92,8 @@ def test_a_header_of_a_message_of_ros_1_is_of_no_package_of_ros_2(header: str, f
 
 def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
     workspace = loaded(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
-    assert [use.sure for use in uses(workspace, "nvidia-cuda")] == [False]
-    assert [use.sure for use in uses(workspace, "eigen")] == [True]
+    assert [use.certain for use in uses(workspace, "nvidia-cuda")] == [False]
+    assert [use.certain for use in uses(workspace, "eigen")] == [True]
 
 
 def test_an_action_needs_action_msgs_where_the_generators_do_not_bring_it() -> None:
@@ -342,17 +342,17 @@ def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     assert [use.optional for use in uses(workspace, "python3-serial")] == [True, False]
     files = cmake("talker", "", "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})", a_dot_py="import serial\nimport cv2\n")
     workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
-    assert [use.sure for use in uses(workspace, "python3-serial")] == [False]
-    assert [use.sure for use in uses(workspace, "python3-opencv")] == [True]
+    assert [use.certain for use in uses(workspace, "python3-serial")] == [False]
+    assert [use.certain for use in uses(workspace, "python3-opencv")] == [True]
     lines = "add_library(r r.cpp)\ntarget_link_libraries(r nlohmann_json::nlohmann_json)"
     files = cmake("talker", "", lines, r_dot_cpp="#include <nlohmann/json.hpp>\n#include <yaml-cpp/yaml.h>\n")
     workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/json\n'})
-    assert [use.sure for use in uses(workspace, "nlohmann-json-dev")] == [False, False]
-    assert [use.sure for use in uses(workspace, "yaml-cpp")] == [True]
+    assert [use.certain for use in uses(workspace, "nlohmann-json-dev")] == [False, False]
+    assert [use.certain for use in uses(workspace, "yaml-cpp")] == [True]
     files = cmake("talker", "", "add_library(r r.cpp)", r_dot_cpp="#include <gtest/gtest_prod.h>\n")
     workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/googletest\n'})
-    assert [use.sure for use in uses(workspace, "ament_cmake_gtest")] == [False]
-    assert [use.sure for use in uses(loaded(files), "ament_cmake_gtest")] == [True]
+    assert [use.certain for use in uses(workspace, "ament_cmake_gtest")] == [False]
+    assert [use.certain for use in uses(loaded(files), "ament_cmake_gtest")] == [True]
 
 
 def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:

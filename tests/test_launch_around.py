@@ -25,7 +25,7 @@ def _package(
     here = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
     script = BuildScript(
         f"{name}/CMakeLists.txt",
-        provides=tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items()),
+        installs=tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items()),
         python_packages=modules,
     )
     found = []
@@ -61,7 +61,7 @@ def generate_launch_description():
     package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.helpers"))
     (before,) = [file for file in package.launch if not file.helper]
     assert before.opaque
-    assert before.wants == ("app.helpers", "app.helpers.start")
+    assert before.missing_inputs == ("app.helpers", "app.helpers.start")
     after = _completed((package, files))["app/launch/a.launch.py"]
     assert not after.opaque
     assert _named(after) == {("driver", "camera")}

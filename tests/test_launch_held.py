@@ -46,11 +46,11 @@ def test_what_depends_on_an_argument_is_not_the_files_own() -> None:
 def test_a_package_that_the_file_sets_is_no_default(let: str, by_default: bool) -> None:
     body = f'<launch>{let}<node pkg="$(var p)" exec="b"/></launch>'
     (reference,) = launch_xml.collect(Text("a.launch.xml", body)).references
-    assert (reference.package, reference.name, reference.by_default) == ("a", "b", by_default)
+    assert (reference.package, reference.name, reference.from_default) == ("a", "b", by_default)
 
 
 def test_either_of_two_values_may_be_meant() -> None:
     lets = '<let name="e" value="one" if="$(var c)"/><let name="e" value="two" unless="$(var c)"/>'
     body = f'<launch><arg name="c" default="true"/>{lets}<node pkg="a" exec="$(var e)"/></launch>'
     found = launch_xml.collect(Text("a.launch.xml", body)).references
-    assert [(one.name, one.conditional, one.by_default) for one in found] == [("one", True, False), ("two", True, False)]
+    assert [(one.name, one.conditional, one.from_default) for one in found] == [("one", True, False), ("two", True, False)]

@@ -420,5 +420,5 @@ def test_a_package_that_only_a_default_names() -> None:
         '<node pkg="c" exec="d" args="$(var file)"/></launch>'
     )
     _, found = collect("a.launch.xml", text)
-    named = {reference.package: reference.package_by_default for reference in found.references}
+    named = {reference.package: reference.package_from_default for reference in found.references}
     assert named == {"a_description": True, "b": False, "c": False}

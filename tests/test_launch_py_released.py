@@ -53,7 +53,7 @@ def test_the_demo_of_moveit_includes_what_lies_in_the_package() -> None:
         "file arm_config config/ros2_controllers.yaml",
         "include arm_config launch/spawn_controllers.launch.py",
     ]
-    needed = {short(reference) for reference in found.references if not (reference.optional or reference.asked)}
+    needed = {short(reference) for reference in found.references if not (reference.optional or reference.existence_checked)}
     assert needed == {
         "include arm_config launch/rsp.launch.py",
         "include arm_config launch/move_group.launch.py",
@@ -164,7 +164,7 @@ def test_helpers_of_launch_pal() -> None:
 
 def test_what_else_a_helper_asks_for_is_not_known() -> None:
     _, found = collect("a.launch.py", LAUNCH_PAL)
-    assert found.asks[-1] == "\ue000"
+    assert found.configurations_read[-1] == "\ue000"
 
 
 def test_the_node_that_webots_waits_for() -> None:

@@ -20,7 +20,7 @@ from tests.one_package import HIDDEN, INSTALLED, PUBLIC, include, load, load_pyt
 )
 def test_a_project_of_its_own_is_alive_where_the_build_comes_to_it(lines: str, sure: bool) -> None:
     files = {"sdk/CMakeLists.txt": "project(sdk)\nadd_library(sdk talker.cpp)\n", "sdk/talker.cpp": include("nav_msgs")}
-    assert use(load(lines, files), "nav_msgs").sure is sure
+    assert use(load(lines, files), "nav_msgs").certain is sure
 
 
 @pytest.mark.parametrize("project", ["CMakeLists.txt", "setup.py", "pyproject.toml"])
@@ -28,52 +28,52 @@ def test_tests_of_a_project_of_its_own_are_idle(project: str) -> None:
     lines = HIDDEN + "ament_add_pytest_test(robot test/test_robot.py)"
     files = {"test/test_robot.py": "import launch\n", "sdk/tests/test_sdk.py": "import requests\n", f"sdk/{project}": ""}
     workspace = load(lines, files)
-    assert use(workspace, "launch").sure
-    assert not use(workspace, "python3-requests").sure
+    assert use(workspace, "launch").certain
+    assert not use(workspace, "python3-requests").certain
 
 
 def test_beside_what_is_installed_by_name_lies_what_is_not() -> None:
     lines = HIDDEN + "install(PROGRAMS scripts/talk.py DESTINATION lib/robot)"
     files = {"scripts/talk.py": "import rclpy\n", "scripts/plot.py": "import scipy\n"}
     workspace = load(lines, files)
-    assert use(workspace, "rclpy").sure
-    assert not use(workspace, "python3-scipy").sure
+    assert use(workspace, "rclpy").certain
+    assert not use(workspace, "python3-scipy").certain
 
 
 def test_where_it_is_not_seen_what_is_installed_modules_are_and_scripts_may_be() -> None:
     files = {"tools2/a.py": "import pandas\n", "robot/__init__.py": "", "robot/b.py": "import scipy\n"}
     workspace = load(HIDDEN, files)
-    assert not use(workspace, "python3-pandas").sure
-    assert use(workspace, "python3-scipy").sure
+    assert not use(workspace, "python3-pandas").certain
+    assert use(workspace, "python3-scipy").certain
 
 
 def test_a_build_of_its_own_that_is_not_there_installs_no_modules_from_around_it() -> None:
     files = {"sdk/README.md": "", "types/__init__.py": "", "types/a.py": "import pandas\n"}
     lines = "add_subdirectory(sdk)\ninstall(TARGETS sdk DESTINATION lib)"
-    assert not use(load("add_subdirectory(sdk)", files), "python3-pandas").sure
-    assert not use(load(lines, files), "python3-pandas").sure
-    assert use(load("add_subdirectory(sdk)\n" + HIDDEN, files), "python3-pandas").sure
+    assert not use(load("add_subdirectory(sdk)", files), "python3-pandas").certain
+    assert not use(load(lines, files), "python3-pandas").certain
+    assert use(load("add_subdirectory(sdk)\n" + HIDDEN, files), "python3-pandas").certain
 
 
 def test_beside_the_script_of_cmake_lies_what_works_on_the_sources() -> None:
     files = {"release.py": "import scipy\n", "tool.py": "import pandas\n", "robot/__init__.py": "import requests\n"}
     workspace = load(HIDDEN + "install(PROGRAMS tool.py DESTINATION lib/robot)", files)
-    assert not use(workspace, "python3-scipy").sure
-    assert use(workspace, "python3-pandas").sure
-    assert use(workspace, "python3-requests").sure  # nobody knows
+    assert not use(workspace, "python3-scipy").certain
+    assert use(workspace, "python3-pandas").certain
+    assert use(workspace, "python3-requests").certain  # nobody knows
 
 
 def test_beside_what_is_compiled_by_name_lies_what_is_not() -> None:
     lines = HIDDEN + "ament_add_gtest(t test/a.cpp)"
     files = {"test/a.cpp": include("nav_msgs"), "test/b.cpp": include("shape_msgs")}
     workspace = load(lines, files)
-    assert use(workspace, "nav_msgs").sure
-    assert not use(workspace, "shape_msgs").sure
+    assert use(workspace, "nav_msgs").certain
+    assert not use(workspace, "shape_msgs").certain
 
 
 @pytest.mark.parametrize(("folder", "sure"), [("tests", True), ("external/asio/tests", False)])
 def test_who_builds_what_others_have_made_does_not_test_it(folder: str, sure: bool) -> None:
-    assert use(load(HIDDEN, {f"{folder}/a.cpp": include("nav_msgs")}), "nav_msgs").sure is sure
+    assert use(load(HIDDEN, {f"{folder}/a.cpp": include("nav_msgs")}), "nav_msgs").certain is sure
 
 
 @pytest.mark.parametrize(
@@ -88,8 +88,8 @@ def test_who_builds_what_others_have_made_does_not_test_it(folder: str, sure: bo
 def test_a_build_of_its_own_that_is_not_there_compiles_no_sources_from_around_it(lines: str, sure: bool) -> None:
     files = {"src/a.cpp": include("nav_msgs"), "src/old/b.cpp": include("shape_msgs")}
     workspace = load(f"add_executable(a src/a.cpp)\n{lines}", files)
-    assert use(workspace, "nav_msgs").sure
-    assert use(workspace, "shape_msgs").sure is sure
+    assert use(workspace, "nav_msgs").certain
+    assert use(workspace, "shape_msgs").certain is sure
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_a_build_of_its_own_that_is_not_there_compiles_no_sources_from_around_it
 )
 def test_a_test_is_alive_where_it_is_run(line: str, sure: bool) -> None:
     files = {"test/test_a.py": "import requests\n", "test/test_b.py": "import pandas\n"}
-    assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").sure is sure
+    assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").certain is sure
 
 
 @pytest.mark.parametrize(
@@ -129,7 +129,7 @@ def test_a_launch_file_of_tests_is_alive_unless_others_are_run(lines: str, sure:
     launch = "import requests\n\ndef generate_launch_description():\n    return LaunchDescription([])\n"
     files = {"test/test_a.launch.py": launch, "test/test_b.launch.py": "", "test/a.cpp": ""}
     workspace = load(f"if(BUILD_TESTING)\n{lines}\nendif()", files)
-    assert use(workspace, "python3-requests").sure is sure
+    assert use(workspace, "python3-requests").certain is sure
 
 
 @pytest.mark.parametrize(("called", "sure"), [("robot.launch.py", True), ("rover.launch.py", False)])
@@ -138,14 +138,14 @@ def test_a_launch_file_that_a_test_calls_by_its_name_is_alive(called: str, sure:
     test = f"include(os.path.join(os.getenv('LAUNCH_FILES'), '{called}'))\n"
     files = {"test/test_a.py": test, "test/launch/robot.launch.py": launch, "test/launch/rover.launch.py": ""}
     workspace = load("if(BUILD_TESTING)\nadd_launch_test(test/test_a.py)\nendif()", files)
-    assert use(workspace, "python3-requests").sure is sure
+    assert use(workspace, "python3-requests").certain is sure
 
 
 def test_helpers_lie_beside_tests_that_are_run() -> None:
     files = {"test/test_a.py": "", "test/helper.py": "import requests\n", "other/test/helper.py": "import pandas\n"}
     workspace = load("ament_add_pytest_test(unit test/test_a.py)", files)
-    assert use(workspace, "python3-requests").sure
-    assert not use(workspace, "python3-pandas").sure
+    assert use(workspace, "python3-requests").certain
+    assert not use(workspace, "python3-pandas").certain
 
 
 @pytest.mark.parametrize(
@@ -159,7 +159,7 @@ def test_helpers_lie_beside_tests_that_are_run() -> None:
 def test_what_a_test_starts_by_path_is_alive_with_it(line: str, more: dict[str, str], sure: bool) -> None:
     start = 'run([sys.executable, os.path.join(HERE, "fixtures/talker.py")])\n'
     files = {"test/test_a.py": start, "test/test_b.py": "", "test/fixtures/talker.py": "import requests\n", **more}
-    assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").sure is sure
+    assert use(load(f"if(BUILD_TESTING)\n{line}\nendif()", files), "python3-requests").certain is sure
 
 
 @pytest.mark.parametrize(
@@ -291,10 +291,10 @@ def test_interfaces_are_alive_where_code_is_generated_from_them() -> None:
     lines = "rosidl_generate_interfaces(robot msg/A.msg srv/C.srv DEPENDENCIES nav_msgs)"
     files = {"msg/A.msg": "nav_msgs/Path a\n", "msg/B.msg": "shape_msgs/Plane b\n", "srv/C.srv": "sensor_msgs/Imu a\n---\n"}
     workspace = load(lines, files)
-    assert [use.sure for use in workspace.packages[0].uses if use.package == "nav_msgs"] == [True, True]
+    assert [use.certain for use in workspace.packages[0].uses if use.package == "nav_msgs"] == [True, True]
     assert placed(workspace, "shape_msgs") == (PUBLIC, False, False)
     assert placed(workspace, "sensor_msgs") == (PUBLIC, True, False)
-    assert use(load("rosidl_generate_interfaces(robot ${UNHEARD_OF}/A.msg)\n" + HIDDEN, files), "shape_msgs").sure
+    assert use(load("rosidl_generate_interfaces(robot ${UNHEARD_OF}/A.msg)\n" + HIDDEN, files), "shape_msgs").certain
 
 
 @pytest.mark.parametrize(

@@ -184,7 +184,7 @@ def test_scan_and_tree_agree(seed: int) -> None:
 def test_files_of_the_package_that_a_file_goes_on_without(text: str, caught: tuple[str, ...]) -> None:
     source = Text("a.py", text)
     facts = python.collect(source)
-    assert facts.caught == caught
+    assert facts.optional_modules == caught
     assert [mention.name for mention in facts.mentions if mention.name.startswith(".")] == []
     assert tuple(item.module for item in walk(source, parse(source)) if item.caught) == caught
 
@@ -313,8 +313,8 @@ def test_newer_python_is_no_problem() -> None:
 )
 def test_imports_that_need_no_package(text: str, caught: list[str], added: list[str]) -> None:
     facts = python.collect(Text("a.py", text))
-    assert list(facts.caught) == caught
-    assert [mention.name for mention in facts.mentions if mention.span in facts.added] == added
+    assert list(facts.optional_modules) == caught
+    assert [mention.name for mention in facts.mentions if mention.span in facts.path_additions] == added
 
 
 # --- look-ups

@@ -79,7 +79,7 @@ def test_a_computed_look_up_is_opaque() -> None:
 )
 def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) -> None:
     facts = python.collect(Text("a.py", text))
-    assert [(found.package, found.path) for found in facts.look_ups] == expected
+    assert [(found.package, found.path) for found in facts.lookups] == expected
     assert {mention.name for mention in facts.mentions} == {"p"}
     assert python.collect(Text("a.py", text), launch=True) == FileFacts()
 

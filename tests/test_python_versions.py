@@ -82,7 +82,7 @@ def test_constructs_by_distribution(distro: str, code: str, construct: str, vers
     said = f"{construct} need Python {version[0]}.{version[1]}; {distro} runs {runs}"
     found = [problem.message for problem in too_new(syntax, TargetDistro(distro, "--distro"))]
     assert (said in found) == (tuple(map(int, runs.split("."))) < version)
-    assert not list(too_new(syntax, TargetDistro(distro, "newest", told=False)))
+    assert not list(too_new(syntax, TargetDistro(distro, "newest", explicit=False)))
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ def test_each_package_once_and_the_certain_form_wins() -> None:
 
 def test_paths_that_are_written_in_another_way() -> None:
     text = "$(find arm)//urdf/a.xacro package://arm/meshes/../b.stl package://arm/../hand/c.stl $(find arm)/urdf/./a.xacro"
-    found = resources.collect(Text("r", text)).look_ups
+    found = resources.collect(Text("r", text)).lookups
     assert [(each.package, each.path) for each in found] == [("arm", "urdf/a.xacro"), ("arm", "b.stl")]
 
 
@@ -69,7 +69,7 @@ def test_trees_that_are_included() -> None:
 </root>
 """
     source = Text("tree.xml", text)
-    found = resources.collect(source).look_ups
+    found = resources.collect(source).lookups
     assert [(each.package, each.path) for each in found] == [("trees", "trees/grasp.xml"), ("more", "put.xml")]
     assert [source.slice(each.span) for each in found] == ["trees/grasp.xml", "put.xml"]
 

@@ -44,8 +44,8 @@ def test_a_header_without_a_folder_may_lie_where_the_script_leads(folder: str, s
     files = {"src/a.cpp": "#include <sqlite3.h>\n#include <Eigen/Core>\n"}
     path = "set(SQL_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../sql)\nif(NOT EXISTS ${SQL_DIR})\nset(SQL_DIR /opt/sql)\nendif()\n"
     workspace = load(f"{path}add_library(r src/a.cpp)\ntarget_include_directories(r PRIVATE {folder})", files)
-    assert use(workspace, "libsqlite3-dev").sure is sure
-    assert use(workspace, "eigen").sure
+    assert use(workspace, "libsqlite3-dev").certain is sure
+    assert use(workspace, "eigen").certain
 
 
 def test_the_namespace_of_a_target_need_not_be_its_package() -> None:

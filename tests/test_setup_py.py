@@ -54,7 +54,7 @@ from tests.setup_scripts import FILES, HEAD, script
 def test_what_is_not_known_is_opaque(body: str, hidden: Facet, reason: str) -> None:
     found = script(body)
     assert any(hidden in opaque.hides and reason in opaque.reason for opaque in found.opaque), found.opaque
-    assert not any(item.path.startswith("share") for item in found.provides)
+    assert not any(item.path.startswith("share") for item in found.installs)
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,7 @@ def test_what_is_not_known_is_opaque(body: str, hidden: Facet, reason: str) -> N
 def test_what_takes_too_long_ends(body: str) -> None:
     found = script(f"{body}\nsetup(name='pkg', data_files=x)")
     assert found.opaque
-    assert not found.provides
+    assert not found.installs
 
 
 def test_the_rest_stays_known() -> None:
@@ -93,7 +93,7 @@ setup(name='pkg', version=version, packages=['pkg', *more()],
 """
     )
     assert (found.name, found.version) == ("pkg", "")
-    assert [item.path for item in found.provides] == ["share/pkg/package.xml"]
+    assert [item.path for item in found.installs] == ["share/pkg/package.xml"]
     assert found.python_packages == ("pkg", "pkg.node")
     assert [opaque.hides for opaque in found.opaque] == [Facet.PYTHON, Facet.SHARE, Facet.SHARE | Facet.EXECUTABLES]
 
@@ -117,7 +117,7 @@ setup(name='pkg', version='1' if os.environ.get('X') else '1', data_files=data_f
 """
     )
     assert found.version == "1"
-    assert [(item.path, item.conditional) for item in found.provides] == [
+    assert [(item.path, item.conditional) for item in found.installs] == [
         ("share/pkg/package.xml", False),
         ("share/pkg/x.yaml", True),
         ("share/pkg/more/y.yml", True),
@@ -140,7 +140,7 @@ else:
 """
     )
     assert found.name == "pkg"
-    assert [(item.path, item.conditional) for item in found.provides] == [("bin/tool.py", True)]
+    assert [(item.path, item.conditional) for item in found.installs] == [("bin/tool.py", True)]
 
 
 def test_keys_that_are_not_known_may_be_there() -> None:
@@ -152,13 +152,13 @@ setup(name='pkg', version=options.get('a'), scripts=scripts)
 """
     )
     assert found.version == "y"
-    assert [(item.path, item.conditional) for item in found.provides] == [("bin/tool.py", True)]
+    assert [(item.path, item.conditional) for item in found.installs] == [("bin/tool.py", True)]
 
 
 def test_two_calls_are_both_conditional() -> None:
     found = script("if os.environ.get('X'): setup(name='a', scripts=['scripts/tool.py'])\nelse: setup(name='a')")
     assert found.name == "a"
-    assert [(item.path, item.conditional) for item in found.provides] == [("bin/tool.py", True)]
+    assert [(item.path, item.conditional) for item in found.installs] == [("bin/tool.py", True)]
 
 
 def test_no_setup_py() -> None:
@@ -235,7 +235,7 @@ setup(name=package_name, version=version, data_files=data, scripts=['scripts/too
     found = script(body)
     assert found.name_span is not None
     assert found.version_span is not None
-    spans = [found.name_span, found.version_span, *(item.span for item in found.provides)]
+    spans = [found.name_span, found.version_span, *(item.span for item in found.installs)]
     assert [source.slice(span) for span in spans] == [
         "'pkg'",
         "'1.0'",
@@ -248,12 +248,12 @@ setup(name=package_name, version=version, data_files=data, scripts=['scripts/too
 
 def test_executables_keep_their_bit() -> None:
     found = script("setup(name='pkg', data_files=[('lib/pkg', ['scripts/tool.py', 'config/x.yaml'])])")
-    assert [(item.path, item.program) for item in found.provides] == [("lib/pkg/tool.py", True), ("lib/pkg/x.yaml", False)]
+    assert [(item.path, item.program) for item in found.installs] == [("lib/pkg/tool.py", True), ("lib/pkg/x.yaml", False)]
 
 
 def test_an_unknown_folder_of_scripts() -> None:
     found = script("setup(name='pkg', scripts=['scripts/tool.py'])", "[install]\ninstall_scripts = $HOME/bin\n")
-    assert not found.provides
+    assert not found.installs
     assert [(item.hides, str(item.span)) for item in found.opaque] == [(Facet.EXECUTABLES, "ws/pkg/setup.cfg:2:1")]
 
 
@@ -269,7 +269,7 @@ glob("**",recursive=True) [[["pkg"]]] __import__("x") (lambda:(yield))() "{:9999
 def test_odd_options_are_survived(option: str) -> None:
     for odd in ODD.split():
         found = script(f"setup({option}={odd}, **{{}})")
-        assert all(isinstance(item.path, str) for item in found.provides)
+        assert all(isinstance(item.path, str) for item in found.installs)
         script(f"x = {odd}\nfor y in x: x.append(y)\nif x: x, y = x\nx += x\nsetup({option}=x)")
         script(f"setup({option}=[{odd}])")
         script(f"setup(**{odd})")

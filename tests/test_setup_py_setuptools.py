@@ -211,11 +211,11 @@ def test_same_as_setuptools(variant: str, truth: dict[str, dict[str, object]]) -
     given, found = truth[variant], script(VARIANTS[variant])
     assert not found.opaque
     assert (found.name, found.version) == (given["name"], given.get("version", ""))
-    provides = sorted((item.path, item.source) for item in found.provides if not item.path.startswith("bin/"))
+    provides = sorted((item.path, item.source) for item in found.installs if not item.path.startswith("bin/"))
     assert provides == installed(given.get("data_files", []))  # type: ignore[arg-type]
-    assert not any(item.conditional for item in found.provides)
+    assert not any(item.conditional for item in found.installs)
     assert {tuple(item[:3]) for item in found.entry_points} == entry_points(given.get("entry_points", {}))  # type: ignore[arg-type]
-    assert {item.source for item in found.provides if item.path == "bin/tool.py"} == set(given.get("scripts", []))  # type: ignore[call-overload]
+    assert {item.source for item in found.installs if item.path == "bin/tool.py"} == set(given.get("scripts", []))  # type: ignore[call-overload]
     packages = {*given.get("packages", []), *given.get("py_modules", [])}  # type: ignore[misc, call-overload]
     if packages:
         assert packages <= set(found.python_packages)
@@ -347,8 +347,8 @@ def test_same_configuration_as_setuptools(name: str, configured: dict[str, dict[
     found = script(setup_py, cfg or None, pyproject or None, head="from setuptools import setup\n")
     assert not found.opaque
     assert (found.name, found.version) == (given["name"], given["version"])
-    programs = [item for item in found.provides if item.path.startswith("bin/")]
-    data = sorted((item.path, item.source) for item in found.provides if item not in programs)
+    programs = [item for item in found.installs if item.path.startswith("bin/")]
+    data = sorted((item.path, item.source) for item in found.installs if item not in programs)
     assert data == installed(given["data_files"])  # type: ignore[arg-type]
     assert {tuple(item[:3]) for item in found.entry_points} == entry_points(given["entry_points"])  # type: ignore[arg-type]
     assert {item.source for item in programs if item.source} == set(given["scripts"])  # type: ignore[call-overload]
@@ -386,7 +386,7 @@ setup(name='pkg', version='1.0', packages=find_packages(exclude=['test']), scrip
     }
     found = script(body, cfg)
     assert not found.opaque
-    assert {item.path: item.program for item in found.provides} == real
+    assert {item.path: item.program for item in found.installs} == real
     modules = {path.relative_to(prefix) for path in prefix.rglob("*.py") if "site-packages" in path.parts}
     dotted = {str(path).partition("site-packages/")[2][:-3].replace("/", ".").removesuffix(".__init__") for path in modules}
     assert set(found.python_packages) == dotted

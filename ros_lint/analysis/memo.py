@@ -16,9 +16,9 @@ def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspa
 
     @wraps(function)
     def remembering(workspace: Workspace) -> T:
-        if function not in workspace.said:
-            workspace.said[function] = function(workspace)
-        said: T = workspace.said[function]
+        if function not in workspace.memo:
+            workspace.memo[function] = function(workspace)
+        said: T = workspace.memo[function]
         return said
 
     return remembering
@@ -30,10 +30,10 @@ def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[
     @wraps(function)
     def remembering(package: Package, workspace: Workspace) -> T:
         key = (function, id(package))
-        found = workspace.said.get(key)
+        found = workspace.memo.get(key)
         if found is None:
             # The package is kept, so that its id goes on meaning it.
-            found = workspace.said[key] = (package, function(package, workspace))
+            found = workspace.memo[key] = (package, function(package, workspace))
         said: T = found[1]
         return said
 

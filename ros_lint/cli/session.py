@@ -210,7 +210,7 @@ def _base(paths: Sequence[str]) -> str:
 def _target(settings: Settings, places: Sequence[str]) -> tuple[TargetDistro, tuple[str, ...]]:
     distro = settings["distro"]
     if not distro:
-        return TargetDistro(newest_lts(places), "newest LTS", told=False), ()
+        return TargetDistro(newest_lts(places), "newest LTS", explicit=False), ()
     known = [known.name for known in distros(places)]
     if distro in known:
         return TargetDistro(distro, settings.origin("distro")), ()

@@ -116,8 +116,8 @@ class Exported(NamedTuple):
     """A target that install(TARGETS ... EXPORT) puts into a set."""
 
     target: str
-    into: str
-    handed_on: bool
+    export_set: str
+    reaches_dependents: bool
     """Whether whoever finds the package has it for sure, for ament_export_targets() names the set."""
 
 
@@ -132,69 +132,69 @@ class BuildScript(NamedTuple):
     version_span: Span | None = None
     mentions: tuple[Mention, ...] = ()
     targets: tuple[BuildTarget, ...] = ()
-    provides: tuple[InstalledFile, ...] = ()
+    installs: tuple[InstalledFile, ...] = ()
     components: tuple[Component, ...] = ()
     entry_points: tuple[EntryPoint, ...] = ()
     python_packages: tuple[str, ...] = ()
     """Importable modules and packages that it installs, dotted."""
     interfaces: tuple[str, ...] = ()
     """Generated interfaces, as ``msg/Name``."""
-    calls: tuple[str, ...] = ()
+    command_names: tuple[str, ...] = ()
     """Names of the CMake commands that ran, in lower case, sorted, each once."""
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
-    end: Span | None = None
+    insertion: Span | None = None
     """Where an install rule can be added: an empty span before ament_package(), or None."""
-    extras: tuple[str, ...] = ()
+    config_extras: tuple[str, ...] = ()
     """CMake files, relative to the package, whose code runs in every package that finds this one (CONFIG_EXTRAS)."""
-    written: tuple[Call, ...] = ()
+    calls: tuple[Call, ...] = ()
     """Commands of its CMake files as they stand there, file by file: those that rules and fixes ask for."""
-    modules: tuple[PythonModule, ...] = ()
+    entry_point_modules: tuple[PythonModule, ...] = ()
     """Modules that its entry points name."""
-    plugins: tuple[PluginFile, ...] = ()
+    plugin_files: tuple[PluginFile, ...] = ()
     """Its plugin descriptions."""
-    slots: tuple[EditableList, ...] = ()
-    named: tuple[tuple[str, Span], ...] = ()
+    editable_lists: tuple[EditableList, ...] = ()
+    referenced_resources: tuple[tuple[str, Span], ...] = ()
     """Resources that it does not install, each with a place where a text of the package names it in its folder."""
-    files: tuple[ScriptFile, ...] = ()
+    scripts: tuple[ScriptFile, ...] = ()
     """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
-    inputs: tuple[str, ...] = ()
+    build_inputs: tuple[str, ...] = ()
     """Resources that it does not install and that its CMake files name all the same: what it is built from. Folders of
     them end with a slash."""
-    texts: tuple[WrittenText, ...] = ()
-    entered: tuple[str, ...] = ()
+    editable_texts: tuple[WrittenText, ...] = ()
+    subdirectories: tuple[str, ...] = ()
     """Folders below the package whose CMakeLists.txt is part of every build, relative to it."""
-    test_folders: tuple[str, ...] = ()
+    test_subdirectories: tuple[str, ...] = ()
     """Folders below the package whose CMakeLists.txt is part of the build where tests are wanted, relative to it."""
-    handed_on: tuple[tuple[Mention, bool], ...] = ()
+    exported_packages: tuple[tuple[Mention, bool], ...] = ()
     """Packages that the CMake files for those who find this one search, and whether they do so under no condition."""
-    untaken: tuple[Span, ...] = ()
+    unused_optional_finds: tuple[Span, ...] = ()
     """Where packages are searched that need not be there, and of which nothing is taken."""
-    bundled: tuple[str, ...] = ()
+    bundled_projects: tuple[str, ...] = ()
     """Projects that are built along with the package, by name: fetched ones, and those of its own folders."""
-    runs: tuple[str, ...] | None = None
+    interpreted_tests: tuple[str, ...] | None = None
     """Files and folders that are run as tests by an interpreter, relative to the package, "" for any; None where nobody
     knows."""
-    moved: tuple[str, ...] = ()
+    relocated_modules: tuple[str, ...] = ()
     """Files with Python modules that it installs, relative to the package, and folders of them, with a slash at the end,
     where they lie elsewhere than the names say: ``package_dir`` of a setup.py."""
     exported: tuple[Exported, ...] = ()
     failed: bool = False
     """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
-    behind: Span | None = None
+    insertion_after: Span | None = None
     """Where the command before ``end`` ends, if nothing but blank lines stand between the two."""
     runs_tests: bool = False
     """Whether it is a CMake script that calls what runs tests by an interpreter, going by the names of commands."""
-    reaches_out: bool = False
+    includes_outside_package: bool = False
     """Whether it is a CMake script that takes headers from folders of the sources outside of the package."""
     makes_nothing: bool = False
     """Whether it is a CMake script that builds, installs and tests nothing but the style of what is there."""
-    set_aside: tuple[str, ...] = ()
+    commented_interfaces: tuple[str, ...] = ()
     """Interfaces that stand in comments of its CMake files, as ``msg/Name``: somebody took them off a list."""
 
     syntax: tuple[NewerSyntax, ...] = ()
     """What not every version of Python reads in a setup.py."""
-    refused: tuple[Problem, ...] = ()
+    cmake_errors: tuple[Problem, ...] = ()
     """What CMake refuses in commands that are seen through all the same, so that it hides nothing: "undefined-target" of what
     commands are given targets for, "no-package" of what they are given packages for. The subject is the name."""
 
@@ -206,12 +206,12 @@ class BuildScript(NamedTuple):
     @property
     def installed(self) -> frozenset[str]:
         """The files that are installed, by where they lie in the package. Generated ones are none of them."""
-        return frozenset([provided.source for provided in self.provides if provided.source])
+        return frozenset([provided.source for provided in self.installs if provided.source])
 
     @property
     def is_empty(self) -> bool:
         """Whether it is a CMake script without a command: empty, or all of it a comment."""
-        return self.of_cmake and not (self.calls or self.problems or self.opaque)
+        return self.of_cmake and not (self.command_names or self.problems or self.opaque)
 
     def hides(self, facet: Facet) -> bool:
         """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""

@@ -19,9 +19,9 @@ class BuildTarget(NamedTuple):
     span: Span
     links: tuple[tuple[str, Span], ...] = ()
     """What it is linked with for sure, by name, each with the place that says so."""
-    optional: tuple[str, ...] = ()
+    optional_sources: tuple[str, ...] = ()
     """Those of its sources that are not compiled in every build: all of them where it is not built in every one."""
-    whole: bool = True
+    sources_known: bool = True
     """Whether all of its sources are known."""
     headers: tuple[str, ...] | None = None
     """What may give it headers that are not of the package, mostly as find_package() calls it; None if anything may, and for
@@ -54,12 +54,12 @@ class Call(NamedTuple):
         return tuple([argument[0] for argument in self.args])
 
     @property
-    def place(self) -> Span:
+    def name_span(self) -> Span:
         """The name."""
         return Span(self.path, self.line, self.column, self.line, self.column + len(self.name))
 
     @property
-    def whole(self) -> Span:
+    def extent(self) -> Span:
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
     def span(self, index: int) -> Span:

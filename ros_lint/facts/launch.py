@@ -64,9 +64,9 @@ class LaunchAction(NamedTuple):
     conditions: tuple[LaunchCondition, ...] = ()
     """All of them must hold; an unknown one has UNKNOWN for its text."""
     children: tuple[LaunchAction, ...] = ()
-    perhaps: tuple[str, ...] = ()
+    conditional_arguments: tuple[str, ...] = ()
     """Names of what is passed to an included file only if something holds of which nothing is known."""
-    lent: bool = False
+    builtin_model: bool = False
     """Whether a helper of a released package names what is started: that is the need of the package that has the helper."""
 
     @property
@@ -98,13 +98,13 @@ class LaunchReference(NamedTuple):
     """The same of ``package_span`` and the package."""
     optional: bool = False
     """Whether the launch file asks first if the package is there, and does without, or names it in some distributions only."""
-    by_default: bool = False
+    from_default: bool = False
     """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
-    package_by_default: bool = False
+    package_from_default: bool = False
     """The same of the package: its name is made of the default of an argument, and stands nowhere as it is."""
-    read: bool = False
+    surely_read: bool = False
     """Whether what is started reads this file for certain, so that it cannot be one that is written: parameters, displays."""
-    asked: bool = False
+    existence_checked: bool = False
     """Whether the launch file asks first if this file is there, and does without."""
     distros: tuple[str, ...] = ()
     """The distributions that come to it, sorted, where a launch file asks which one runs; none if all do."""
@@ -127,14 +127,14 @@ class LaunchFile(NamedTuple):
     imports: tuple[tuple[str, Span], ...] = ()
     """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
     looks for them."""
-    asks: tuple[str, ...] = ()
+    configurations_read: tuple[str, ...] = ()
     """Launch configurations that it asks for, wherever they go, sorted; with UNKNOWN for any other."""
-    wants: tuple[str, ...] = ()
+    missing_inputs: tuple[str, ...] = ()
     """What a Python launch file reads besides itself, and that was not at hand when it was followed: modules, dotted, and
     files by their install path; sorted."""
-    fills: bool = False
+    substitutes_parameters: bool = False
     """Whether launch configurations are filled into a file of parameters (allow_substs), which can ask for any."""
-    newer: tuple[Problem, ...] = ()
+    version_problems: tuple[Problem, ...] = ()
     """What not every distribution takes; ``kind`` is the first that does."""
     syntax: tuple[NewerSyntax, ...] = ()
     """What not every version of Python reads in a Python launch file."""

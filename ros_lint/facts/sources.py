@@ -48,7 +48,7 @@ class Use(NamedTuple):
     via: Via
     optional: bool
     span: Span
-    sure: bool = True
+    certain: bool = True
     """False where the file may be dead: in no target, not installed, no test."""
     name: str = ""
     """What is named there, as ``via`` says: the path of a header, a module, a name of find_package."""
@@ -69,11 +69,11 @@ class MachinePath(NamedTuple):
     path: str
     """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml`` or ``src/robot/config/robot.yaml``, without a slash at the end."""
     span: Span
-    written: bool = False
+    is_written: bool = False
     """Whether a program opens it to write to it, or what is made goes there by the name of the variable."""
-    beside: bool = False
+    relative_to_file: bool = False
     """Whether whoever reads it would seek a relative one from the folder of the file."""
-    default: bool = False
+    parameter_default: bool = False
     """Whether it is the default of a parameter that a program declares."""
 
     @property
@@ -101,7 +101,7 @@ class ParameterFile(NamedTuple):
     it has no ``ros__parameters`` at all."""
     first: Span
     """Of its first key."""
-    asks: tuple[str, ...] = ()
+    configurations_read: tuple[str, ...] = ()
     """Launch configurations that are filled in, if whoever gives it to a node allows that (``allow_substs``)."""
 
 
@@ -133,11 +133,11 @@ class FileFacts(NamedTuple):
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
     registrations: tuple[Registration, ...] = ()
-    look_ups: tuple[LookUp, ...] = ()
+    lookups: tuple[LookUp, ...] = ()
     parameters: ParameterFile | None = None
-    caught: tuple[str, ...] = ()
+    optional_modules: tuple[str, ...] = ()
     """Python modules that may be missing: ``try: import a`` with ``except ImportError``. Relative ones begin with their dots."""
-    added: tuple[Span, ...] = ()
+    path_additions: tuple[Span, ...] = ()
     """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
     programs: tuple[str, ...] = ()
     """Names of Python files that its literals end with: a test starts some of them by path."""

@@ -194,7 +194,7 @@ def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
     """Yield the modules whose files are put by themselves where Python looks for them."""
-    for provided in script.provides:
+    for provided in script.installs:
         if provided.path.endswith(".py") and provided.importable:
             top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
             if top != "__init__":

@@ -109,7 +109,7 @@ def _by_rule(report: Report, style: Style) -> Iterator[str]:
 
 def _verdict(report: Report, style: Style) -> str:
     data = f"; package index of {report.data_date}" if report.data_date else ""
-    chosen = report.target.source if report.target.told else f"assumed: {report.target.source}; set with --distro"
+    chosen = report.target.source if report.target.explicit else f"assumed: {report.target.source}; set with --distro"
     world = f"for {report.target.distro} ({chosen}){data}"
     if not report.packages:
         return f"{paint(style, 'error', 'No package found')}, so nothing was checked {world}."

@@ -73,7 +73,7 @@ class _Places:
     def completed(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
         """Return a launch file followed with what it wants, as it is where nothing of that is there."""
         text = self._text(file.path) if _is_open(file) else None
-        if text is None or not any(self._module(want, text) or self._file(want, file, package) for want in file.wants):
+        if text is None or not any(self._module(want, text) or self._file(want, file, package) for want in file.missing_inputs):
             return file
         from ros_lint.collectors.launch.python import collect as launch_py  # noqa: PLC0415  (few launch files want anything)
 
@@ -175,7 +175,7 @@ class _Places:
         """Return the sources of what a package installs, by install path."""
         found = self._provides.get(package.path)
         if found is None:
-            provides = package.script.provides if package.script else ()
+            provides = package.script.installs if package.script else ()
             found = {one.path: resolve(package.path, one.source) for one in provides if one.source}
             self._provides[package.path] = found
         return found
@@ -183,9 +183,9 @@ class _Places:
 
 def _is_open(file: LaunchFile) -> bool:
     """Return whether there is something in a launch file that what it wants can make clear."""
-    if not file.wants or file.helper:
+    if not file.missing_inputs or file.helper:
         return False
-    if file.opaque or not HELPERS.keys().isdisjoint(file.wants):
+    if file.opaque or not HELPERS.keys().isdisjoint(file.missing_inputs):
         return True
     return any(UNKNOWN in text for action in walk_actions(file.actions) for value in _named_by(action) for text in value.texts)
 

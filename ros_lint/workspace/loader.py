@@ -228,31 +228,31 @@ class Loader:
                 group_depends=tuple(d for d in declared if d.depend.tag == "group_depend"),
                 colcon_depends=found.colcon_depends,
                 files=found.files,
-                unseen=tuple(skipped.path for skipped in found.unseen),
+                unvisited_folders=tuple(skipped.path for skipped in found.unseen),
                 nested=found.nested,
                 script=done.script,
                 launch=done.launch,
                 uses=uses,
-                traces={},
+                textual_mentions={},
                 opaque=opaque_of(source),
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 loaders=tuple([loader for facts in done.facts.values() for loader in facts.loaders]),
                 imported_types=tuple([each for facts in done.facts.values() for each in facts.types]),
                 interface_files=tuple([f.interface for f in done.facts.values() if f.interface is not None]),
-                look_ups=tuple([look_up for facts in done.facts.values() for look_up in facts.look_ups]),
+                lookups=tuple([look_up for facts in done.facts.values() for look_up in facts.lookups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
                 unusable_headers=public_headers.unusable(source.built, done.facts, found.files),
                 machine_paths=done.machine_paths,
-                compiled_along=own.compiled_along(),
-                left_behind=tuple(own_files.uninstalled_imports(found.files, source.built, done.facts)),
+                compiled_headers=own.compiled_along(),
+                uninstalled_imports=tuple(own_files.uninstalled_imports(found.files, source.built, done.facts)),
                 renamed=found.colcon_name if found.colcon_name != found.name else "",
             )
-            if package.registrations and done.script and done.script.plugins:
-                package = package._replace(unwritten=traces.unwritten(tree, package))
+            if package.registrations and done.script and done.script.plugin_files:
+                package = package._replace(unwritten_classes=traces.unwritten(tree, package))
             if search:
                 package = package._replace(
-                    traces=traces.of_package(tree, package, source, world, types),
-                    perhaps_used=traces.possibly_used(tree, package, source, world, types),
+                    textual_mentions=traces.of_package(tree, package, source, world, types),
+                    possibly_used=traces.possibly_used(tree, package, source, world, types),
                 )
             yield package
 
@@ -277,12 +277,12 @@ class Loader:
             group_depends=(),
             colcon_depends=(),
             files=(),
-            unseen=("",),
+            unvisited_folders=("",),
             nested=(),
             script=None,
             launch=(),
             uses=(),
-            traces={},
+            textual_mentions={},
             opaque=(),
         )
 

@@ -62,23 +62,23 @@ class Package(NamedTuple):
     colcon_depends: tuple[ColconDepend, ...]
     files: tuple[str, ...]
     """Every file below the folder, relative to it and sorted; nested packages and skipped folders left out."""
-    unseen: tuple[str, ...]
+    unvisited_folders: tuple[str, ...]
     """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
     nested: tuple[Manifest, ...]
     """Manifests further down, which colcon does not see."""
     script: BuildScript | None
     launch: tuple[LaunchFile, ...]
     uses: tuple[Use, ...]
-    traces: Mapping[str, Span]
+    textual_mentions: Mapping[str, Span]
     """For declared names that nothing uses: a place where the name stands in some text all the same."""
     opaque: tuple[Opaque, ...]
-    perhaps_used: frozenset[str] = frozenset()
+    possibly_used: frozenset[str] = frozenset()
     """Names that CMake finds and no code is seen to use, while something else says that they are used."""
     registrations: tuple[Registration, ...] = ()
     """Classes that its C++ sources make loadable."""
-    unwritten: frozenset[str] = frozenset()
+    unwritten_classes: frozenset[str] = frozenset()
     """Classes that its plugin descriptions name and none of its sources does."""
-    look_ups: tuple[LookUp, ...] = ()
+    lookups: tuple[LookUp, ...] = ()
     """Files that its models, displays and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()
     """Its YAML files."""
@@ -86,11 +86,11 @@ class Package(NamedTuple):
     """Paths below somebody's home directory that its files have."""
     unusable_headers: tuple[str, ...] = ()
     """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
-    compiled_along: Mapping[str, frozenset[str]] = MappingProxyType({})
+    compiled_headers: Mapping[str, frozenset[str]] = MappingProxyType({})
     """For each source that every build compiles, tests left out: the headers of the package that it certainly includes."""
     loaders: tuple[PluginLoader, ...] = ()
     """What its C++ sources load plugins by."""
-    left_behind: tuple[UninstalledImport, ...] = ()
+    uninstalled_imports: tuple[UninstalledImport, ...] = ()
     """What its programs in Python import and that is not installed beside them."""
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that its Python files import by name."""
@@ -106,7 +106,7 @@ class Package(NamedTuple):
         return self.renamed or self.name
 
     @property
-    def place(self) -> Span:
+    def span(self) -> Span:
         """Where to point when the whole package is meant: always into a file."""
         if self.manifest is not None:
             return self.manifest.name_span
@@ -149,7 +149,7 @@ class Package(NamedTuple):
         """Yield the calls of CMake commands, in order: in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files."""
         if self.script is None:
             return
-        calls = [call for call in self.script.written if call.name in names]
+        calls = [call for call in self.script.calls if call.name in names]
         yield from calls if anywhere else [call for call in calls if call.path == self.cmake_lists]
 
     def relative(self, path: str) -> str:
@@ -191,7 +191,7 @@ class Workspace:
         self.not_checked = not_checked
         self.source_lists = source_lists
         self._ignores = ignores
-        self.said: dict[object, Any] = {}
+        self.memo: dict[object, Any] = {}
         """What functions that remember have said: :func:`per_workspace`, :func:`per_package`."""
 
     @cached_property
@@ -212,7 +212,7 @@ class Workspace:
         Packages of the workspace were looked through. A released one must be known to lack it: in every distribution, where
         nobody said which one is meant.
         """
-        return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.told)
+        return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
         """Whether a file of a package, or any at all, could not be read: what nobody says in sight may stand there."""

@@ -19,7 +19,7 @@ class TargetDistro(NamedTuple):
     distro: str
     source: str
     """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
-    told: bool = True
+    explicit: bool = True
     """False when nobody chose it: then what only another distribution has is no mistake."""
 
     @property

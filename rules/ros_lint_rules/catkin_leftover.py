@@ -45,7 +45,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if call.blocks or call.test:
             continue
         if call.name == "catkin_package":
-            yield Finding("catkin_package() belongs to ROS 1; use ament_package()", call.place, call.name)
+            yield Finding("catkin_package() belongs to ROS 1; use ament_package()", call.name_span, call.name)
         elif call.texts[:1] == ("catkin",) and "REQUIRED" in call.texts:
             message = "find_package(catkin) stops CMake, because ROS 2 has no catkin; call find_package() for each package"
             yield Finding(message, call.span(0), "catkin")
@@ -54,7 +54,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     for element in exports:
         if element.tag in _EXPORTS and not element.get("condition"):
-            exported = build.EXPORTING_PLUGINS in package.built.calls
+            exported = build.EXPORTING_PLUGINS in package.built.command_names
             remedy = "remove it" if exported else _EXPORTS[element.tag]
             yield Finding(
                 f"<{element.tag}> in <export> has no effect in ROS 2; {remedy}",

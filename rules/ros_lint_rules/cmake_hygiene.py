@@ -55,17 +55,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 earlier = first.setdefault(call.texts, call)
                 if earlier is not call:
                     message = f"'{name}' is already found with the same arguments; remove one of the two calls"
-                    yield Finding(message, call.place, name, (Related("the first call", earlier.place),))
+                    yield Finding(message, call.name_span, name, (Related("the first call", earlier.name_span),))
                 elif not {"REQUIRED", "QUIET"}.intersection(call.texts) and _is_firm(package, call):
                     message = f"find_package({name}) without REQUIRED: CMake goes on if it is missing; add REQUIRED or QUIET"
-                    yield Finding(message, call.place, name, severity=Severity.INFO)
+                    yield Finding(message, call.name_span, name, severity=Severity.INFO)
             case "set" if name in _OVERWRITTEN and not any(name in text for text in call.texts[1:]):
-                yield Finding(f"set({name}) overrides the command line; set it only if it is not set", call.place, name)
+                yield Finding(f"set({name}) overrides the command line; set it only if it is not set", call.name_span, name)
             case "include" if re.fullmatch(r"Find\w+", name) and name[4:] != "PkgConfig":
-                yield Finding(f"use find_package({name[4:]}) instead of include({name})", call.place, name[4:])
+                yield Finding(f"use find_package({name[4:]}) instead of include({name})", call.name_span, name[4:])
             case "link_directories":
                 message = "link_directories() affects every later target; link targets by name instead"
-                yield Finding(message, call.place, package.relative(call.path))
+                yield Finding(message, call.name_span, package.relative(call.path))
             case _:
                 pass
 
@@ -86,10 +86,10 @@ def _version(call: Call, workspace: Workspace) -> Iterator[Finding]:
     if version < (3, 5):
         unsupported = workspace.target.distro in _CMAKE_4
         message = f"CMake 4 does not support cmake_minimum_required(VERSION {match[0]}); require 3.8 or newer"
-        yield Finding(message, call.place, match[0], severity=Severity.ERROR if unsupported else None)
+        yield Finding(message, call.name_span, match[0], severity=Severity.ERROR if unsupported else None)
     elif version < (3, 10) and workspace.target.distro in _CMAKE_4:
         message = f"cmake_minimum_required(VERSION {match[0]}) is deprecated in CMake 4; require 3.10 or newer"
-        yield Finding(message, call.place, match[0], severity=Severity.INFO)
+        yield Finding(message, call.name_span, match[0], severity=Severity.INFO)
 
 
 RULE = Rule(

@@ -183,8 +183,8 @@ def _libraries(package: Package) -> Iterator[Finding]:
     """Yield the libraries with components that are not installed to lib."""
     script = package.script
     assert script is not None
-    paths = {provided.path.rpartition("/")[2] for provided in script.provides}
-    listed = build.install_arguments(package).union(provided.target for provided in script.provides)
+    paths = {provided.path.rpartition("/")[2] for provided in script.installs}
+    listed = build.install_arguments(package).union(provided.target for provided in script.installs)
     elsewhere = build.libraries_in_libexec(package, (".so",))
     targets = {target.name: target for target in reversed(script.targets)}
     reported: set[str] = set()

@@ -64,9 +64,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if name == "ament_target_dependencies":
                 fix = Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False)
             elif name == "ament_export_interfaces":
-                fix = Fix("call ament_export_targets()", tuple(Edit(call.place, "ament_export_targets") for call in calls))
-            related = first_related(Related("also called here", call.place) for call in others)
-            yield Finding(f"{name}() is deprecated; {instead}", first.place, name, related, fix)
+                fix = Fix("call ament_export_targets()", tuple(Edit(call.name_span, "ament_export_targets") for call in calls))
+            related = first_related(Related("also called here", call.name_span) for call in others)
+            yield Finding(f"{name}() is deprecated; {instead}", first.name_span, name, related, fix)
     dashed = [problem for problem in script.problems if problem.kind == "dashed-key"]
     if dashed:
         yield _dashed(dashed)

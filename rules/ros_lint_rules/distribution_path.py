@@ -72,7 +72,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         leads = _LEADS_TO.fullmatch(path)
         if leads is None:
             continue
-        differs = target.told and first.distribution != target.distro
+        differs = target.explicit and first.distribution != target.distro
         where = f"exists only in {first.distribution}, but the target is {target.distro}" if differs else _SOMEWHERE
         sure = differs and any(package.relative(place.span.path) in used for place in (first, *others))
         yield Finding(

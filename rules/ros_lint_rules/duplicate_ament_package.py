@@ -31,12 +31,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         earlier = calls[0]
         fix = None
         if earlier.name == call.name and not earlier.args:
-            fix = Fix(f"remove the first {earlier.name}()", (Edit(earlier.whole, ""),), safe=False)
+            fix = Fix(f"remove the first {earlier.name}()", (Edit(earlier.extent, ""),), safe=False)
         yield Finding(
             f"{call.name}() ends the package again after {earlier.name}(); keep only the last call",
-            call.place,
+            call.name_span,
             call.name,
-            (Related("the first call", earlier.place),),
+            (Related("the first call", earlier.name_span),),
             fix,
         )
 

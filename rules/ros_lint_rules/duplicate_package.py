@@ -45,9 +45,9 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         yield Finding(
             f"{len(same)} packages have the name '{name}': {places}; colcon rejects the workspace; rename one or put "
             "COLCON_IGNORE into its folder",
-            first.place,
+            first.span,
             name,
-            tuple(Related(f"another '{name}'", package.place) for package in others),
+            tuple(Related(f"another '{name}'", package.span) for package in others),
             confidence=Confidence.MEDIUM if _are_built_separately(same) else Confidence.HIGH,
             package=first.name,
         )

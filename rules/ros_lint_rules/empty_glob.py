@@ -74,7 +74,9 @@ def _fix(package: Package, pattern: str) -> Fix | None:
         pattern_for_all = "*launch.[pxy][yma]*"
     elif name in _YAML and any(file.endswith(_YAML[name][1:]) for file in names):
         pattern_for_all = _YAML[name]
-    places = [text for text in script.texts if text.kind == "glob" and pattern.endswith(text.text) and text.text.endswith(name)]
+    places = [
+        text for text in script.editable_texts if text.kind == "glob" and pattern.endswith(text.text) and text.text.endswith(name)
+    ]
     if not pattern_for_all or len(places) != 1:
         return None
     span = places[0].span

@@ -64,7 +64,7 @@ def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspac
 
 def _is_unused(package: Package, name: str, successor: str) -> bool:
     """Return whether a package that can be fully analysed uses neither a build dependency nor its successor."""
-    if not package.declares(name) & Role.BUILD or not dependencies.is_fully_visible(package) or name in package.traces:
+    if not package.declares(name) & Role.BUILD or not dependencies.is_fully_visible(package) or name in package.textual_mentions:
         return False
     return not any(successor in use.providers for use in package.uses)
 

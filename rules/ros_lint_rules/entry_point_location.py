@@ -57,11 +57,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.EXECUTABLES):
         return
-    inside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith(f"lib/{package.name}/")}
+    inside = {p.path.rpartition("/")[2] for p in script.installs if p.path.startswith(f"lib/{package.name}/")}
     yield from _without_symlinks_only(package, inside)
-    outside = {p.path.rpartition("/")[2] for p in script.provides if p.path.startswith("bin/")} - inside
+    outside = {p.path.rpartition("/")[2] for p in script.installs if p.path.startswith("bin/")} - inside
     using = {package.relative(use.span.path) for use in package.uses if use.package == "rclpy"}
-    modules = {module.name: module.path for module in script.modules}
+    modules = {module.name: module.path for module in script.entry_point_modules}
     started = launch.nodes_started(workspace).get(package.name, {})
     nodes = [
         entry
@@ -72,7 +72,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     ]
     if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.entry_points):
         return
-    defining = {module.name for module in script.modules if _NODES.intersection(module.names)}
+    defining = {module.name for module in script.entry_point_modules if _NODES.intersection(module.names)}
     sure = any(entry.name in started or entry.module in defining for entry in nodes)
     config = package.start_of("setup.cfg")
     exists = "setup.cfg" in package.files

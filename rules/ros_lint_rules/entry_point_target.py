@@ -58,7 +58,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _doubled(script: BuildScript) -> Iterator[Finding]:
     """Yield the second of two programs with one name, if every build installs both."""
-    always = {(p.path.rpartition("/")[2], p.span) for p in script.provides if p.program and not p.conditional}
+    always = {(p.path.rpartition("/")[2], p.span) for p in script.installs if p.program and not p.conditional}
     first: dict[tuple[str, str], EntryPoint] = {}
     for entry in script.entry_points:
         if (entry.name, entry.span) not in always:
@@ -73,7 +73,7 @@ def _doubled(script: BuildScript) -> Iterator[Finding]:
 def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
     if _GLUED.search(entry.target):
         message = f"'{entry.name} = {entry.target}' looks like two entries; is a comma missing between them?"
-        gaps = [Edit(text.span, ",") for text in script.texts if text.kind == "gap" and entry.span.covers(text.span)]
+        gaps = [Edit(text.span, ",") for text in script.editable_texts if text.kind == "gap" and entry.span.covers(text.span)]
         return Finding(message, entry.span, entry.name, fix=Fix.of("add the missing comma", *gaps))
     if entry.target.rstrip().endswith("()"):
         message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"
@@ -86,7 +86,7 @@ def _lacking(
 ) -> Iterator[Finding]:
     """Yield the finding if the module ``name`` of an entry, or the ``attribute`` in it, does not exist."""
     runs = entry.group in ("console_scripts", "gui_scripts")
-    module = next((module for module in script.modules if module.name == name), None)
+    module = next((module for module in script.entry_point_modules if module.name == name), None)
     if attribute is None:
         missing = list(_no_module(package, entry, name, "main", workspace)) if runs and module is None else []
         if missing:

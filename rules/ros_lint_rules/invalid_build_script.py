@@ -54,7 +54,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python", "cmake"):
         return
     for problem in script.problems:
-        if problem.kind in _KINDS and not (problem.kind == "no-interfaces" and package.unseen):
+        if problem.kind in _KINDS and not (problem.kind == "no-interfaces" and package.unvisited_folders):
             path = package.relative(problem.span.path)
             yield Finding(f"{_KINDS[problem.kind]}{problem.message}", problem.span, path)
     for problem in islice(too_new(script.syntax, workspace.target), 1):

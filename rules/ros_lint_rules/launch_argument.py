@@ -98,7 +98,9 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     links = launch.include_resolver(workspace)
     files = [file for package in workspace.packages for file in package.launch]
     families, left = launch.IncludeTree(files, links), launch.ScopeLeaks(files, links)
-    filled = frozenset(name for package in workspace.packages for file in package.parameter_files for name in file.asks)
+    filled = frozenset(
+        name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read
+    )
     whole = not workspace.unread()
     for package in workspace.packages:
         required: dict[str, set[str]] = {}
@@ -355,7 +357,7 @@ def _of_include(
     not_passed = takes.known - passed.keys()
     sure = not families.fill(target.file)
     for name, place in passed.items() if takes.complete else ():
-        if name in takes.known or name in action.perhaps or (name in filled and not sure):
+        if name in takes.known or name in action.conditional_arguments or (name in filled and not sure):
             continue
         if not left.is_taken_later(name, include, source):
             alone = not left.is_taken_above(name, include, source)

@@ -82,7 +82,10 @@ _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-ch
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch_file in launch.package_launch_files(package):
-        newer = (*_newer(launch_file.file.newer, workspace.target), *too_new(launch_file.file.syntax, workspace.target))
+        newer = (
+            *_newer(launch_file.file.version_problems, workspace.target),
+            *too_new(launch_file.file.syntax, workspace.target),
+        )
         problems = (*launch_file.file.problems, *newer)
         if not problems:
             continue
@@ -112,7 +115,7 @@ def _is_for_old(path: str) -> bool:
 
 def _newer(problems: Iterable[Problem], target: TargetDistro) -> Iterator[Problem]:
     """Yield what was added after the chosen distribution; names of distributions are in alphabetical order."""
-    if target.told and target.distro != "rolling":
+    if target.explicit and target.distro != "rolling":
         for problem in problems:
             if target.distro < problem.kind:
                 message = f"{target.distro} has no {problem.message}; it was added in {problem.kind}"

@@ -82,13 +82,13 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that installed models, displays and parameters look up in packages of the workspace."""
-    if not package.look_ups:
+    if not package.lookups:
         return
     share = f"share/{package.name}/"
-    installed = {p.source: p.path.removeprefix(share) for p in package.built.provides if p.source and not p.conditional}
+    installed = {p.source: p.path.removeprefix(share) for p in package.built.installs if p.source and not p.conditional}
     used = {look_up.path for look_up in launch.files_looked_up(workspace).get(package.name, ())}
     look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
-    for look_up in package.look_ups:
+    for look_up in package.lookups:
         file, path = package.relative(look_up.span.path), look_up.path.lstrip("/")
         if file.endswith(_MODELS) and file in installed and look_up.package in workspace.by_name and not files.is_auxiliary(file):
             look_ups.setdefault((look_up.package, path), []).append((installed[file] not in used, look_up.span))
@@ -123,16 +123,16 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield the missing files that launch files name themselves."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
-        references = [reference for reference in named if not (reference.optional or reference.asked)]
+        references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
             continue
         best, *others = sorted(
-            references, key=lambda place: (place.by_default, place.kind != "include", not place.read, place.span)
+            references, key=lambda place: (place.from_default, place.kind != "include", not place.surely_read, place.span)
         )
         existing = _files_without(owner, path, best.kind, workspace)
         if existing is None:
             continue
-        written = best.kind == "include" or path.endswith(_WRITTEN) or any(reference.read for reference in references)
+        written = best.kind == "include" or path.endswith(_WRITTEN) or any(reference.surely_read for reference in references)
         written = written or _is_misspelt(path, existing)
         twin = "" if written else _twin(path, existing)
         if not written and not twin:
@@ -145,7 +145,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             path,
             first_related(Related("also named here", other.span) for other in others),
             confidence=Confidence.HIGH
-            if sure and not best.by_default and not _is_made(owner, path, workspace)
+            if sure and not best.from_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
         )
 
@@ -274,12 +274,12 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
             return None
         if package.hidden(Facet.SHARE, f"{share}{path}"):
             return None
-        all_names.update(p.path[len(share) :] for p in package.script.provides if p.path.startswith(share))
+        all_names.update(p.path[len(share) :] for p in package.script.installs if p.path.startswith(share))
         # Another rule reports a file of the sources that is not installed, also if the folders differ.
         installed = package.script.installed
         if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in package.files):
             return None
-        if any(path.startswith(f"{folder}/") for folder in (*package.unseen, *package.nested)):
+        if any(path.startswith(f"{folder}/") for folder in (*package.unvisited_folders, *package.nested)):
             return None
     if path in all_names or any(name.startswith(f"{path}/") for name in all_names):
         return None
@@ -291,7 +291,7 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
     owners = {
         other.name
         for other in workspace.packages
-        if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.provides)
+        if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.installs)
     }
     if package.name in owners:
         return f"; '{package.name}' has it"

@@ -82,10 +82,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     unknown = dependencies.declared_closure(package, workspace, _AT_RUN_TIME).unknown
     readable = not workspace.unread(package)  # an unreadable file may be the script that runs these launch files as tests
     for name, references in lacking:
-        best, *others = sorted(references, key=lambda r: (r.package_by_default, r.conditional, _ORDER.index(r.kind), r.span))
+        best, *others = sorted(references, key=lambda r: (r.package_from_default, r.conditional, _ORDER.index(r.kind), r.span))
         what = f"'{name}'" if best.name in ("", name) else f"'{best.name}' of '{name}'"
         how = " under a condition" if best.conditional else ""
-        how = " by the default of an argument" if best.package_by_default else how
+        how = " by the default of an argument" if best.package_from_default else how
         proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
         certain = readable and needed and proposal.certain and not dependencies.may_provide(unknown, name, workspace)
@@ -131,8 +131,8 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
     """
     names: set[str] = set()
     for need in dependencies.needs(package, workspace):
-        uses = [use for use in need.uses if use.sure and use.via in ("import", "package") and use.role & Role.EXEC]
-        exported = any(use.sure and use.role & Role.EXPORT for use in need.uses)
+        uses = [use for use in need.uses if use.certain and use.via in ("import", "package") and use.role & Role.EXEC]
+        exported = any(use.certain and use.role & Role.EXPORT for use in need.uses)
         if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, uses))):
             names.update(need.declared)
     return frozenset(names)

@@ -40,7 +40,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         all_names = _names_without(owner, name, workspace)
         if all_names is None:
             continue
-        best, *others = sorted(references, key=lambda reference: (reference.by_default, reference.span))
+        best, *others = sorted(references, key=lambda reference: (reference.from_default, reference.span))
         meant = [other for other in all_names if other.lower() == name.lower()]
         near = (
             meant
@@ -61,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{owner}/{name}",
             first_related(Related("also loaded here", other.span) for other in others),
             launch.rename_fix(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
-            Confidence.HIGH if sure and not best.by_default else Confidence.MEDIUM,
+            Confidence.HIGH if sure and not best.from_default else Confidence.MEDIUM,
         )
 
 

@@ -58,7 +58,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if missing is None:
             continue
         best, *others = sorted(
-            references, key=lambda reference: (reference.span.path in idle, reference.by_default, reference.span)
+            references, key=lambda reference: (reference.span.path in idle, reference.from_default, reference.span)
         )
         meant = started.get((owner, missing.meant), ())
         alternatives = [other for other in meant if other.conditional and other.span.path == best.span.path]
@@ -75,7 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 missing.meant,
                 [(reference.span, reference.exact) for reference in references],
             ),
-            Confidence.MEDIUM if best.by_default or best.span.path in idle else missing.confidence,
+            Confidence.MEDIUM if best.from_default or best.span.path in idle else missing.confidence,
         )
 
 
@@ -111,7 +111,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             return None
         if name in installed.elsewhere:
             path = installed.elsewhere[name]
-            where = tuple(Related("installed here", p.span) for p in package.built.provides if p.path == path)
+            where = tuple(Related("installed here", p.span) for p in package.built.installs if p.path == path)
             hint = f" in lib/{owner}; it is installed as {path}, where launch does not look; install it to lib/{owner}"
             return _Missing(hint, "", where)
         all_names |= installed.names
@@ -121,7 +121,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
     if not meant and (by_module := next(filter(None, (_named_by_module(package, name, all_names) for package in owners)), None)):
         return by_module
     scripts = [package.script for package in owners]
-    related = tuple(Related(f"build script of '{owner}'", script.end) for script in scripts if script and script.end)
+    related = tuple(Related(f"build script of '{owner}'", script.insertion) for script in scripts if script and script.insertion)
     return _Missing(_hint(name, meant, tuple(sorted(all_names))), meant, related[:1])
 
 
@@ -163,12 +163,12 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
     """Return the hint for a script of that name which is not installed to lib/<package> under any name."""
     script = package.built
     own = f"lib/{package.name}/"
-    programs_of = {provided.source for provided in script.provides if provided.path.startswith(own)}
-    files = (file.path for file in script.files if file.path.rpartition("/")[2] == name)
+    programs_of = {provided.source for provided in script.installs if provided.path.startswith(own)}
+    files = (file.path for file in script.scripts if file.path.rpartition("/")[2] == name)
     uninstalled = next((path for path in files if path not in programs_of), "")
     if not uninstalled:
         return None
-    elsewhere = any(provided.source == uninstalled for provided in script.provides)
+    elsewhere = any(provided.source == uninstalled for provided in script.installs)
     file = Related("this file", package.start_of(uninstalled))
     return _Missing(f"; '{uninstalled}' is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (file,))
 

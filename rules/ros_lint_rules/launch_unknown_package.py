@@ -158,7 +158,9 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
             if "$" in name or reference.kind == "program" or unknowable:
                 continue  # a template, a program without a package, or a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:
-                place = _Place(not launch_file.run, reference.by_default, idle, reference.conditional, reference.span, reference)
+                place = _Place(
+                    not launch_file.run, reference.from_default, idle, reference.conditional, reference.span, reference
+                )
                 is_own = own is not None and reference.kind == "node" and reference.name in own.names
                 unknown.setdefault((name, is_own), []).append(place)
     yield from ((name, places) for (name, _), places in unknown.items())
@@ -175,7 +177,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     distro, date = workspace.target.distro, world.knowledge.date
     elsewhere = world.where_else(name)
     if elsewhere:
-        if not workspace.target.told:
+        if not workspace.target.explicit:
             return None
         return _Verdict(
             f" in {distro}, only in {', '.join(elsewhere)} (package index of {date})", Confidence.MEDIUM, resembles=False
@@ -225,7 +227,7 @@ def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> 
     return any(
         package.hidden(Facet.SHARE)
         or name in package.files
-        or any(provided.path == f"share/{other}/{name}" for provided in package.built.provides)
+        or any(provided.path == f"share/{other}/{name}" for provided in package.built.installs)
         for package in packages
     )
 

@@ -210,7 +210,7 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
         return "all programs of the package would use it: write /usr/bin/env python3, or remove it"
     if inside is None:
         return "make it an argument, or move the file to a package"
-    if machine.written:
+    if machine.is_written:
         place = f"it is '{inside.rest}' of" if inside.rest else "it is in the sources of"
         return f"{place} '{inside.package}' but is written at run time: {_without_file(machine, inside, file, package)}"
     if inside.whole and not file.endswith((*_BUILDING, "package.xml")) and not _scheme(inside, file) and not _is_yaml(file):
@@ -223,7 +223,7 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
         return f"it is '{inside.rest}' of this package: write that relative path"
     if file == "package.xml":
         return f"{it_is}: write ${{prefix}}/{inside.rest}"
-    if machine.beside:
+    if machine.relative_to_file:
         below = posixpath.relpath(inside.rest, posixpath.dirname(file)) if inside.package == package.name else "a path"
         return f"{it_is}: write {below}, relative to the folder of this file"
     if inside.package == package.name and name.endswith(_IMAGES) and (folder, True) == (file.rpartition("/")[0], _is_yaml(file)):
@@ -260,7 +260,7 @@ def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
     """Return whether the package does not install the file to its share directory."""
     below = (f"{inside.rest}/", f"{inside.rest}.")
     for package in workspace.by_name[inside.package]:
-        installed = [file.source for file in package.built.provides if file.path.startswith("share/")]
+        installed = [file.source for file in package.built.installs if file.path.startswith("share/")]
         if not package.built.path or package.hidden(Facet.SHARE):
             return False
         if any(source == inside.rest or source.startswith(below) for source in installed):
@@ -281,7 +281,7 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
     ]
     if any(machine.path in text for default in defaults for text in default.texts):
         return "change or remove the default of the argument"
-    if machine.default:
+    if machine.parameter_default:
         return "change or remove the default of the parameter"
     if _is_yaml(file) and not launch.is_launch_file(package, machine.span.path):
         return "pass it from the launch file"
@@ -336,8 +336,8 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
 def _program(package: Package, file: str) -> str:
     """Return the name of a file for ``ros2 run``, "" if it is not installed to lib/<package>."""
     own = f"lib/{package.name}/"
-    installed = [provided.path for provided in package.built.provides if provided.path.startswith(own)]
-    sources = [provided.path for provided in package.built.provides if file and provided.source == file]
+    installed = [provided.path for provided in package.built.installs if provided.path.startswith(own)]
+    sources = [provided.path for provided in package.built.installs if file and provided.source == file]
     entries = [own + entry.name for entry in package.built.entry_points if f"{entry.module.replace('.', '/')}.py" == file]
     return next((path.removeprefix(own) for path in (*sources, *entries) if path in installed), "")
 

@@ -39,17 +39,17 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             files.file_start(script.path),
             "ament_package()",
         )
-    if "project" not in script.calls:
+    if "project" not in script.command_names:
         return
-    if any(name in script.calls for name in build.ENDS) or any(call.name in build.ENDS for call in script.written):
+    if any(name in script.command_names for name in build.ENDS) or any(call.name in build.ENDS for call in script.calls):
         return
     if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ALL_FACETS)):
         return
-    if any(provided.path.rpartition("/")[2] in build.config_names(package.name) for provided in script.provides):
+    if any(provided.path.rpartition("/")[2] in build.config_names(package.name) for provided in script.installs):
         return
     yield Finding(
         "ament_package() is never called, so the installed package will not be found; call it at the end",
-        next((call.place for call in package.calls("project")), files.file_start(script.path)),
+        next((call.name_span for call in package.calls("project")), files.file_start(script.path)),
         "ament_package()",
         fix=_fix(package),
     )
@@ -57,11 +57,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _fix(package: Package) -> Fix | None:
     script = package.script
-    calls = [call for call in script.written if call.path == package.cmake_lists] if script else []
+    calls = [call for call in script.calls if call.path == package.cmake_lists] if script else []
     last = calls[-1] if calls else None
     if last is None or last.blocks:
         return None
-    return Fix("call ament_package() at the end", (Edit(last.whole.end(), "\n\nament_package()"),), safe=False)
+    return Fix("call ament_package() at the end", (Edit(last.extent.end(), "\n\nament_package()"),), safe=False)
 
 
 RULE = Rule(

@@ -74,7 +74,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _is_unseen(package: Package, path: str) -> bool:
     """Return whether a path is in a folder that was not read, such as a submodule, or contains one."""
-    return any(f"{path}/".startswith(f"{folder}/") or folder.startswith(f"{path}/") for folder in package.unseen)
+    return any(f"{path}/".startswith(f"{folder}/") or folder.startswith(f"{path}/") for folder in package.unvisited_folders)
 
 
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
@@ -91,7 +91,7 @@ def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Con
 
 def _makes_files(package: Package) -> bool:
     """Return whether the script may create files while CMake configures."""
-    makers = _MAKES_FILES.intersection(package.built.calls)
+    makers = _MAKES_FILES.intersection(package.built.command_names)
     if not makers.issubset(_RUNS):
         return True
     calls = list(package.calls(*_RUNS, anywhere=True))
@@ -110,7 +110,7 @@ def _only_prints(call: Call) -> bool:
 
 def _is_installed(package: Package, problem: Problem) -> bool:
     """Return whether the file is needed by install(), not while CMake configures."""
-    return any(call.whole.covers(problem.span) for call in package.calls("install", anywhere=True))
+    return any(call.extent.covers(problem.span) for call in package.calls("install", anywhere=True))
 
 
 def _builds_in_sources(package: Package) -> bool:

@@ -66,7 +66,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    wrong = (problem for problem in script.refused if problem.kind == "no-package")
+    wrong = (problem for problem in script.cmake_errors if problem.kind == "no-package")
     yield from (Finding(problem.message, problem.span, problem.subject) for problem in wrong)
     if build.stops_early(script) or script.hides(Facet.USES):
         return
@@ -118,7 +118,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
         return  # the headers may be in the sources or install folder of another package
     world = workspace.world
     targets = package.built.targets
-    compiled = {source for target in targets for source in target.sources if source not in target.optional}
+    compiled = {source for target in targets for source in target.sources if source not in target.optional_sources}
     places: dict[str, list[Use]] = {}
     for use in package.uses:
         if use.via == "include" and not use.optional and package.relative(use.span.path) in compiled:

@@ -62,7 +62,7 @@ _GENERATE = "rosidl_generate_interfaces"
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script, manifest = package.script, package.manifest
-    if script is None or manifest is None or manifest.problems or _GENERATE not in script.calls:
+    if script is None or manifest is None or manifest.problems or _GENERATE not in script.command_names:
         return
     place = next((m for m in script.mentions if m.via == "macro" and m.purpose == "interfaces"), None)
     if place is None or not script.interfaces or not _is_installed(package):
@@ -86,13 +86,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _skips_check(package: Package, place: Span) -> bool:
     calls = package.calls(_GENERATE, anywhere=True)
-    return any(call.place == place and "SKIP_GROUP_MEMBERSHIP_CHECK" in call.texts for call in calls)
+    return any(call.name_span == place and "SKIP_GROUP_MEMBERSHIP_CHECK" in call.texts for call in calls)
 
 
 def _is_installed(package: Package) -> bool:
     assert package.script is not None
     kinds = tuple(f"share/{package.name}/{kind}/" for kind in ("msg", "srv", "action"))
-    return any(provided.path.startswith(kinds) for provided in package.script.provides)
+    return any(provided.path.startswith(kinds) for provided in package.script.installs)
 
 
 def _join(manifest: Manifest) -> tuple[Edit, ...]:
@@ -136,7 +136,7 @@ def _fields(package: Package, workspace: Workspace, place: Span, sure: Confidenc
             use.via != "interface"
             or use.package in along | names.interfaces.UNDERLYING
             or use.package in reported
-            or not use.sure
+            or not use.certain
         ):
             continue
         if not use.span.path.endswith((".msg", ".srv", ".action")):

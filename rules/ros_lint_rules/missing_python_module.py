@@ -87,7 +87,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
     slot = edits.setup_py.slot(script, "packages")
-    as_data = {provided.source.rpartition("/")[0] for provided in script.provides if provided.source.endswith(".py")}
+    as_data = {provided.source.rpartition("/")[0] for provided in script.installs if provided.source.endswith(".py")}
     reported: set[str] = set()
     imports = _uninstalled_imports(package, workspace)
     for lack in chain(_unlisted(package, script, slot, as_data), _of_entry_points(script), _imported(imports, as_data)):
@@ -125,7 +125,7 @@ def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, 
 
 def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
     """Yield the packages that contain the modules of entry points and are not installed."""
-    for module in script.modules:
+    for module in script.entry_point_modules:
         inside = module.name.rpartition(".")[0]
         if inside and not {module.name, inside}.intersection(script.python_packages):
             entry = next(entry for entry in script.entry_points if entry.module == module.name)
@@ -145,7 +145,7 @@ def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> 
 def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[UninstalledImport]:
     """Yield the imports of modules that are not installed; they are uncertain if an unreadable file may change sys.path."""
     unread = workspace.unread(package)
-    yield from (item._replace(sure=False) if unread else item for item in package.left_behind)
+    yield from (item._replace(sure=False) if unread else item for item in package.uninstalled_imports)
 
 
 def _remedy(package: Package, folder: str, name: str, slot: EditableList | None) -> str:
@@ -184,27 +184,27 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield the Python package of an ament_cmake package, if none of its modules is installed."""
     script = package.script
     hidden = package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE)
-    if script is None or package.builds_with != "ament_cmake" or hidden or script.end is None:
+    if script is None or package.builds_with != "ament_cmake" or hidden or script.insertion is None:
         return
     if script.interfaces or any(module.partition(".")[0] == package.name for module in script.python_packages):
         return  # the module of this name is generated or built
     paths = frozenset(package.files)
     folder = next((f for f in (package.name, f"src/{package.name}") if f"{f}/__init__.py" in paths), "")
     modules = [file for file in package.files if file.startswith(f"{folder}/") and file.endswith(".py")] if folder else []
-    if len(modules) < 2 or not paths.isdisjoint(p.source for p in script.provides if p.source.startswith(f"{folder}/")):
+    if len(modules) < 2 or not paths.isdisjoint(p.source for p in script.installs if p.source.startswith(f"{folder}/")):
         return
     users = [
         (other, use)
         for other in workspace.packages
         for use in other.uses
-        if use.via == "import" and use.package == package.name != other.name and not use.optional and use.sure
+        if use.via == "import" and use.package == package.name != other.name and not use.optional and use.certain
     ]
     why = f", but '{users[0][0].name}' imports it" if users else ""
     inner = "" if folder == package.name else f" PACKAGE_DIR {folder}"
     call = f"ament_python_install_package(${{PROJECT_NAME}}{inner})"
     yield Finding(
         f"the Python package '{folder}/' is not installed{why}; add {call}",
-        script.end,
+        script.insertion,
         folder,
         first_related(Related("imported here", use.span) for _, use in users),
         Fix.of(f"install '{folder}/'", edits.cmake.at_end(script, f"{_FIND}\n{call}"), safe=False),

@@ -70,7 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if package.type == "ros.ament_cmake":
-        if script.name_span and "ament_package" in script.calls and not _is_called(package, manifest.name):
+        if script.name_span and "ament_package" in script.command_names and not _is_called(package, manifest.name):
             message = (
                 f"project() uses the name '{script.name}', but package.xml names the package '{manifest.name}', "
                 "so ament_package() fails; use one name"
@@ -93,8 +93,8 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if script.name and script.name_span and _distribution(script.name) != _distribution(manifest.name):
         message = f"setup() uses the name '{script.name}'"
         wrong[script.name] = [Related(message, script.name_span)]
-    installed_as = {_installed_for(provided) for provided in script.provides}
-    for provided in script.provides:
+    installed_as = {_installed_for(provided) for provided in script.installs}
+    for provided in script.installs:
         name, what = _installed_for(provided)
         if name in ("", manifest.name) or provided.conditional or (what != "program" and (manifest.name, what) in installed_as):
             continue

@@ -69,7 +69,7 @@ def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
     all_names = names.shorten_list(nested.name for nested in lost)
     return Finding(
         f"colcon ignores {all_names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
-        package.place,
+        package.span,
         package.name,
         first_related(Related("an ignored package", nested.name_span) for nested in lost),
     )
@@ -84,7 +84,7 @@ def _is_lost(package: Package, nested: Manifest) -> bool:
 def _is_installed(package: Package, nested: Manifest) -> bool:
     """Return whether the outer package installs the manifest with its folder."""
     installed = "/".join(nested.path.split("/")[-2:])
-    return any(provided.path.endswith(f"/{installed}") for provided in package.built.provides)
+    return any(provided.path.endswith(f"/{installed}") for provided in package.built.installs)
 
 
 def _between(package: Package, nested: Manifest) -> list[str]:

@@ -86,10 +86,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     all_names = {macro.name for macro in registered}
     installed = script.installed
     exported = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
-    if build.EXPORTING_PLUGINS not in script.calls and not exported:
+    if build.EXPORTING_PLUGINS not in script.command_names and not exported:
         yield from _unexported(package, workspace, registered)
         # A description that is not exported has no effect, and many remain from ROS 1.
-        for plugin in script.plugins:
+        for plugin in script.plugin_files:
             if plugin.path in installed and not files.is_auxiliary(plugin.path):
                 for finding in _libraries(package, workspace, plugin, all_macros):
                     yield finding._replace(confidence=Confidence.MEDIUM)
@@ -98,12 +98,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _undescribed(package, registered)
     described = {
         entry.type
-        for plugin in script.plugins
+        for plugin in script.plugin_files
         if plugin.path in installed
         for library in plugin.libraries
         for entry in library.classes
     }
-    for plugin in script.plugins:
+    for plugin in script.plugin_files:
         if files.is_auxiliary(plugin.path):
             continue
         if plugin.path in installed:
@@ -121,7 +121,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _undescribed(package: Package, registered: list[Registration]) -> Iterator[Finding]:
     """Yield findings for registered classes that no description lists, if all descriptions can be read."""
-    descriptions = {plugin.path: plugin for plugin in package.built.plugins}
+    descriptions = {plugin.path: plugin for plugin in package.built.plugin_files}
     calls = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
     if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
         return
@@ -169,7 +169,7 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
     """Compare the packages for which descriptions are exported with those that the loaders of the workspace search."""
     script = package.script
     assert script is not None
-    described = {plugin.path: plugin for plugin in script.plugins}
+    described = {plugin.path: plugin for plugin in script.plugin_files}
     for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True):
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue
@@ -231,7 +231,7 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
         return
     first, *others = registered
     all_names = {macro.name for macro in registered}
-    plugin = next((p for p in script.plugins if any(c.type in all_names for lib in p.libraries for c in lib.classes)), None)
+    plugin = next((p for p in script.plugin_files if any(c.type in all_names for lib in p.libraries for c in lib.classes)), None)
     if _reads_manifest(package):
         return
     if plugin is None and (base := _unloaded_base(registered, workspace)):
@@ -300,7 +300,7 @@ def _libraries(package: Package, workspace: Workspace, plugin: PluginFile, regis
 def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
     script = package.script
     assert script is not None
-    installed = {_plain(p.path) for p in script.provides if not p.source and p.path.endswith((".so", ".a"))}
+    installed = {_plain(p.path) for p in script.installs if not p.source and p.path.endswith((".so", ".a"))}
     built = {target.name for target in script.targets if target.kind == "library"}
     name = _plain(library.path)
     if name in installed or "$" in library.path or not built:
@@ -332,7 +332,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     last = entry.type.rpartition("::")[2]
     described = {
         described_class.type
-        for file in package.built.plugins
+        for file in package.built.plugin_files
         for library in file.libraries
         for described_class in library.classes
     }
@@ -340,7 +340,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     verb = "registers"
     if alike:
         hint = f"; the sources register '{alike[0].name}'"
-    elif entry.type in package.unwritten:
+    elif entry.type in package.unwritten_classes:
         verb, hint = "registers or defines", "; remove the entry"
     else:
         hint = f"; add PLUGINLIB_EXPORT_CLASS({entry.type}, {entry.base}) to a source"
@@ -350,7 +350,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
         entry.span,
         f"{plugin.path}#{entry.type}",
         related,
-        confidence=Confidence.HIGH if alike or entry.type in package.unwritten else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if alike or entry.type in package.unwritten_classes else Confidence.MEDIUM,
     )
 
 

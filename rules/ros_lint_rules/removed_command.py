@@ -74,14 +74,14 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if not calls or workspace.target.distro not in distros or provider in found:
             continue
         first, *others = calls
-        related = first_related(Related("also here", call.place) for call in others)
+        related = first_related(Related("also here", call.name_span) for call in others)
         yield Finding(
             f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with p::p or ${{p_TARGETS}}",
-            first.place,
+            first.name_span,
             name,
             related,
             Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False),
-            Confidence.HIGH if workspace.target.told else Confidence.MEDIUM,
+            Confidence.HIGH if workspace.target.explicit else Confidence.MEDIUM,
         )
 
 

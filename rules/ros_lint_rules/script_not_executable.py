@@ -67,14 +67,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    files = {file.path: file for file in script.files}
+    files = {file.path: file for file in script.scripts}
     started = launch.nodes_started(workspace).get(package.name, {})
-    runs = {provided.path for provided in script.provides if provided.program}
+    runs = {provided.path for provided in script.installs if provided.program}
     any_executable = any(
-        provided.program and provided.source in files and files[provided.source].executable for provided in script.provides
+        provided.program and provided.source in files and files[provided.source].executable for provided in script.installs
     )
     without_bit: dict[Span, list[InstalledFile]] = {}
-    for provided in script.provides:
+    for provided in script.installs:
         file = files.get(provided.source)
         folder, _, name = provided.path.rpartition("/")
         if file is None or provided.conditional or folder != f"lib/{package.name}":
@@ -115,7 +115,7 @@ def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: d
     all_names = sorted(dict.fromkeys(script.path.rpartition("/")[2] for script in scripts))
     named = names.shorten_list(all_names)
     installs = (call for call in package.calls("install", anywhere=True) if call.args)
-    call = next((call for call in installs if call.whole.covers(span)), None)
+    call = next((call for call in installs if call.extent.covers(span)), None)
     remedy, fix = "install(PROGRAMS)", None
     if call is not None and call.texts[0] == "DIRECTORY":
         remedy = "USE_SOURCE_PERMISSIONS or install(PROGRAMS)"
@@ -139,7 +139,7 @@ def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: d
 
 def _confidence(package: Package, call: Call | None) -> Confidence:
     """Return medium for install(FILES) in a package that exports CMake code: that code may run the script with an interpreter."""
-    run_by_cmake = package.built.extras and call is not None and call.texts[0] == "FILES"
+    run_by_cmake = package.built.config_extras and call is not None and call.texts[0] == "FILES"
     return Confidence.MEDIUM if run_by_cmake else Confidence.HIGH
 
 

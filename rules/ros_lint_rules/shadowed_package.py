@@ -50,7 +50,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         message += "; build the packages that depend on it in the workspace too"
     elif lost:
         message += "; add what is missing or remove the package from the workspace"
-    yield Finding(message, package.place, package.name, severity=None if dependents or lost else Severity.INFO)
+    yield Finding(message, package.span, package.name, severity=None if dependents or lost else Severity.INFO)
 
 
 def _lost(package: Package, workspace: Workspace) -> Iterator[str]:
@@ -60,11 +60,11 @@ def _lost(package: Package, workspace: Workspace) -> Iterator[str]:
         return
     if not package.hidden(Facet.EXECUTABLES):
         folder = f"lib/{package.name}/"
-        installed = {provided.path.removeprefix(folder) for provided in script.provides if provided.path.startswith(folder)}
+        installed = {provided.path.removeprefix(folder) for provided in script.installs if provided.path.startswith(folder)}
         yield from (f"executable '{name}'" for name in below.known("executables").names if name not in installed)
     if not package.hidden(Facet.SHARE):
         folder = f"share/{package.name}/"
-        installed = {provided.path.removeprefix(folder) for provided in script.provides if provided.path.startswith(folder)}
+        installed = {provided.path.removeprefix(folder) for provided in script.installs if provided.path.startswith(folder)}
         yield from (f"'{name}'" for name in below.known("launch").names if name not in installed)
     if not package.hidden(Facet.INTERFACES):
         yield from (f"'{name}'" for name in below.known("interfaces").names if name not in script.interfaces)

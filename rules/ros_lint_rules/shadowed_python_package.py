@@ -42,7 +42,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 f"the Python package '{name}' has the same name as the generated one, so one hides the other; rename it",
                 call.span(0),
                 name,
-                (Related("this generates the Python package for the interfaces", generating[0].place),),
+                (Related("this generates the Python package for the interfaces", generating[0].name_span),),
             )
 
 

@@ -96,7 +96,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
         yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, all_names, places)
-    for problem in script.refused:  # these include computed names
+    for problem in script.cmake_errors:  # these include computed names
         name = problem.subject
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
             near = names.similar_names(name, all_names, 1, 0.8)
@@ -117,7 +117,7 @@ def _finds_unknown(package: Package, workspace: Workspace) -> bool:
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield findings for exported sets without targets: CMake stops at the install(EXPORT) of such a set."""
-    filled = list(dict.fromkeys([exported.into for exported in package.built.exported]))
+    filled = list(dict.fromkeys([exported.export_set for exported in package.built.exported]))
     for call in package.calls("ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = build.evaluated_name(package, text)
@@ -180,7 +180,7 @@ def _may_rename_targets(package: Package) -> bool:
     if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
         return True
     all_names = build.config_names(package.name)
-    return any(file.source and file.path.rpartition("/")[2] in all_names for file in package.built.provides)
+    return any(file.source and file.path.rpartition("/")[2] in all_names for file in package.built.installs)
 
 
 def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Iterator[Related]:

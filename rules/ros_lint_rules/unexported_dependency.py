@@ -103,13 +103,13 @@ def _is_seen(package: Package) -> bool:
     script = package.script
     if script is None or build.stops_early(script) or package.builds_with != "ament_cmake":
         return False
-    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.calls))
+    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.command_names))
 
 
 def _exported(script: BuildScript) -> set[str]:
     """Return the packages that find_package() of this package also finds, by their CMake names."""
     exported = {mention.name for mention in dependencies.macro_packages(script, "export", "interfaces")}
-    return exported.union(mention.name for mention, _ in script.handed_on)
+    return exported.union(mention.name for mention, _ in script.exported_packages)
 
 
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[tuple[tuple[str, ...], Finding]]:
@@ -179,13 +179,13 @@ def _has_headers(script: BuildScript) -> bool:
     Generated headers, such as the parameters of a plugin, do not count: they are for the package itself.
     """
     return script.hides(Facet.SHARE) or any(
-        provided.path.endswith(files.HEADERS) and provided.source for provided in script.provides
+        provided.path.endswith(files.HEADERS) and provided.source for provided in script.installs
     )
 
 
 def _exported_targets(script: BuildScript) -> frozenset[str]:
     """Return the targets that dependents of the package can link."""
-    return frozenset([export.target for export in script.exported if export.handed_on])
+    return frozenset([export.target for export in script.exported if export.reaches_dependents])
 
 
 def _linked_publicly(package: Package, workspace: Workspace) -> Iterator[tuple[str, Span]]:
@@ -274,7 +274,7 @@ def _confidence(package: Package, workspace: Workspace, name: str, exported: set
         return Confidence.MEDIUM
     if _internal_sources(package, script).issuperset([build.stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
-    sure = _EXPORTS.intersection(script.calls) and not _is_written_out(package, workspace, name)
+    sure = _EXPORTS.intersection(script.command_names) and not _is_written_out(package, workspace, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
 
 
@@ -290,7 +290,7 @@ def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
         return frozenset()
     inner = [target for target in built if target.kind == "executable" or target.name not in exported_names]
     outer = [target for target in built if target not in inner]
-    if any(target.sources for target in outer) or not all(target.whole for target in built):
+    if any(target.sources for target in outer) or not all(target.sources_known for target in built):
         return frozenset()
     all_names: set[str] = set()
     for target in inner:
@@ -321,7 +321,7 @@ def _public_includes(package: Package, workspace: Workspace, script: BuildScript
         known = any(is_package(name) for name in use.providers if name == use.package or name.endswith(names.VENDOR))
         known = known or (use.package in finds and _is_unavailable(package, workspace, use))
         tool = any(name.startswith(_TOOL_PREFIX) for name in use.providers)
-        if use.sure and known and not tool and package.relative(use.span.path) in installed:
+        if use.certain and known and not tool and package.relative(use.span.path) in installed:
             uses.setdefault(use.package, []).append(use)
     return uses
 
@@ -350,7 +350,7 @@ def _includes(package: Package) -> Iterator[Use]:
 
 def _installed(script: BuildScript) -> set[str]:
     """Return the headers that are installed unconditionally."""
-    return {file.source for file in script.provides if file.path.startswith("include/") and not file.conditional}
+    return {file.source for file in script.installs if file.path.startswith("include/") and not file.conditional}
 
 
 RULE = Rule(

@@ -104,7 +104,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         required = "" if file.endswith(".idl") or names.interfaces.is_message(name) else names.interfaces.camel(name)
         rejection = next(iter(_rejections(package, file)), "")
-        commented_out = interface in script.set_aside
+        commented_out = interface in script.commented_interfaces
         if required or rejection or commented_out:
             yield _finding(package, calls, file, required, rejection, commented_out=commented_out)
         else:
@@ -173,7 +173,7 @@ def _missing(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if used.bare:
             wrong = _qualified(used, package, workspace) or wrong
         generating = next(maker.calls(_GENERATE, anywhere=True), None) if maker else None
-        related = [Related("the interfaces are generated here", generating.place)] if generating else []
+        related = [Related("the interfaces are generated here", generating.name_span)] if generating else []
         related += [Related("also used here", place) for place in places[1:]]
         yield Finding(
             wrong,
@@ -187,7 +187,7 @@ def _missing(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _used(package: Package) -> Iterator[_Used]:
     """Yield the certain uses of interfaces, including those of the package itself."""
-    needed = [use for use in package.uses if use.sure and not use.optional]
+    needed = [use for use in package.uses if use.certain and not use.optional]
     for use in needed:
         if use.via == "interface":
             kind = "" if use.span.path.endswith(".idl") else "msg"
@@ -240,7 +240,7 @@ def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace)
 
 def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
     """Return the message about a use of a package that is released or in an underlay; None as in _wrong()."""
-    known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.told)
+    known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.explicit)
     available = _names(known, used.kind, bool(used.header))
     if not known or _is_among(used, available):
         return None
@@ -270,7 +270,7 @@ def _message(used: _Used, interfaces: Sequence[str], available: Collection[str],
 def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
     """Return the message about a type without a package name that another package has; "" if no package has it."""
     all_names = dict.fromkeys([*(declared.name for declared in package.declared), *_USUAL])
-    world, everywhere = workspace.world, not workspace.target.told
+    world, everywhere = workspace.world, not workspace.target.explicit
     owners = [
         f"{name}/{used.name}"
         for name in all_names
@@ -294,7 +294,7 @@ def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool]
     Includes files for which no code is generated, because another finding reports them.
     """
     interfaces = [_interface(file) for file in maker.files]
-    ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.set_aside]
+    ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.commented_interfaces]
     everything = frozenset([*maker.built.interfaces, *ungenerated])
     return {(kind, header): _names(everything, kind, header) for kind in ("", *_KINDS) for header in (False, True)}
 
@@ -343,7 +343,7 @@ def _finding(
         remedy = f"correct or remove it, because rosidl rejects it: {rejection}"
     return Finding(
         f"'{file}' is not listed in {_GENERATE}(), so no code is generated for it; {remedy}",
-        calls[0].place,
+        calls[0].name_span,
         file,
         (_here(package, file),),
         None if required or commented_out or rejection else _fix(calls, [file]),
@@ -359,7 +359,7 @@ def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:
     return Finding(
         f"'{files[0]}' and {len(files) - 1} more are not listed in {_GENERATE}(), so no code is generated for them; "
         "add or remove them",
-        calls[0].place,
+        calls[0].name_span,
         f"{files[0].partition('/')[0]}/",
         first_related(_here(package, file) for file in files),
         _fix(calls, files),

@@ -39,7 +39,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         command = f"find_package({provider})" if call.name == "find_package" else f"{call.name}()"
         yield Finding(
             f"{command} is outside of if(BUILD_TESTING), but '{provider}' is installed for tests only; move it inside",
-            call.place,
+            call.name_span,
             provider,
         )
 

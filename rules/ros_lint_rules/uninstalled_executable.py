@@ -71,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if any("INSTALL_TO_PATH" in call.texts for call in package.calls("ament_auto_package", anywhere=True)):
         return
     places: dict[str, list[tuple[str, str, Span]]] = {}
-    for provided in script.provides:
+    for provided in script.installs:
         if provided.target:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
@@ -148,7 +148,7 @@ def _installs_executables_only(package: Package, span: Span, targets: tuple[Buil
     """Return whether the install() at a place installs nothing but executables."""
     kinds = {target.name: target.kind for target in targets}
     for call in package.calls("install"):
-        if call.whole.covers(span):
+        if call.extent.covers(span):
             return all(
                 kinds.get(build.evaluated_name(package, call.texts[at]) or "") == "executable"
                 for at in build.installed_targets(call)
@@ -160,7 +160,7 @@ def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix
     """Return the fix of the destination, if the install() has one for executables only."""
     kinds = {target.name: target.kind for target in targets}
     for call in package.calls("install"):
-        if call.texts[:1] != ("TARGETS",) or not call.whole.covers(span):
+        if call.texts[:1] != ("TARGETS",) or not call.extent.covers(span):
             continue
         texts = call.texts
         at = texts.index("RUNTIME") + 2 if "RUNTIME" in texts[:-2] else 0

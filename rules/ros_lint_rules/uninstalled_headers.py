@@ -84,13 +84,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
     headers = [file for file in package.files if file.startswith("include/") and file.endswith(files.HEADERS)]
-    places = [provided.path for provided in script.provides]
-    if not headers or script.end is None:
+    places = [provided.path for provided in script.installs]
+    if not headers or script.insertion is None:
         return
     names = {_name(file) for file in headers}
     installed = any(
         provided.path.endswith(files.HEADERS) and (provided.source or _name(provided.path) in names)
-        for provided in script.provides
+        for provided in script.installs
     )
     includes = _includes(workspace).get(package.name, ())
     wanted = [(other, use) for other, use in includes if any(file.endswith(f"/{use.name}") for file in headers)]
@@ -115,9 +115,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield Finding(
         f"the headers in include/ ({_name(headers[0])} ...) are not installed{why}; "
         f"install them to {_place(exports)}{', or remove the export' if may_be_needless else ''}",
-        script.end,
+        script.insertion,
         "include/",
-        (*(Related("exported here", call.place) for call in exports), *_included_here(wanted)),
+        (*(Related("exported here", call.name_span) for call in exports), *_included_here(wanted)),
         _fix(package, exports),
         sure,
         None if (exports and library and not may_be_needless) or wanted else Severity.WARNING,
@@ -141,9 +141,9 @@ def _name(path: str) -> str:
 
 def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the headers that other packages include by a folder which is missing where they are installed."""
-    installed = [file for file in package.built.provides if file.source.endswith(files.HEADERS) and not file.conditional]
+    installed = [file for file in package.built.installs if file.source.endswith(files.HEADERS) and not file.conditional]
     provided = {file.source: file for file in installed}
-    paths = [file.path for file in package.built.provides]
+    paths = [file.path for file in package.built.installs]
     lost = [
         (file, other, use)
         for other, use in wanted
@@ -164,15 +164,15 @@ def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[
 
 def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the headers that are installed with their folder include/, below the folder that compilers search."""
-    own = [file for file in script.provides if file.source.startswith("include/") and file.source.endswith(files.HEADERS)]
+    own = [file for file in script.installs if file.source.startswith("include/") and file.source.endswith(files.HEADERS)]
     first = next((file for file in own if file.path.startswith("include/")), None)
     if first is None or build.has_extras(package) or not all(_is_doubled(file) for file in own):
         return
     folder = first.path.removesuffix(first.source.removeprefix("include")).removeprefix("/")
-    words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.name, text) for call in script.written for text in call.texts)
+    words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.name, text) for call in script.calls for text in call.texts)
     if any(folder in word for word in words):
         return  # the script names it, probably as an include directory
-    library = any(file.path.startswith("lib/lib") for file in script.provides)
+    library = any(file.path.startswith("lib/lib") for file in script.installs)
     exported = library and bool(_exports(package) or any(True for _ in package.calls(*_LINKED)))
     needed = bool(wanted) or (exported and not _is_loaded(package, script))
     places = ((call, at) for call in package.calls("install", anywhere=True) for at in range(len(call.args)))
@@ -201,9 +201,9 @@ def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> 
     yield Finding(
         f"the headers in include/ ({_name(headers[0])} ...) are exported but not installed, and there is no library "
         "to use them with; remove the export",
-        first.place,
+        first.name_span,
         "include/",
-        first_related(Related("also exported here", call.place) for call in others),
+        first_related(Related("also exported here", call.name_span) for call in others),
         severity=Severity.WARNING,
     )
 
@@ -213,13 +213,17 @@ def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator
     includes = [
         (other, use) for other, use in wanted if other.script and package.name in dependencies.names_searched(other, other.script)
     ]
-    if includes and package.script and package.script.end:
+    if includes and package.script and package.script.insertion:
         libraries = "" if any(True for _ in package.calls("ament_export_libraries")) else " and ament_export_libraries()"
-        what = "no include directories" if any(name.startswith("ament_export_") for name in package.script.calls) else "nothing"
+        what = (
+            "no include directories"
+            if any(name.startswith("ament_export_") for name in package.script.command_names)
+            else "nothing"
+        )
         yield Finding(
             f"'{package.name}' exports {what}, although '{includes[0][0].name}' includes its headers; add "
             f"ament_export_include_directories(){libraries}, or ament_export_targets()",
-            package.script.end,
+            package.script.insertion,
             package.name,
             _included_here(includes),
         )
@@ -228,7 +232,12 @@ def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator
 def _may_export(package: Package) -> bool:
     """Return whether the package may export the folder of its headers."""
     script = package.script
-    if script is None or build.has_extras(package) or package.opaque or any(name.startswith(_EXPORTS) for name in script.calls):
+    if (
+        script is None
+        or build.has_extras(package)
+        or package.opaque
+        or any(name.startswith(_EXPORTS) for name in script.command_names)
+    ):
         return True
     return any(call.texts[:1] == ("EXPORT",) and _is_read(package, call) for call in package.calls("install", anywhere=True))
 
@@ -236,7 +245,7 @@ def _may_export(package: Package) -> bool:
 def _is_read(package: Package, call: Call) -> bool:
     """Return whether a command can be part of the build: not in a CMakeLists.txt that no add_subdirectory() reads."""
     folder, _, name = package.relative(call.path).rpartition("/")
-    return not folder or name != "CMakeLists.txt" or folder in package.built.entered
+    return not folder or name != "CMakeLists.txt" or folder in package.built.subdirectories
 
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:
@@ -251,7 +260,7 @@ def _includes(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
         if package.script is None or _searches_outside(package):
             continue
         for use in package.uses:
-            others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.sure and not use.optional else ()
+            others = workspace.by_name.get(use.package, ()) if use.via == "include" and use.certain and not use.optional else ()
             if others and use.package != package.name and not files.is_auxiliary(package.relative(use.span.path)):
                 includes.setdefault(use.package, []).append((package, use))
     return includes

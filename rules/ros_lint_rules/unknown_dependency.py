@@ -79,7 +79,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _build_type(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     package, name = stranger.package, stranger.name
     why = f"'{name}' is a build type, not a package, so rosdep cannot resolve it"
-    if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.calls:
+    if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.command_names:
         return _needless(stranger, why)
     remedy = f"write '{_PYTHON_IN_CMAKE}'"
     fix = dependencies.naming_fix(workspace, _PYTHON_IN_CMAKE, remedy, *_rename(stranger, _PYTHON_IN_CMAKE))
@@ -203,7 +203,7 @@ def _caller(by: str, key: str) -> str:
 
 def _is_found_as_declared(package: Package, name: str) -> bool:
     """Return whether CMake finds a package only because it is declared under exactly this name."""
-    if _FINDS_DECLARED not in package.built.calls:
+    if _FINDS_DECLARED not in package.built.command_names:
         return False
     return not any(name in call.texts[:1] for call in package.calls("find_package", anywhere=True))
 

@@ -60,7 +60,7 @@ from ros_lint.api import (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or script.problems or script.reaches_out or package.builds_with != "ament_cmake":
+    if script is None or script.problems or script.includes_outside_package or package.builds_with != "ament_cmake":
         return
     if script.hides(Facet.USES) or dependencies.finds_declared(package):
         return
@@ -75,8 +75,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         needed: dict[str, list[Use]] = {}
         for source in target.sources:
-            if source in package.compiled_along and source not in target.optional:
-                for path in (source, *sorted(package.compiled_along[source])):
+            if source in package.compiled_headers and source not in target.optional_sources:
+                for path in (source, *sorted(package.compiled_headers[source])):
                     for use in uses.get(path, ()):
                         needed.setdefault(use.package, []).append(use)
         if not needed.keys() <= set(target.headers):
@@ -87,7 +87,7 @@ def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
     """Return the includes of the wanted packages that every build compiles, by file."""
     includes: dict[str, list[Use]] = {}
     for use in package.uses:
-        compiled = use.via == "include" and use.sure and not use.optional
+        compiled = use.via == "include" and use.certain and not use.optional
         if compiled and use.package in wanted and wanted.isdisjoint(use.providers[1:]):
             includes.setdefault(package.relative(use.span.path), []).append(use)
     return includes
@@ -130,7 +130,7 @@ def _remedy(package: Package, workspace: Workspace, target: BuildTarget, name: s
         for call in package.calls(command):
             if len(call.args) > 1 and not call.blocks and build.evaluated_name(package, call.texts[0]) == target.name:
                 return f"{command}({target.name} {word})", edits.cmake.add_argument(call, word)
-    command, word = commands[0] if commands[0][0] in package.built.calls else commands[-1]
+    command, word = commands[0] if commands[0][0] in package.built.command_names else commands[-1]
     return f"{command}({target.name} {word})", None
 
 

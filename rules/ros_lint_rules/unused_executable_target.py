@@ -38,7 +38,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         or build.may_run_built(script)
     ):
         return
-    excluded = {provided.target for provided in script.provides} | build.install_arguments(package)
+    excluded = {provided.target for provided in script.installs} | build.install_arguments(package)
     excluded |= build.never_installed_nodes(package) | build.partly_installed_nodes(
         package
     )  # uninstalled-executable reports them

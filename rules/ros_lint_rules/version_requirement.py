@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 "use another version, or correct the attribute",
                 depend.span,
                 depend.name,
-                tuple(Related(f"'{depend.name}' {version}", package.place) for package in packages),
+                tuple(Related(f"'{depend.name}' {version}", package.span) for package in packages),
             )
 
 

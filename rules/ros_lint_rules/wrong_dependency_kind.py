@@ -141,7 +141,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
             lacking = _once_installed(_lacks(package, workspace, exported, tags))
         if lacking is None:
             continue
-        uses = [use for use in exported.uses if use.sure and _is_about(use, lacking.role)]
+        uses = [use for use in exported.uses if use.certain and _is_about(use, lacking.role)]
         name = next((name for name in uses[0].providers if name in need.declared), need.declared[0])
         if name in reported or name in unguarded:
             continue  # unguarded-test reports the tests
@@ -179,7 +179,7 @@ def _exported_uses(package: Package, need: dependencies.Need, *, assume_installe
 def _installed_headers(package: Package) -> dict[str, bool]:
     """Return the sources of installed headers, and whether they are installed in every build."""
     headers: dict[str, bool] = {}
-    for provided in package.built.provides:
+    for provided in package.built.installs:
         if provided.path.startswith("include/"):
             headers[provided.source] = headers.get(provided.source, False) or not provided.conditional
     return headers
@@ -215,7 +215,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
     given = _given(tags)
 
     def is_used(role: Role) -> bool:
-        return any(use.sure and _is_about(use, role) for use in need.uses)
+        return any(use.certain and _is_about(use, role) for use in need.uses)
 
     def is_provided(enough: Role, *, surely: bool = False) -> bool:
         return dependencies.provided_transitively(
@@ -232,7 +232,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
         why = "but it is used outside tests"
         if not is_provided(~_TEST):
             return _Lack(role, why)
-        named = any(use.sure and use.via != "macro" and _is_about(use, role) for use in need.uses)
+        named = any(use.certain and use.via != "macro" and _is_about(use, role) for use in need.uses)
         indirect = f"{why}, where it is only available through other dependencies"
         return _Lack(role, indirect, Confidence.LOW) if named and is_provided(~_TEST, surely=True) else None
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):

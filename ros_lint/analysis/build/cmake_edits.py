@@ -20,9 +20,9 @@ install(TARGETS {}
 
 def at_end(script: BuildScript, code: str) -> Edit | None:
     """Add commands before ament_package(), set off by blank lines if that is. None where there is no such place."""
-    if script.end is None:
+    if script.insertion is None:
         return None
-    return Edit(script.behind, f"\n\n{code}") if script.behind else Edit(script.end, f"{code}\n")
+    return Edit(script.insertion_after, f"\n\n{code}") if script.insertion_after else Edit(script.insertion, f"{code}\n")
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
@@ -80,7 +80,7 @@ def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edi
     None for a package that is not named, or not known to export targets: for such it takes other variables.
     """
     for call in calls:
-        yield Edit(call.place, "target_link_libraries")
+        yield Edit(call.name_span, "target_link_libraries")
         for index, text in enumerate(call.texts[1:], 1):
             if text not in ("PUBLIC", "INTERFACE"):
                 known = _NAME.fullmatch(text) and exports_targets(text, workspace)
@@ -92,7 +92,7 @@ def exports_targets(name: str, workspace: Workspace) -> bool:
     own = workspace.by_name.get(name)
     if own is None:
         return workspace.world.exports_targets(name)
-    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.calls) for package in own)
+    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.command_names) for package in own)
 
 
 _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})

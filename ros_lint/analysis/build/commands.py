@@ -42,7 +42,7 @@ def config_names(name: str) -> tuple[str, str]:
 
 def has_extras(package: Package) -> bool:
     """Whether code of a package runs where it is found: files that ament_package(CONFIG_EXTRAS) is given, known or not."""
-    if package.built.extras:
+    if package.built.config_extras:
         return True
     return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
 

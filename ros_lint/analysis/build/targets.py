@@ -24,7 +24,7 @@ def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
 
 def is_optional_target(package: Package, target: BuildTarget) -> bool:
     """Whether some builds leave out all that a target is made of, or it is an example."""
-    wanted = bool(target.sources) and set(target.sources) == set(target.optional)
+    wanted = bool(target.sources) and set(target.sources) == set(target.optional_sources)
     return wanted or is_auxiliary(package.relative(target.span.path))
 
 
@@ -35,7 +35,7 @@ def installed_to_bin_only(package: Package, name: str) -> bool:
         return False
     if package.builds_with == "ament_cmake":
         return any(target.name == name for target in programs_built(script))
-    return any(provided.path == f"bin/{name}" for provided in script.provides)
+    return any(provided.path == f"bin/{name}" for provided in script.installs)
 
 
 _CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
@@ -49,7 +49,7 @@ def may_run_built(script: BuildScript) -> bool:
 
     That which rosidl makes for interfaces does not.
     """
-    calls = [call.name for call in script.written] if "rosidl_generate_interfaces" in script.calls else script.calls
+    calls = [call.name for call in script.calls] if "rosidl_generate_interfaces" in script.command_names else script.command_names
     return not _RUNS.isdisjoint(calls)
 
 
@@ -106,7 +106,7 @@ def installs_built(script: BuildScript) -> bool:
 
     What rosidl generates, and installs by itself, is none of it.
     """
-    built = (provided.path for provided in script.provides if provided.target or provided.path.startswith(("lib/", "bin/")))
+    built = (provided.path for provided in script.installs if provided.target or provided.path.startswith(("lib/", "bin/")))
     return not all(_GENERATED in path for path in built)
 
 
@@ -126,7 +126,7 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
     Of the files of a library those count that have one of some endings.
     """
     places: dict[str, list[InstalledFile]] = {}
-    for provided in package.built.provides:
+    for provided in package.built.installs:
         if provided.target and provided.path.endswith(endings):
             places.setdefault(provided.target, []).append(provided)
     own = f"lib/{package.name}/"
@@ -159,7 +159,7 @@ def partly_installed_nodes(package: Package) -> frozenset[str]:
     if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES) or may_run_built(script):
         return frozenset()
     nodes = node_targets(package)
-    installed = {provided.target for provided in script.provides if provided.target}
+    installed = {provided.target for provided in script.installs if provided.target}
     if nodes.isdisjoint(installed):
         return frozenset()
     left_out = nodes - installed - install_arguments(package)

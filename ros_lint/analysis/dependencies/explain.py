@@ -55,7 +55,7 @@ def used_in(uses: Sequence[Use]) -> Iterator[str]:
 def _needed_for(use: Use) -> str:
     words = [word for role, word in _WORDS if use.role & role]
     doubts = ["optional"] if use.optional else []
-    if not use.sure:
+    if not use.certain:
         doubts.append("the file may not be built or installed, or the name is ambiguous")
     return f"needed {' and '.join(words) or 'for nothing'}{''.join(f'; {doubt}' for doubt in doubts)}"
 
@@ -97,7 +97,7 @@ def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: 
     if all(use.optional for use in uses):
         return ", because every use is optional"
     own = _of_itself(name, uses)
-    if not any(use.sure for use in own):
+    if not any(use.certain for use in own):
         return ", because no use is certain"
     unknown = all_declared(package, workspace).unknown
     if uses_not_explained_by(unknown, own, workspace):
@@ -119,8 +119,8 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
         return "it is declared under a condition"
     if uses:
         return f"it is used: {uses[0].span}"
-    if name in package.traces:
-        return f"its name appears here: {package.traces[name]}"
+    if name in package.textual_mentions:
+        return f"its name appears here: {package.textual_mentions[name]}"
     hidden = _hidden(package)
     if hidden and not (is_library(workspace.world, name) and is_build_visible(package)):
         return hidden.removeprefix(", and ")

@@ -20,7 +20,7 @@ _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
     """Return the names that find_package() is called with, also by those macros that find what the manifest declares."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
-    calls = frozenset(script.calls)
+    calls = frozenset(script.command_names)
     if calls & _FIND_DECLARED:
         names.update(each.name for each in package.declared if each.depend.tag in _AT_BUILD)
     if calls & FINDS_TESTS:
@@ -30,7 +30,7 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
 
 def finds_declared(package: Package) -> bool:
     """Return whether CMake finds whatever the manifest declares for building, and gives it to every target."""
-    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.calls)
+    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.command_names)
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:

@@ -123,7 +123,7 @@ def unused_find_packages(package: Package, workspace: Workspace) -> tuple[Mentio
         [
             mention
             for mention in unused_in_sight(package)
-            if mention.name not in package.perhaps_used
+            if mention.name not in package.possibly_used
             and not may_be_used_without_trace(package, workspace, mention.name)
             and not is_mostly_runtime(workspace, mention.name)
         ]

@@ -34,12 +34,12 @@ class Need(NamedTuple):
     @property
     def sure(self) -> bool:
         """Return whether the best evidence is in a file that is alive, of a name that is known."""
-        return self.uses[0].sure
+        return self.uses[0].certain
 
     @property
     def role(self) -> Role:
         """Return all that it is needed for: by what is alive, if anything is."""
-        alive = [use for use in self.uses if use.sure] or self.uses
+        alive = [use for use in self.uses if use.certain] or self.uses
         role = Role(0)
         for use in alive:
             role |= use.role
@@ -149,7 +149,7 @@ def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure])
 def _rank(use: Use) -> int:
     """The surest and most telling evidence first."""
     rank = _RANKS[use.via]
-    if not use.sure:
+    if not use.certain:
         rank += 32
     return rank + 16 if use.role is _TEST else rank
 

@@ -78,7 +78,7 @@ def availability_remark(workspace: Workspace, name: str) -> str:
         return ""
     knowledge = world.knowledge
     here = knowledge.rosdep_resolves(name, target.distro)
-    if here and target.told:
+    if here and target.explicit:
         return ""
     if not knowledge.covered:
         return f" (there are no data about {target.distro})"
@@ -124,7 +124,7 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
     world, knowledge = workspace.world, workspace.world.knowledge
     if world.is_package(name) or not world.is_key(name) or knowledge.resolves(name) is not False:
         return False
-    return workspace.target.told or not knowledge.resolving(name)
+    return workspace.target.explicit or not knowledge.resolving(name)
 
 
 def is_of_pip(workspace: Workspace, name: str) -> bool:

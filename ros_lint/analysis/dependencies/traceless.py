@@ -104,7 +104,7 @@ PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
 
 def _lacks_parts(package: Package, world: World) -> bool:
     """Whether a submodule that is not cloned lies in a package: what that has may be called anything."""
-    return any(folder.rpartition("/")[2] in world.awaited.uncloned for folder in package.unseen)
+    return any(folder.rpartition("/")[2] in world.awaited.uncloned for folder in package.unvisited_folders)
 
 
 def _gives_macros(package: Package) -> bool:

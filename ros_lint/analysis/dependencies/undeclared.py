@@ -49,12 +49,12 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         if all(use.via == "macro" for use in need.uses) and _comes_with(need, joined, workspace):
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
-        sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.sure for use in need.uses))
+        sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.certain for use in need.uses))
         sure = sure and not (_looks_into_nothing(need, workspace) or is_declared_misspelled(package, workspace, need))
         if workspace.world.standing(need.name) != "known":
             if provided_in_other_distros(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
-            sure = sure and not (workspace.target.told and workspace.world.where_else(need.name))
+            sure = sure and not (workspace.target.explicit and workspace.world.where_else(need.name))
         uses = uses_not_explained_by(unknown, need.uses, workspace) if sure and unknown else need.uses
         found.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
     return tuple(found)
@@ -84,7 +84,7 @@ def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bo
 def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
     """Whether there is a package of a name. If nobody said which distribution is meant, it may be one of any."""
     world = workspace.world
-    return world.is_package(name) or (not workspace.target.told and bool(world.where_else(name)))
+    return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
 
 def provided_in_other_distros(package: Package, workspace: Workspace, name: str) -> bool:
@@ -131,7 +131,7 @@ def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace
     uses = tuple(uses)
     answers = dict.fromkeys([use.providers for use in uses])
     satisfied = {names: any(may_provide(unknown, name, workspace) for name in names) for names in answers}
-    if all(satisfied[use.providers] for use in uses if use.sure):
+    if all(satisfied[use.providers] for use in uses if use.certain):
         return ()
     return tuple(sorted(uses, key=lambda use: satisfied[use.providers]))
 

@@ -117,7 +117,7 @@ def undeclared_match(stranger: UnresolvedDependency, workspace: Workspace) -> st
 def is_used_in_sources(stranger: UnresolvedDependency) -> bool:
     """Whether anything but the manifest names it, so that there may be such a package after all."""
     package, name = stranger.package, stranger.name
-    return name in _mentioned(package) or name in package.traces or any(name in use.providers for use in package.uses)
+    return name in _mentioned(package) or name in package.textual_mentions or any(name in use.providers for use in package.uses)
 
 
 def _mentioned(package: Package) -> set[str]:
@@ -132,5 +132,5 @@ def _is_same(one: str, other: str) -> bool:
 
 def _is_lacking(package: Package, name: str) -> bool:
     """Whether a package needs another one for sure, and does not declare it."""
-    needed = any(use.package == name and use.sure and not use.optional for use in package.uses)
+    needed = any(use.package == name and use.certain and not use.optional for use in package.uses)
     return needed and not package.declares(name)

@@ -40,7 +40,7 @@ def names_of(file: LaunchFile) -> FileConfigurations:
         elif action.kind == "argument" and action.target is not None:
             declared.update((name, action.span) for name in action.target.texts if name not in declared)
     whole = whole and all(map(is_plain, (*made, *declared)))
-    return FileConfigurations(declared, frozenset(made), frozenset(asked), whole, file.fills)
+    return FileConfigurations(declared, frozenset(made), frozenset(asked), whole, file.substitutes_parameters)
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:

@@ -35,8 +35,8 @@ def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[P
     if not package.launch:  # so it is with most packages, and many rules ask
         return
     script = package.built
-    installed = {provided.source: provided.conditional for provided in script.provides if provided.source}
-    tests = frozenset(script.runs or ())
+    installed = {provided.source: provided.conditional for provided in script.installs if provided.source}
+    tests = frozenset(script.interpreted_tests or ())
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.python_packages)
     for file in package.launch:
         path = strip_folder(package.path, file.path)
@@ -62,7 +62,7 @@ def used_files(package: Package) -> frozenset[str]:
     files = set(script.installed)
     files.update(source for target in script.targets if not target.test for source in target.sources)
     files.update(launch.path for launch in package_launch_files(package))
-    files.update(strip_folder(package.path, path) for path in (script.path, *(call.path for call in script.written)))
+    files.update(strip_folder(package.path, path) for path in (script.path, *(call.path for call in script.calls)))
     return frozenset(files).union([file for file in package.files if file.startswith(modules)])
 
 
@@ -104,7 +104,7 @@ def installed_programs(package: Package) -> InstalledPrograms | None:
         return None
     names: set[str] = set()
     elsewhere: dict[str, str] = {}
-    for provided in script.provides:
+    for provided in script.installs:
         folder, _, name = provided.path.rpartition("/")
         if folder == f"lib/{package.name}":
             names.add(name)
@@ -124,7 +124,7 @@ def launch_suffix(path: str) -> str:
 
 def is_excluded_from_install(package: Package, path: str) -> bool:
     """Whether a launch file that is not installed is so on purpose: a rule that installs its like leaves it out."""
-    folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.provides
+    folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.installs
     if not suffix:
         return False
     together = Counter(provided.span for provided in provides)
@@ -172,7 +172,7 @@ def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
                 if reference.kind in ("file", "include") and not reference.optional:
                     one = LookUp(reference.package, reference.name, reference.span)
                     found.setdefault(one.package, []).append(one)
-        for look_up in package.look_ups:
+        for look_up in package.lookups:
             if not is_auxiliary(strip_folder(package.path, look_up.span.path)):
                 found.setdefault(look_up.package, []).append(look_up)
     return found

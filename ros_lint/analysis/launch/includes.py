@@ -49,7 +49,7 @@ def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[t
     """Yield those files of a package that it installs below share/<package>, each with its path there."""
     by_source = {strip_folder(package.path, file.path): file for file in files}
     share = f"share/{package.name}/"
-    for provided in package.built.provides if by_source else ():
+    for provided in package.built.installs if by_source else ():
         file = by_source.get(provided.source)
         if file is not None and provided.path.startswith(share):
             yield file, provided.path[len(share) :]
@@ -158,7 +158,7 @@ class IncludeResolver:
 
 def configurations_read(file: LaunchFile) -> set[str]:
     """Return the launch configurations that a file asks for, UNKNOWN among them if others may be meant."""
-    found = set(file.asks)
+    found = set(file.configurations_read)
     if file.language == "python":  # of the others, the text says it all
         for action in walk_actions(file.actions):
             for text, _ in values_of_action(action):

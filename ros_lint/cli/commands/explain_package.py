@@ -99,19 +99,19 @@ def _provides(package: Package) -> Iterator[_Row]:
         yield _Row(target.name, f"{target.kind} target{', test only' if target.test else ''}", target.span)
     for component in script.components:
         yield _Row(component.name, f"component{_maybe(component.conditional)}", component.span)
-    for plugin in script.plugins:
+    for plugin in script.plugin_files:
         for library in plugin.libraries:
             for one in library.classes:
                 yield _Row(one.name, f"plugin for {one.base}", one.span)
     for entry in script.entry_points:
         yield _Row(entry.name, f"{entry.group}: {entry.target}", entry.span)
-    start = script.name_span or package.place
+    start = script.name_span or package.span
     yield from (_Row(interface, "interface", start) for interface in script.interfaces)
     yield from (_Row(module, "Python module", start) for module in script.python_packages)
 
 
 def _installs(package: Package) -> Iterator[_Row]:
-    for provided in sorted(package.built.provides, key=lambda provided: provided.path):
+    for provided in sorted(package.built.installs, key=lambda provided: provided.path):
         built = f"built as {provided.target}" if provided.target else "generated"
         source = f"from {provided.source}" if provided.source else built
         program = ", executable" if provided.program else ""

@@ -66,10 +66,10 @@ class References:
             self._action(action, conditional=False)
 
     def _action(self, action: LaunchAction, conditional: bool) -> None:
-        if not action.conditions and not action.lent:
+        if not action.conditions and not action.builtin_model:
             self._taken(action, conditional)
             return
-        with self._under(action.conditions, lent=action.lent) as somewhere:
+        with self._under(action.conditions, lent=action.builtin_model) as somewhere:
             if somewhere:
                 self._taken(action, conditional or bool(action.conditions))
 
@@ -273,7 +273,7 @@ class References:
             return
         with self._under(conditions) as somewhere:
             if somewhere and not any(
-                reference.package == package and reference.conditional <= bool(conditions) and not reference.by_default
+                reference.package == package and reference.conditional <= bool(conditions) and not reference.from_default
                 for reference in self.found
             ):
                 self._add("package", package, "", value, value, bool(conditions), by_default=False)
@@ -331,7 +331,9 @@ class References:
         asked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
         if asked:
             self.found = {
-                one._replace(asked=True) if one.kind in ("file", "include") and (one.package, one.name) in asked else one: None
+                one._replace(existence_checked=True)
+                if one.kind in ("file", "include") and (one.package, one.name) in asked
+                else one: None
                 for one in self.found
             }
 

@@ -64,9 +64,9 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     return FileFacts(
         tuple(mentions),
         (*opaque, *looked_up.opaque),
-        look_ups=looked_up.files,
-        caught=tuple([item.module for item in found if item.caught]),
-        added=added,
+        lookups=looked_up.files,
+        optional_modules=tuple([item.module for item in found if item.caught]),
+        path_additions=added,
         sets_path="sys.path" in source.text,
         programs=_programs(source.text),
         types=tuple(_types(source, zip(named, spans, strict=True))),

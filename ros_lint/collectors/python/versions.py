@@ -43,7 +43,7 @@ MATH: Final = frozenset(dir(math)) | {"cbrt", "exp2", "fma", "sumprod"}
 
 def too_new(syntax: Iterable[NewerSyntax], target: TargetDistro) -> Iterator[Problem]:
     """Yield the constructs that the Python of a distribution refuses. None where nobody chose the distribution."""
-    runs = PYTHON_OF.get(target.distro) if target.told else None
+    runs = PYTHON_OF.get(target.distro) if target.explicit else None
     for construct, version, span in syntax:
         if runs is not None and runs < version:
             needs, has = (".".join(map(str, one)) for one in (version, runs))

@@ -90,7 +90,7 @@ def _packages(source: Text) -> FileFacts:
     spans = source.spans(found[name] for name in names)
     return FileFacts(
         tuple(Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)),
-        look_ups=looked_up,
+        lookups=looked_up,
     )
 
 

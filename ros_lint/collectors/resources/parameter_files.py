@@ -43,7 +43,7 @@ def collect(source: Text) -> ParameterFile | None:
         return found
     from ros_lint.collectors.launch.markup.collect import asks  # noqa: PLC0415  (few files of parameters are filled in)
 
-    return found._replace(asks=asks(source.text))
+    return found._replace(configurations_read=asks(source.text))
 
 
 def _collected(source: Text) -> ParameterFile | None:

@@ -13,7 +13,7 @@ from ros_lint.facts.setup_py import EditableList
 
 def slot(script: BuildScript, option: str) -> EditableList | None:
     """Return the list of an option, None when it is not written out or is empty."""
-    return next((found for found in script.slots if found.option == option and found.size), None)
+    return next((found for found in script.editable_lists if found.option == option and found.size), None)
 
 
 def add(to: EditableList, element: str) -> Edit:
@@ -25,7 +25,7 @@ def add(to: EditableList, element: str) -> Edit:
 def place(script: BuildScript) -> Span:
     """Return where a build script says what is installed: where a rule can be added, or else where it names the package."""
     found = slot(script, "data_files")
-    return script.end or (found.end if found else script.name_span) or file_start(script.path)
+    return script.insertion or (found.end if found else script.name_span) or file_start(script.path)
 
 
 def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
@@ -89,7 +89,7 @@ _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
 def program_folders(script: BuildScript) -> dict[str, Span]:
     """Return the places where setup.cfg says where programs go, by section and option as ``install.install_scripts``."""
     wanted = {f"{section}.{option}" for section, option in _FOLDERS}
-    return {text.text: text.span for text in script.texts if text.kind == "option" and text.text in wanted}
+    return {text.text: text.span for text in script.editable_texts if text.kind == "option" and text.text in wanted}
 
 
 def config(place: Span, package: str) -> Edit:
@@ -102,7 +102,7 @@ def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
 
     Nothing where there is none.
     """
-    headers = {text.text: text.span for text in script.texts if text.kind == "section"}
+    headers = {text.text: text.span for text in script.editable_texts if text.kind == "section"}
     end = headers.get("")
     if end is None:
         return ()

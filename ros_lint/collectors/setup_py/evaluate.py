@@ -79,7 +79,7 @@ def evaluate(
         python_packages=tuple(sorted({*script.python_packages, *program.generated})),
         opaque=tuple(dict.fromkeys([*script.opaque, *found])),
         problems=tuple(dict.fromkeys([*script.problems, *(cfg.problems if cfg else ())])),
-        texts=cfg.texts if cfg else (),
+        editable_texts=cfg.texts if cfg else (),
     )
 
 
@@ -175,10 +175,10 @@ def _with(
         name_span=place(name, call) if isinstance(name, str) else None,
         version=str(version) if isinstance(version, str) else "",
         version_span=place(version, call) if isinstance(version, str) else None,
-        provides=(*script.provides, *distribution.provides),
+        installs=(*script.installs, *distribution.provides),
         entry_points=(*script.entry_points, *distribution.entry_points),
         python_packages=(*script.python_packages, *distribution.python_packages),
-        moved=(*script.moved, *distribution.moved),
+        relocated_modules=(*script.relocated_modules, *distribution.moved),
         opaque=(*script.opaque, *distribution.opaque),
         problems=(*script.problems, *distribution.problems),
     )

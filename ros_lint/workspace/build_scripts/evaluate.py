@@ -52,11 +52,11 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], ar
 
     seen = sources(tree, parts, around)
     script = cmake.evaluate(seen, distro, helpers)
-    if script.extras and parts.found.name not in opaque_packages():
+    if script.config_extras and parts.found.name not in opaque_packages():
         helpers[parts.found.name] = Helper(seen, script)
     folder = parts.found.path
     written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
-    return script._replace(written=tuple(chain.from_iterable(written)))
+    return script._replace(calls=tuple(chain.from_iterable(written)))
 
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
@@ -76,9 +76,9 @@ def _python(tree: Tree, found: DiscoveredPackage) -> BuildScript | None:
     unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
     opaque = [Opaque(ALL_FACETS, "it cannot be read", file_start(path)) for path in unread]
     return script._replace(
-        slots=slots,
-        texts=(*script.texts, *texts),
-        modules=tuple(_modules(tree, found, script)),
+        editable_lists=slots,
+        editable_texts=(*script.editable_texts, *texts),
+        entry_point_modules=tuple(_modules(tree, found, script)),
         opaque=(*script.opaque, *opaque),
     )
 

@@ -34,15 +34,15 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
 
     ``commands`` are its CMake files, by path relative to the package.
     """
-    named = {call.texts[1] for call in script.written if call.name.startswith("pluginlib_export") and len(call.args) > 1}
+    named = {call.texts[1] for call in script.calls if call.name.startswith("pluginlib_export") and len(call.args) > 1}
     markup = [file for file in found.files if file.endswith(".xml")]
     candidates = [file for file in markup if file in named or _PLUGIN_FILE.search(file)]
     described = (plugin_xml.collect(file, text) for file in candidates if (text := text_in(tree, found, file)))
     plugins = tuple([plugin for plugin in described if plugin])
     started = (f"lib/{found.name}/", "bin/")
-    sources = dict.fromkeys([p.source for p in script.provides if p.source and p.path.startswith(started)])
+    sources = dict.fromkeys([p.source for p in script.installs if p.source and p.path.startswith(started)])
     folders = {file.rpartition("/")[0] for file in sources}
-    if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.provides):
+    if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.installs):
         folders.add(found.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = Executables(tree, found)
@@ -60,10 +60,10 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
     in_sources = [data for _, data in every if macros and macros.search(data)]
     pages = [*contents(tree, found.path, (file for file in found.files if file.endswith(".md")))] if missing else []
     return script._replace(
-        plugins=plugins,
-        files=tuple(files),
-        named=tuple(_named(tree, found, missing, naming)),
-        inputs=(
+        plugin_files=plugins,
+        scripts=tuple(files),
+        referenced_resources=tuple(_named(tree, found, missing, naming)),
+        build_inputs=(
             *_inputs(commands, missing, [file.path for file in files]),
             *_read_in_sources(found, missing, [*naming, *pages]),
             *(f"{folder}/" for folder in missing if any(b'"/%s/' % to_bytes(folder) in data for data in in_sources)),
@@ -187,7 +187,7 @@ def _with_runs(tree: Tree, found: DiscoveredPackage, script: BuildScript, files:
         lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
         run = _run(tree, found, lost, _TELLS) if lost else {}
         return [file._replace(run=run.get(file.path)) for file in files] if run else files
-    names = {provided.path.rpartition("/")[2] for provided in script.provides if not provided.path.startswith("share/")}
+    names = {provided.path.rpartition("/")[2] for provided in script.installs if not provided.path.startswith("share/")}
     named = {entry.module.replace(".", "/") for entry in script.entry_points}
     inside = (file for file in found.files if file.startswith(f"{found.name}/") and file.endswith(".py"))
     modules = [file for file in inside if file.removesuffix(".py") not in named]

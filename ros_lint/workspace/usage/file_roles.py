@@ -139,7 +139,7 @@ class FileRoles:
 
     def _may_be_launched(self, path: str) -> bool:
         """Whether a file among the tests is a launch file, and not one that is left out of what is known to be run."""
-        sees_all = self._script.runs is not None or self._tests_nothing
+        sees_all = self._script.interpreted_tests is not None or self._tests_nothing
         return path in self._launched and (not sees_all or path in self._installed)
 
     def _is_of_ros_1(self, path: str) -> bool:
@@ -149,7 +149,7 @@ class FileRoles:
 
     def _is_of_tests(self, path: str) -> bool:
         """Whether a file lies in a folder that is built for tests only, and is not installed out of there all the same."""
-        of_tests = tuple([f"{folder}/" for folder in self._script.test_folders])
+        of_tests = tuple([f"{folder}/" for folder in self._script.test_subdirectories])
         return path.startswith(of_tests) and path not in self._always_installed
 
     def _is_of_python_package(self, path: str, *, idle: bool) -> bool:
@@ -166,7 +166,7 @@ class FileRoles:
     def _is_run(self, path: str) -> bool:
         """Whether a file in Python is run as a test, or lies beside one."""
         folder, _, name = path.rpartition("/")
-        runs = self._script.runs
+        runs = self._script.interpreted_tests
         if runs is None:
             return _is_test(name) or folder in self._folders_with_tests
         if path in runs or "" in runs or path.startswith(tuple([f"{each}/" for each in runs])):
@@ -188,7 +188,7 @@ class FileRoles:
     @cached_property
     def _sees_sources(self) -> bool:
         """Whether it is known of every target what it is made of."""
-        return all(target.whole for target in self._script.targets)
+        return all(target.sources_known for target in self._script.targets)
 
     @cached_property
     def _named(self) -> frozenset[str]:
@@ -208,7 +208,9 @@ class FileRoles:
     def _idle(self) -> frozenset[str]:
         """Folders with projects of their own that are no sure part of the build of this one."""
         split = (file.rpartition("/") for file in self._files)
-        return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(self._script.entered)
+        return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(
+            self._script.subdirectories
+        )
 
     @cached_property
     def _runs_python_tests(self) -> bool:
@@ -233,7 +235,7 @@ class FileRoles:
 
     @cached_property
     def _installed_headers(self) -> frozenset[str]:
-        return frozenset([p.source for p in self._script.provides if p.path.startswith("include/")])
+        return frozenset([p.source for p in self._script.installs if p.path.startswith("include/")])
 
     @cached_property
     def _public(self) -> frozenset[str]:
@@ -257,14 +259,16 @@ class FileRoles:
         script = self._script
         if not self._sees_targets or not self._sees_sources or not self._production:
             return frozenset()
-        if any(target.kind != "executable" for target in script.targets if not target.test) or _OFFERS.intersection(script.calls):
+        if any(target.kind != "executable" for target in script.targets if not target.test) or _OFFERS.intersection(
+            script.command_names
+        ):
             return frozenset()
         return self._public - self._own.reached(self._installed_headers) - self._production - self._tests - self._optional
 
     @cached_property
     def _installed_for_tests(self) -> frozenset[str]:
         """Files that are installed only where tests are wanted."""
-        provides = self._script.provides
+        provides = self._script.installs
         always = {p.source for p in provides if not p.test}
         return frozenset([p.source for p in provides if p.test and p.source not in always])
 
@@ -287,7 +291,7 @@ class FileRoles:
     @cached_property
     def _optional(self) -> frozenset[str]:
         """Files that are compiled, or included by what is, in some builds only."""
-        sources = {source for target in self._script.targets for source in target.optional}
+        sources = {source for target in self._script.targets for source in target.optional_sources}
         return self._own.reached(sources) - self._production - self._tests if sources else frozenset()
 
     @cached_property
@@ -301,8 +305,10 @@ class FileRoles:
         sometimes: dict[str, list[set[str]]] = {}
         for target in self._script.targets:
             if target.test is test:
-                found.update(target.sources if not target.optional else set(target.sources).difference(target.optional))
-                sometimes.setdefault(target.name, []).append(set(target.optional))
+                found.update(
+                    target.sources if not target.optional_sources else set(target.sources).difference(target.optional_sources)
+                )
+                sometimes.setdefault(target.name, []).append(set(target.optional_sources))
         for alternatives in sometimes.values():
             if len(alternatives) > 1:
                 found |= set.intersection(*alternatives)
@@ -316,7 +322,7 @@ class FileRoles:
     @cached_property
     def _started(self) -> frozenset[str]:
         """What people start, whatever its name: launch files and programs that are always installed, and entry points."""
-        always = [(p.source, p.path) for p in self._script.provides if p.source and not p.conditional]
+        always = [(p.source, p.path) for p in self._script.installs if p.source and not p.conditional]
         found = {source for source, path in always if source in self._launched or path.startswith(_PROGRAMS)}
         commands = [entry for entry in self._script.entry_points if entry.group in ("console_scripts", "gui_scripts")]
         modules = [entry.module.replace(".", "/") for entry in commands]
@@ -324,7 +330,7 @@ class FileRoles:
 
     @cached_property
     def _always_installed(self) -> frozenset[str]:
-        always = [p.source for p in self._script.provides if p.source and not p.conditional]
+        always = [p.source for p in self._script.installs if p.source and not p.conditional]
         return self._in_python_packages.union(always)
 
     @cached_property
@@ -340,7 +346,7 @@ class FileRoles:
 
     @cached_property
     def _installed_python(self) -> frozenset[str]:
-        found = {p.source for p in self._script.provides if p.source and p.path.startswith(_PROGRAMS)}
+        found = {p.source for p in self._script.installs if p.source and p.path.startswith(_PROGRAMS)}
         return self._in_python_packages | found
 
     @cached_property
@@ -349,7 +355,7 @@ class FileRoles:
         if not self._script.python_packages:
             return frozenset()
         packages = [name.replace(".", "/") for name in self._script.python_packages]
-        moved = self._script.moved
+        moved = self._script.relocated_modules
         inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
         modules = frozenset([*moved, *(f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in"))])
         below = [file for file in self._files if file.startswith(inside)]

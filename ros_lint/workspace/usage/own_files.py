@@ -53,7 +53,7 @@ class OwnFiles:
         """
         found: set[str] = set()
         for path in importers:
-            for name in self.facts[path].caught:
+            for name in self.facts[path].optional_modules:
                 module = name.lstrip(".")
                 if module != name:
                     folders = path.split("/")[: len(module) - len(name)]
@@ -81,7 +81,7 @@ class OwnFiles:
         Left out are tests, sources that some builds leave out, and targets that get headers from nobody knows where.
         """
         targets = [each for each in (self.script or NOTHING_BUILT).targets if each.headers is not None and not each.test]
-        sources = dict.fromkeys([source for each in targets for source in each.sources if source not in each.optional])
+        sources = dict.fromkeys([source for each in targets for source in each.sources if source not in each.optional_sources])
         return {source: self._along(source) for source in sources if source in self.facts}
 
     def _along(self, source: str) -> frozenset[str]:
@@ -186,9 +186,9 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
     setuptools installs no folder that is not among the packages.
     """
     yield from _unlisted(files, script, facts)
-    provides = script.provides
+    provides = script.installs
     programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
-    modules = [(each.name, each.path) for each in script.modules if each.path in facts and "." in each.name]
+    modules = [(each.name, each.path) for each in script.entry_point_modules if each.path in facts and "." in each.name]
     if not (programs or modules):
         return
     known = frozenset(files)
@@ -219,7 +219,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
     if not script.python_packages or script.of_cmake:
         return
     packages = frozenset(script.python_packages)
-    started = {module.path for module in script.modules}
+    started = {module.path for module in script.entry_point_modules}
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
     known = frozenset(files)
     for path, each in facts.items():
@@ -229,7 +229,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
             continue
         for mention in each.mentions:
             name = mention.name
-            if mention.via != "import" or mention.optional or name.partition(".")[0] in each.caught:
+            if mention.via != "import" or mention.optional or name.partition(".")[0] in each.optional_modules:
                 continue
             if f"{top}{name.replace('.', '/')}.py" in known:
                 name = name.rpartition(".")[0]
@@ -243,7 +243,7 @@ def _beside(source: str, facts: FileFacts, files: Container[str], folders: Conta
     here = source[: source.rfind("/") + 1]
     for name, via, span, _, optional, _, _ in facts.mentions:
         module = name.partition(".")[0]
-        if via != "import" or optional or not module or module in facts.caught:
+        if via != "import" or optional or not module or module in facts.optional_modules:
             continue
         beside = f"{here}{module}.py" if f"{here}{module}.py" in files else f"{here}{module}/"
         if beside in files or beside[:-1] in folders:

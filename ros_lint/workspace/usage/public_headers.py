@@ -14,7 +14,7 @@ def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[s
     They include a file of the package that is not installed, or one that Qt makes of a form (``ui_*.h``), or another such
     header. ``facts`` are by path relative to the package, as are ``files`` and what is returned.
     """
-    provided = [each for each in script.provides if each.path.startswith("include/")]
+    provided = [each for each in script.installs if each.path.startswith("include/")]
     headers = sorted({each.source for each in provided if each.source in facts})
     if not headers:
         return ()

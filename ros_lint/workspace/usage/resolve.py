@@ -203,7 +203,7 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
 def _add_script(source: Source, uses: _Uses) -> None:
     """Add what the build script names, and what it is said to search on behalf of others."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
-    untaken = frozenset(source.built.untaken)
+    untaken = frozenset(source.built.unused_optional_finds)
     for mention in source.built.mentions:
         if mention.purpose == "plugins":
             continue  # who loads them need not be there, and the base class is in headers
@@ -213,7 +213,7 @@ def _add_script(source: Source, uses: _Uses) -> None:
         ours.append(mention._replace(optional=True) if only_named else mention)
     for (path, role), mentions in by_role.items():
         uses.add(strip_folder(source.path, path), mentions, role, role, sure=True)
-    for mention, always in source.built.handed_on:
+    for mention, always in source.built.exported_packages:
         uses.add(strip_folder(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
     _unspoken(source, uses)
 
@@ -227,11 +227,11 @@ class _Uses:
         self._own = own
         self._alive = alive
         self._absent = resolver.names.awaited.uncloned
-        self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].caught])
-        self._added = frozenset([span for facts in source.facts.values() for span in facts.added])
+        self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].optional_modules])
+        self._added = frozenset([span for facts in source.facts.values() for span in facts.path_additions])
         script = source.built
-        self._reaches_out = script.reaches_out
-        self._bundled = frozenset([name.lower() for name in script.bundled])
+        self._reaches_out = script.includes_outside_package
+        self._bundled = frozenset([name.lower() for name in script.bundled_projects])
         self._found_always = frozenset(
             [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)]
         )
@@ -304,7 +304,7 @@ class _Uses:
 
 def _lenient(source: Source, alive: FileRoles) -> list[str]:
     """Return the files of the package that import something and go on without, tests aside."""
-    return [path for path, facts in source.facts.items() if facts.caught and alive.place(path)[0] is not _TEST]
+    return [path for path, facts in source.facts.items() if facts.optional_modules and alive.place(path)[0] is not _TEST]
 
 
 def _unspoken(source: Source, uses: _Uses) -> None:

@@ -101,7 +101,7 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     None where names are put together, so that they need not stand there.
     """
     made = {registration.name for registration in package.registrations}
-    plugins = package.built.plugins
+    plugins = package.built.plugin_files
     described = [one.type for plugin in plugins for library in plugin.libraries for one in library.classes]
     wanted = [name for name in dict.fromkeys(described) if name not in made]
     if not wanted:

@@ -48,7 +48,7 @@ def _reads_interfaces(package: Package) -> bool:
 def generated_from(package: Package) -> frozenset[str]:
     """Return the interface files, relative to the package, that code is generated from in every build, and installed with it."""
     script = package.built
-    if package.builds_with != "ament_cmake" or "rosidl_generate_interfaces" not in script.calls:
+    if package.builds_with != "ament_cmake" or "rosidl_generate_interfaces" not in script.command_names:
         return frozenset()
     ends = tuple([f"/{interface}.{interface.partition('/')[0]}" for interface in script.interfaces])
-    return frozenset([p.source for p in script.provides if p.source and p.path.endswith(ends) and not p.conditional])
+    return frozenset([p.source for p in script.installs if p.source and p.path.endswith(ends) and not p.conditional])

@@ -44,7 +44,7 @@ def makes_something(package: Package) -> bool:
     if script is None or package.opaque or builds_something(package):
         return True
     by_rote = ("share/ament_index/", f"share/{package.name}/package.xml", f"share/{package.name}/cmake/")
-    return any(not provided.path.startswith(by_rote) for provided in script.provides)
+    return any(not provided.path.startswith(by_rote) for provided in script.installs)
 
 
 def builds_something(package: Package) -> bool:
@@ -53,4 +53,4 @@ def builds_something(package: Package) -> bool:
     if script is None:
         return False
     made = script.targets or script.interfaces or script.python_packages or script.components
-    return bool(made) or any(provided.path.startswith("include/") for provided in script.provides)
+    return bool(made) or any(provided.path.startswith("include/") for provided in script.installs)

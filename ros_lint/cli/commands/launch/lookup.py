@@ -140,7 +140,7 @@ class LookUp:
         packages = self._workspace.by_name.get(package, ())
         name = path.removeprefix(f"share/{package}/")
         for one in packages:
-            for provided in one.built.provides:
+            for provided in one.built.installs:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is generated when the package is built", surely=False)
@@ -175,4 +175,4 @@ class LookUp:
 
 def _share_files(package: Package) -> list[str]:
     share_folder = f"share/{package.name}/"
-    return [one.path[len(share_folder) :] for one in package.built.provides if one.path.startswith(share_folder)]
+    return [one.path[len(share_folder) :] for one in package.built.installs if one.path.startswith(share_folder)]

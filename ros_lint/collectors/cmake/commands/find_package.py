@@ -90,7 +90,7 @@ def found(run: Run, name: str, *, required: bool) -> None:
     if name in run.included:
         return
     run.put(run.included, name, "1")
-    for source in helper.script.extras:
+    for source in helper.script.config_extras:
         if source in helper.sources.scripts:
             include_foreign(run, name, source)
         else:

@@ -25,7 +25,14 @@ def collect(source: Text) -> LaunchFile:
     found = launch_markup.read(source, root)
     asks = launch_markup.asks(source.text)
     return LaunchFile(
-        source.path, "xml", found.references, found.opaque, found.problems, actions=found.actions, asks=asks, newer=found.newer
+        source.path,
+        "xml",
+        found.references,
+        found.opaque,
+        found.problems,
+        actions=found.actions,
+        configurations_read=asks,
+        version_problems=found.newer,
     )
 
 

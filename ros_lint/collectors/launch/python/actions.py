@@ -45,7 +45,7 @@ def _include(walker: Walker, made: LaunchObject, conditions: Conditions) -> list
         target=target,
         package_span=walker.package_span(target),
         conditions=conditions,
-        lent=made.source.lent,
+        builtin_model=made.source.lent,
     )
     return [_given(one, passed) for one in walker.apart(include, given)]
 
@@ -56,7 +56,7 @@ def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
     return include._replace(
         arguments=tuple([(one.name, one.value) for one in together]),
         argument_spans=tuple([one.span for one in together]),
-        perhaps=_perhaps(together),
+        conditional_arguments=_perhaps(together),
     )
 
 

@@ -111,7 +111,7 @@ def _started(
         parameters=_parameters(walker, made),
         remappings=_remappings(walker, made),
         conditions=conditions,
-        lent=made.source.lent and not _is_handed(made.get(-1, "package")),
+        builtin_model=made.source.lent and not _is_handed(made.get(-1, "package")),
     )
 
 
