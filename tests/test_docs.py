@@ -118,13 +118,18 @@ def test_every_page_is_named_in_the_readme() -> None:
     assert [path.name for path in DOCUMENTS[1:] if f"](docs/{path.name})" not in text] == []
 
 
-def test_every_module_has_its_line_in_the_page_about_the_architecture() -> None:
+def test_every_room_has_its_line_in_the_page_about_the_architecture() -> None:
     text = (ROOT / "docs" / "architecture.md").read_text("utf-8")
-    table = "".join(line for line in text.splitlines() if line.startswith("|"))
-    modules = {path.name for path in (ROOT / "ros_lint").glob("*.py")} - {"__init__.py"}
-    rooms = {f"{path.parent.name}/" for path in (ROOT / "ros_lint").glob("*/__init__.py")}
-    named = set(re.findall(r"`([a-z_]+(?:\.py|/))`", table))
-    assert named == modules | rooms
+    named = set(re.findall(r"^\| `([a-z_]+(?:\.py|/))`", text, re.MULTILINE))
+    modules = {path.name for path in (ROOT / "ros_lint").glob("*.py")} - {"__init__.py", "__main__.py"}
+    assert named == modules | {f"{path.parent.name}/" for path in (ROOT / "ros_lint").glob("*/__init__.py")}
+
+
+def test_every_path_in_the_page_about_the_architecture_exists() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    paths = {path for path in re.findall(r"`([\w/]+/[\w/.]+)`", text) if "<" not in path}
+    lacking = [path for path in paths if not (ROOT / path).exists() and not (ROOT / "ros_lint" / path).exists()]
+    assert lacking == []
 
 
 def demo(*arguments: str) -> str:

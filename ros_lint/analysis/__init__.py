@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""What a rule is, and the questions that several rules ask of a package and its workspace."""

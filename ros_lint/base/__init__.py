@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Texts, spans, trees, paths and graphs: everything that knows nothing of ROS."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""The command line: arguments, settings, sessions and commands."""

@@ -1,1 +1,1 @@
-"""One module per format: each turns the text of a file into facts, and sees no other file."""
+"""Collectors: one package for each language or format, from texts to facts."""

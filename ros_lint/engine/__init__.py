@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Find, select and run rules; apply suppressions, the baseline and fixes."""

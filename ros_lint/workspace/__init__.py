@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""From a tree of files to the model: discover, collect, evaluate and join."""

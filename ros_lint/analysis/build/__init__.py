@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Questions about build scripts: targets, commands and edits of CMakeLists.txt."""

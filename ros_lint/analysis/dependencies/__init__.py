@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Questions about dependencies: what a package needs, declares and provides transitively."""

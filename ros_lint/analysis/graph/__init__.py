@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""The dependency graph of a workspace: order, cycles and metrics."""

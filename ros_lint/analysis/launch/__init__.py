@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Questions about launch files: includes, configurations, and what they start."""

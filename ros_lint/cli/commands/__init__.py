@@ -1,1 +1,1 @@
-"""The commands of ros-lint, beside the check: questions to the same model."""
+"""One module for each command."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""CMakeLists.txt: syntax, evaluation and the effects of commands."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""C++ sources: includes, types, look-ups and registrations."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Interface definitions: msg, srv and action files."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""package.xml: reading, conditions, problems and edits."""

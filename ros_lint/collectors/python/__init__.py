@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Python sources: imports, look-ups, names and syntax."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Other resources: plugin descriptions, parameter files, models and displays."""

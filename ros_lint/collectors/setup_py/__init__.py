@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""setup.py and setup.cfg: evaluation and edits."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Refresh the data of the released world from rosdistro and rosdep."""

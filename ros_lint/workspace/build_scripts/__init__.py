@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Evaluate the build scripts of packages, and the files that belong to them."""

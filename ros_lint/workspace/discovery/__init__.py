@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Find packages as colcon does."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""What the files of a package use, and how certain that is."""

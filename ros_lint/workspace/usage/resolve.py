@@ -1,4 +1,4 @@
-"""From mentions to uses: whose name is it, what is it needed for, and is the place alive?
+"""From mentions to uses: resolve each named header, module or package to the package to declare, with its role.
 
 Names are not packages: a header path, a Python module, the argument of find_package and a package name live in four name
 spaces (reference, sections C2b, D6, E3.8). This module is the only one that goes from one to the other.

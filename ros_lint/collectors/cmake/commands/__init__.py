@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""The effects of CMake commands, one module for each family."""

@@ -1,1 +1,1 @@
-"""Static evaluation: what build scripts do, worked out without running them."""
+"""The CMake language: variables, conditions, loops, functions and paths."""

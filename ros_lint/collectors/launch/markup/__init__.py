@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""Launch files in XML and YAML."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""An interpreter of Python that follows programs symbolically and executes nothing."""

@@ -1,1 +1,1 @@
-"""TODO: one line."""
+"""An evaluator of setup.py that executes nothing."""
