@@ -294,7 +294,7 @@ def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
     (site / "mine-1.0.dist-info" / "entry_points.txt").write_text("[ros_lint.rules]\nmine = mine_rules\n")
     (site / "mine_rules.py").write_text(
         "from ros_lint.api import Finding, Rule, Severity\n"
-        "def check(package, workspace):\n    yield Finding('mine', package.place, package.name)\n"
+        "def check(package, workspace):\n    yield Finding('mine', package.span, package.name)\n"
         "RULE = Rule('mine', 'MY001', 'all is mine', Severity.ERROR, '1.0', '', package=check)\n"
     )
     path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])

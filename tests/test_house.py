@@ -77,5 +77,7 @@ def test_every_module_has_a_docstring_of_one_sentence() -> None:
 
 
 def test_the_package_has_few_rooms() -> None:
-    names = {path.name.removesuffix(".py") for path in (ROOT / "ros_lint").iterdir() if not path.name.startswith("_")} - {"py.typed"}
+    names = {path.name.removesuffix(".py") for path in (ROOT / "ros_lint").iterdir() if not path.name.startswith("_")} - {
+        "py.typed"
+    }
     assert len(names) <= 12, sorted(names)

@@ -24,13 +24,14 @@ from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
 from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
-from ros_lint.facts.launch import values_of_action, walk_actions
+from ros_lint.facts.launch import LAUNCH_RUNTIME, values_of_action, walk_actions
 
 if TYPE_CHECKING:
     from ros_lint.collectors.launch.expand import Started as Started  # noqa: PLC0414
 
 __all__ = [
     "LAUNCH_FILE_NAMES",
+    "LAUNCH_RUNTIME",
     "FailingExpression",
     "IncludeResolver",
     "IncludeTree",

@@ -148,7 +148,7 @@ class BuildScript(NamedTuple):
     config_extras: tuple[str, ...] = ()
     """CMake files, relative to the package, whose code runs in every package that finds this one (CONFIG_EXTRAS)."""
     calls: tuple[Call, ...] = ()
-    """Commands of its CMake files as they stand there, file by file: those that rules and fixes ask for."""
+    """The commands of its CMake files as they are written, file by file."""
     entry_point_modules: tuple[PythonModule, ...] = ()
     """Modules that its entry points name."""
     plugin_files: tuple[PluginFile, ...] = ()

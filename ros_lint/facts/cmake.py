@@ -29,7 +29,7 @@ class BuildTarget(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A command of a CMake file as it is written, not evaluated; only those that rules and fixes ask for."""
+    """A command of a CMake file as it is written, not evaluated."""
 
     name: str
     """In lower case."""

@@ -8,6 +8,12 @@ from typing import Final, Literal, NamedTuple
 from ros_lint.base.text import Span
 from ros_lint.facts.visibility import NewerSyntax, Opaque, Problem
 
+LAUNCH_LIBRARIES: Final = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml"})
+"""The Python packages of ``ros2 launch`` itself."""
+
+LAUNCH_RUNTIME: Final = LAUNCH_LIBRARIES | {"ament_index_python"}
+"""The Python packages that every installation of ``ros2 launch`` has."""
+
 
 class LaunchValue(NamedTuple):
     """What a text in a launch file can be when it runs."""

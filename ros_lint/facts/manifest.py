@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import Flag, auto
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ros_lint.base.sealed import Sealed
 from ros_lint.base.text import Span
@@ -22,17 +23,36 @@ class Role(Sealed, Flag):
     """To run on the build machine."""
 
 
-ROLES = {
-    "depend": Role.BUILD | Role.EXPORT | Role.EXEC,
-    "build_depend": Role.BUILD,
-    "buildtool_depend": Role.TOOL,
-    "build_export_depend": Role.EXPORT,
-    "buildtool_export_depend": Role.TOOL | Role.EXPORT,
-    "exec_depend": Role.EXEC,
-    "run_depend": Role.EXPORT | Role.EXEC,
-    "test_depend": Role.TEST,
+class DependencyKind(NamedTuple):
+    """What a dependency tag means to ROS, to colcon and in the data of the released world."""
+
+    role: Role
+    letters: str
+    """In the index of the released world: b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc,
+    G group, M membership."""
+    phases: tuple[str, ...]
+    """The categories of colcon-ros that order packages; () if the tag orders none."""
+
+
+DEPENDENCY_KINDS: Final[Mapping[str, DependencyKind]] = {
+    "depend": DependencyKind(Role.BUILD | Role.EXPORT | Role.EXEC, "bex", ("build", "run")),
+    "build_depend": DependencyKind(Role.BUILD, "b", ("build",)),
+    "buildtool_depend": DependencyKind(Role.TOOL, "t", ("build",)),
+    "build_export_depend": DependencyKind(Role.EXPORT, "e", ("run",)),
+    "buildtool_export_depend": DependencyKind(Role.TOOL | Role.EXPORT, "u", ("run",)),
+    "exec_depend": DependencyKind(Role.EXEC, "x", ("run",)),
+    "run_depend": DependencyKind(Role.EXPORT | Role.EXEC, "ex", ("run",)),
+    "test_depend": DependencyKind(Role.TEST, "s", ("test",)),
+    "doc_depend": DependencyKind(Role(0), "d", ()),
+    "group_depend": DependencyKind(Role(0), "G", ()),
+    "member_of_group": DependencyKind(Role(0), "M", ()),
+    "conflict": DependencyKind(Role(0), "", ()),
+    "replace": DependencyKind(Role(0), "", ()),
 }
-"""What each dependency tag gives (REP 127, 140, 149; reference, section A1.4). Other tags give nothing."""
+"""What each dependency tag means (REP 127, 140 and 149; colcon_ros/package_identification/ros.py)."""
+
+ROLES: Final[Mapping[str, Role]] = {tag: kind.role for tag, kind in DEPENDENCY_KINDS.items() if kind.role}
+"""The role of each tag that declares a need."""
 
 
 class Element(NamedTuple):

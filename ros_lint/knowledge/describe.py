@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.interfaces.naming import GROUP
 from ros_lint.collectors.manifest.conditions import ConditionError, build_types, parse, truth, variables
 from ros_lint.facts.environment import ROS_2
-from ros_lint.knowledge.index import BUILD_TYPES, TAG_KINDS, Released
+from ros_lint.facts.manifest import DEPENDENCY_KINDS
+from ros_lint.knowledge.index import BUILD_TYPES, Released
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,7 +31,7 @@ def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released
     for depend in manifest.depends:
         if not holds(depend.condition, variables_known):
             continue
-        kinds = TAG_KINDS.get(depend.tag, "")
+        kinds = DEPENDENCY_KINDS[depend.tag].letters
         if kinds == "M" and depend.name == GROUP:
             interfaces = True
             continue

@@ -25,21 +25,6 @@ KINDS = "bteuxsd"
 RUNTIME = frozenset("eux")
 """Kinds that come along with a package to whoever depends on it (reference, section E3.3)."""
 
-TAG_KINDS: Mapping[str, str] = {
-    "depend": "bex",
-    "build_depend": "b",
-    "buildtool_depend": "t",
-    "build_export_depend": "e",
-    "buildtool_export_depend": "u",
-    "exec_depend": "x",
-    "run_depend": "ex",
-    "test_depend": "s",
-    "doc_depend": "d",
-    "group_depend": "G",
-    "member_of_group": "M",
-}
-"""What each tag of a manifest gives (reference, section A1.4)."""
-
 BUILD_TYPES: Mapping[str, str] = {
     "c": "ament_cmake",
     "p": "ament_python",

@@ -42,7 +42,7 @@ class Member(NamedTuple):
     version: str
     depends: Mapping[str, tuple[str, ...]]
     """Declared names by letter, conditions that are false left out: b build, t buildtool, e build_export, u
-    buildtool_export, x exec, s test, d doc, G groups (:data:`ros_lint.knowledge.index.TAG_KINDS`)."""
+    buildtool_export, x exec, s test, d doc, G groups (:data:`ros_lint.facts.manifest.DEPENDENCY_KINDS`)."""
     groups: tuple[str, ...] = ()
     """That it is a member of."""
     modules: tuple[str, ...] | None = None

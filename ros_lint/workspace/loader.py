@@ -17,12 +17,11 @@ from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.facts.manifest import ROLES, Manifest, Role
+from ros_lint.facts.manifest import DEPENDENCY_KINDS, ROLES, Manifest, Role
 from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
 from ros_lint.knowledge import Knowledge
-from ros_lint.knowledge.index import TAG_KINDS
 from ros_lint.knowledge.providers import offered
 from ros_lint.knowledge.underlays import Underlay
 from ros_lint.knowledge.world import Member, World
@@ -305,7 +304,7 @@ def _member(name: str, manifest: Manifest | None, declared: Sequence[Declared]) 
 def _kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
     names: dict[str, list[str]] = {}
     for each in declared:
-        for kind in TAG_KINDS.get(each.depend.tag, ""):
+        for kind in DEPENDENCY_KINDS[each.depend.tag].letters:
             names.setdefault(kind, []).append(each.depend.name)
     return {kind: tuple(of_kind) for kind, of_kind in names.items()}
 

@@ -146,7 +146,7 @@ class Package(NamedTuple):
         return join(self.path, "CMakeLists.txt")
 
     def calls(self, *names: str, anywhere: bool = False) -> Iterator[Call]:
-        """Yield the calls of CMake commands, in order: in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files."""
+        """Yield the calls of CMake commands in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files."""
         if self.script is None:
             return
         calls = [call for call in self.script.calls if call.name in names]

@@ -88,7 +88,7 @@ from ros_lint.api import (
 _MOST_MISSING = 2
 """A file that reads more undeclared configurations is assumed to be a part of a file that sets them."""
 
-_QUIET = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python", "nav2_common", "xacro", "yaml"})
+_QUIET = launch.LAUNCH_RUNTIME | {"nav2_common", "xacro", "yaml"}
 """Modules that read no launch configurations, in addition to the Python standard library."""
 
 _DIGITS = re.compile(r"\d+")

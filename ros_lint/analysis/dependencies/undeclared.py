@@ -10,6 +10,7 @@ from ros_lint.analysis.dependencies.traceless import only_brings
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.dependencies.unresolved import intended_names, misspelled_names
 from ros_lint.analysis.memo import cached_by_package
+from ros_lint.facts.launch import LAUNCH_RUNTIME
 from ros_lint.facts.sources import Use
 from ros_lint.knowledge.spelling import is_part
 from ros_lint.workspace.model import Package, Workspace
@@ -147,11 +148,7 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
     return not all(use.span.path in helpers for use in uses)
 
 
-_LAUNCH = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml", "ament_index_python"})
-"""What ``ros2 launch`` brings along."""
-
-
 def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
     """Whether only launch files import it, and it is part of whatever can launch them (reference, section E2, row 15)."""
     launched = {launch.path for launch in package.launch}
-    return all(use.via == "import" and use.package in _LAUNCH and use.span.path in launched for use in uses)
+    return all(use.via == "import" and use.package in LAUNCH_RUNTIME and use.span.path in launched for use in uses)

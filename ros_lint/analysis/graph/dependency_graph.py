@@ -13,25 +13,13 @@ from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.memo import cached_by_workspace
-from ros_lint.facts.manifest import Role
+from ros_lint.facts.manifest import DEPENDENCY_KINDS, Role
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
     from ros_lint.base.text import Span
     from ros_lint.workspace.model import Package, Workspace
-
-_CATEGORIES = {
-    "depend": ("build", "run"),
-    "build_depend": ("build",),
-    "buildtool_depend": ("build",),
-    "build_export_depend": ("run",),
-    "buildtool_export_depend": ("run",),
-    "exec_depend": ("run",),
-    "run_depend": ("run",),
-    "test_depend": ("test",),
-}
-"""The tags that order packages, and the categories that colcon-ros puts them in."""
 
 Edge = tuple[str, str]
 """Who needs, and what is needed."""
@@ -160,8 +148,8 @@ def build(packages: Iterable[Package]) -> Graph:
 def _reasons(package: Package, members: Mapping[str, Iterable[str]]) -> Iterator[tuple[str, Reason]]:
     if package.type.startswith("ros."):  # otherwise colcon does not look into the manifest
         for declared in package.declared:
-            if categories := _CATEGORIES.get(declared.depend.tag):
-                reason = Reason(declared.depend.tag, categories, declared.depend.span, declared.certain)
+            if phases := DEPENDENCY_KINDS[declared.depend.tag].phases:
+                reason = Reason(declared.depend.tag, phases, declared.depend.span, declared.certain)
                 yield declared.name, reason
         for declared in package.group_depends:
             reason = Reason(declared.depend.tag, ("group",), declared.depend.span, declared.certain)

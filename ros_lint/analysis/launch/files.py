@@ -62,7 +62,9 @@ def used_files(package: Package) -> frozenset[str]:
     files = set(script.installed)
     files.update(source for target in script.targets if not target.test for source in target.sources)
     files.update(launch.path for launch in package_launch_files(package))
-    files.update(strip_folder(package.path, path) for path in (script.path, *(call.path for call in script.calls)))
+    # A file that only sets variables may be a product of CMake and no part of the build script.
+    scripts = (script.path, *(call.path for call in script.calls if call.name != "set"))
+    files.update(strip_folder(package.path, path) for path in scripts)
     return frozenset(files).union([file for file in package.files if file.startswith(modules)])
 
 

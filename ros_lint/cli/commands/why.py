@@ -9,6 +9,7 @@ from ros_lint.analysis.dependencies.explain import used_in
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.base.graph_paths import Paths, paths
 from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.facts.manifest import DEPENDENCY_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -16,12 +17,8 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Span
     from ros_lint.workspace.model import Declared, Package, Workspace
 
-_TAGS = {
-    "build_export_depend": "e",
-    "buildtool_export_depend": "u",
-    "exec_depend": "x",
-}
-"""What brings a released package along with another one (reference, section E3.3)."""
+_TAGS = {tag: DEPENDENCY_KINDS[tag].letters for tag in ("build_export_depend", "buildtool_export_depend", "exec_depend")}
+"""The tags by which a released package provides others transitively."""
 
 _MOST_USES = 2
 

@@ -9,10 +9,10 @@ from typing import Final
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.manifest.problems import ALLOWED, VERSIONS, find_problems, read_format, surely_accepted
 from ros_lint.collectors.manifest.xml import BLANK, Document, Fault, Node, attribute, child, markup, read, value
-from ros_lint.facts.manifest import ROLES, Depend, Element, Manifest
+from ros_lint.facts.manifest import DEPENDENCY_KINDS, Depend, Element, Manifest
 from ros_lint.facts.visibility import Problem
 
-DEPENDENCY_TAGS: Final = frozenset((*ROLES, "doc_depend", "conflict", "replace", "group_depend", "member_of_group"))
+DEPENDENCY_TAGS: Final = frozenset(DEPENDENCY_KINDS)
 """The tags that become a :class:`Depend`, whatever the format of the manifest (reference, section A1.4)."""
 
 _NEWEST_FORMAT = 3

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch.python.walker import span_of
+from ros_lint.facts.launch import LAUNCH_LIBRARIES
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
@@ -104,10 +105,7 @@ def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
     return any(
         isinstance(node, ast.ImportFrom)
         and not node.level
-        and (node.module or "").partition(".")[0] in _LIBRARIES
+        and (node.module or "").partition(".")[0] in LAUNCH_LIBRARIES
         and any(root.id == (alias.asname or alias.name) for alias in node.names)
         for node in ast.walk(tree)
     )
-
-
-_LIBRARIES = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml"})

@@ -48,27 +48,24 @@ from ros_lint.collectors.python.interpreter.values import (
 )
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
 from ros_lint.collectors.symbolic_text import fill, is_settled, joined
-from ros_lint.facts.launch import LaunchCondition
+from ros_lint.facts.launch import LAUNCH_RUNTIME, LaunchCondition
 
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
 
-_KNOWN = STANDARD_LIBRARY | frozenset(
-    [
-        "ament_index_python",
-        "launch",
+_KNOWN = (
+    STANDARD_LIBRARY
+    | LAUNCH_RUNTIME
+    | {
         "launch_param_builder",
         "launch_pytest",
-        "launch_ros",
         "launch_testing",
         "launch_testing_ros",
-        "launch_xml",
-        "launch_yaml",
         "moveit_configs_utils",
         "xacro",
         "yaml",
-    ]
+    }
 )
 """Libraries of which it is known what their classes and functions do. In a workspace that builds ROS itself their sources
 lie around, and say less."""
