@@ -1,23 +1,29 @@
-"""Test a rule with cases written in Markdown, for our own rules and for those of plugins.
+"""Test a rule with cases written in Markdown, for the rules of ros-lint and for those of plugins.
 
-A file of cases is named after its rule. Every ``##`` heading is one case, a small workspace: a line with nothing but a
-path in backticks, then a fenced block, is a file. In the files, comments say what is wanted:
+A file of cases is named after its rule. Every ``##`` heading is a case, a small workspace:
 
-    #include <std_msgs/msg/string.hpp>  // want "std_msgs is used"
-    # want+1 "..."                      (for a line that cannot bear a comment; want-1 looks up)
+- A line with nothing but a path in backticks, then a fenced block, is a file.
+- A line ``package robot (ament_cmake): depend rclcpp, exec_depend rviz2`` writes ``robot/package.xml``. The build type may be
+  left out; ``package robot (ament_cmake) in src/robot`` names another folder, ``.`` the root.
+- In files, comments say what is expected. A confidence or the name of a rule in brackets must be that of the finding:
 
-A block ``output`` is what the tool prints for the case, a block ``diff`` what its fixes change. Both are checked to the
-letter, and rewritten by ``pytest --bless``. A line ``settings: distro=humble, executable=scripts/a.py`` in the prose sets
-the distribution (jazzy if not said) and gives files the executable bit; ``settings: told=no`` makes the distribution an
-assumption; ``settings: underlay=opt`` takes the folder opt of the case for an underlay (mark it with COLCON_IGNORE).
+      #include <std_msgs/msg/string.hpp>  // want "std_msgs is used"
+      # want+1 [medium] "..."             (for a line that cannot hold a comment; want-1 looks up)
+
+- A block ``output`` is what the tool prints for the case, a block ``diff`` what its fixes change. Both are compared exactly, and
+  rewritten by ``pytest --bless``.
+- A block ``toml`` without a path holds settings: ``distro = "humble"`` (jazzy by default), ``chosen = false`` (the distribution is an
+  assumption), ``executable = ["scripts/a.py"]`` (files with the executable bit), ``underlay = "opt"`` (a folder of the case that is an
+  underlay; mark it with COLCON_IGNORE).
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.diff import unified
@@ -34,8 +40,27 @@ FENCE = re.compile(
     r"^(?:`(?P<path>[^`\n]+)`\n+)?(?P<fence>`{3,})(?P<kind>\w*)\n(?P<body>.*?)^(?P=fence)$", re.MULTILINE | re.DOTALL
 )
 HEADING = re.compile(r"^## (.+)$", re.MULTILINE)
-SETTINGS = re.compile(r"^settings: (.+)$", re.MULTILINE)
-WANT = re.compile(r'(?:#|//|<!--)[ \t]*want([+-]\d+)?((?:[ \t]+"[^"]*")+)')
+PACKAGE = re.compile(
+    r"^package (?P<name>[\w.-]+)(?: \((?P<type>\w+)\))?(?: in (?P<folder>[\w./-]+))?(?:: (?P<depends>[^\n]+))?$", re.MULTILINE
+)
+WANT = re.compile(r'(?:#|//|<!--)[ \t]*want(?P<offset>[+-]\d+)?(?:[ \t]*\[(?P<tags>[\w, -]+)\])?(?P<texts>(?:[ \t]+"[^"]*")+)')
+
+
+class Want(NamedTuple):
+    """A finding that a case expects."""
+
+    path: str
+    line: int
+    text: str
+    """A part of its message."""
+    tags: frozenset[str]
+    """Words that must be its confidence or its rule."""
+
+    def fits(self, issue: Issue) -> bool:
+        """Return whether a finding is the expected one."""
+        finding = issue.finding
+        here = (finding.span.path, finding.span.line) == (self.path, self.line)
+        return here and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}
 
 
 class Case(NamedTuple):
@@ -47,18 +72,19 @@ class Case(NamedTuple):
     output: str | None
     diff: str | None
     distro: str
-    told: bool
+    chosen: bool
+    """Whether the user named the distribution."""
     executable: frozenset[str]
     underlay: str
 
-    def wants(self) -> list[tuple[str, int, str]]:
-        """Return path, line and piece of message of every finding that is wanted."""
+    def wants(self) -> list[Want]:
+        """Return every finding that is expected."""
         return [
-            (path, number + int(match[1] or 0), text)
+            Want(path, number + int(match["offset"] or 0), text, frozenset(re.findall(r"[\w-]+", match["tags"] or "")))
             for path, body in self.files.items()
             for number, line in enumerate(body.split("\n"), 1)
             for match in WANT.finditer(line)
-            for text in re.findall(r'"([^"]*)"', match[2])
+            for text in re.findall(r'"([^"]*)"', match["texts"])
         ]
 
     def tree(self) -> MemoryTree:
@@ -66,32 +92,56 @@ class Case(NamedTuple):
 
 
 def read_cases(source: Path) -> Iterator[Case]:
-    """Yield the cases of a Markdown file."""
+    """Yield the cases of a Markdown file. Raises AssertionError for a setting that does not exist."""
     _, *parts = HEADING.split(source.read_text("utf-8"))
     for title, body in zip(parts[::2], parts[1::2], strict=True):
-        files: dict[str, str] = {}
+        files = dict(manifest(match) for match in PACKAGE.finditer(FENCE.sub("", body)))
         extra: dict[str, str] = {}
         for match in FENCE.finditer(body):
             if match["path"]:
                 files[match["path"]] = match["body"]
             else:
                 extra[match["kind"]] = match["body"]
-        settings: dict[str, list[str]] = {}
-        for line in SETTINGS.findall(FENCE.sub("", body)):
-            for word in line.split(","):
-                key, _, value = word.strip().partition("=")
-                settings.setdefault(key, []).append(value)
+        settings = _settings(extra.get("toml", ""))
         yield Case(
             title,
             source,
             files,
             extra.get("output"),
             extra.get("diff"),
-            settings.get("distro", ["jazzy"])[0],
-            settings.get("told", ["yes"])[0] == "yes",
-            frozenset(settings.get("executable", [])),
-            settings.get("underlay", [""])[0],
+            settings.pop("distro", "jazzy"),
+            settings.pop("chosen", True),
+            frozenset(settings.pop("executable", [])),
+            settings.pop("underlay", ""),
         )
+        assert not settings, f"{source.name}: {title}: unknown settings {sorted(settings)}"
+
+
+def _settings(text: str) -> dict[str, Any]:
+    if not text:
+        return {}
+    if sys.version_info >= (3, 11):
+        import tomllib  # noqa: PLC0415  (most cases have no settings)
+    else:
+        import tomli as tomllib  # noqa: PLC0415
+    settings: dict[str, Any] = tomllib.loads(text)
+    return settings
+
+
+def manifest(header: re.Match[str]) -> tuple[str, str]:
+    """Return path and text of the manifest that a line ``package NAME (TYPE) in FOLDER: TAG NAME, ...`` describes."""
+    folder = header["folder"] or header["name"]
+    depends = [depend.split() for depend in (header["depends"] or "").split(",") if depend.strip()]
+    lines = [
+        '<package format="3">',
+        f"  <name>{header['name']}</name><version>0.1.0</version><description>d</description>",
+        '  <maintainer email="a@b.org">A</maintainer><license>Apache-2.0</license>',
+        *(f"  <{tag}>{name}</{tag}>" for tag, name in depends),
+        *([f"  <export><build_type>{header['type']}</build_type></export>"] if header["type"] else []),
+        "</package>",
+        "",
+    ]
+    return ("package.xml" if folder == "." else f"{folder}/package.xml"), "\n".join(lines)
 
 
 def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
@@ -99,7 +149,7 @@ def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
 
     A rule about suppressions hears what all rules say. Raises AssertionError with the traceback when a rule crashes.
     """
-    target = TargetDistro(case.distro, "--distro" if case.told else "default", case.told)
+    target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
     every = registry.load()
@@ -116,13 +166,12 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
     issues = issues_of(tree, case, rule)
     wanted = case.wants()
     for issue in issues:
-        span, message = issue.finding.span, issue.finding.message
-        hit = next((want for want in wanted if want[:2] == (span.path, span.line) and want[2] in message), None)
-        if hit:
-            wanted.remove(hit)
+        match = next((want for want in wanted if want.fits(issue)), None)
+        if match:
+            wanted.remove(match)
         else:
-            yield f"{span}: not wanted: {message}"
-    yield from (f'{path}:{line}: wanted, but not found: "{text}"' for path, line, text in wanted)
+            yield f"{issue.finding.span}: unexpected [{issue.finding.confidence}]: {issue.finding.message}"
+    yield from (f'{want.path}:{want.line}: missing {sorted(want.tags)}: "{want.text}"' for want in wanted)
 
     if case.output is not None and (got := _output(tree, issues)) != case.output:
         yield f"the output is\n{got}"
