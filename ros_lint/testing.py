@@ -10,11 +10,12 @@ A file of cases is named after its rule. Every ``##`` heading is a case, a small
       #include <std_msgs/msg/string.hpp>  // want "std_msgs is used"
       # want+1 [medium] "..."             (for a line that cannot hold a comment; want-1 looks up)
 
-- A block ``output`` is what the tool prints for the case, a block ``diff`` what its fixes change. Both are compared exactly, and
-  rewritten by ``pytest --bless``.
-- A block ``toml`` without a path holds settings: ``distro = "humble"`` (jazzy by default), ``chosen = false`` (the distribution is an
-  assumption), ``executable = ["scripts/a.py"]`` (files with the executable bit), ``underlay = "opt"`` (a folder of the case that is an
-  underlay; mark it with COLCON_IGNORE).
+- A block ``output`` is what the tool prints for the case, a block ``diff`` what its fixes change. Both are compared exactly;
+  ``pytest --bless`` rewrites them.
+- A block ``toml`` without a path holds settings:
+  ``distro = "humble"``: the distribution, jazzy by default; ``chosen = false``: it is an assumption;
+  ``executable = ["scripts/a.py"]``: files with the executable bit;
+  ``underlay = "opt"``: a folder of the case that is an underlay; mark it with COLCON_IGNORE.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ def test_case(case: Case, request: pytest.FixtureRequest) -> None:
 )
 def test_a_safe_fix_declares_what_resolves(case: Case, told: bool) -> None:
     """In the stated distribution, or in every active one where none was stated."""
-    tree, case = case.tree(), case._replace(told=told)
+    tree, case = case.tree(), case._replace(chosen=told)
     safe = [issue for issue in issues_of(tree, case, RULES[case.source.stem]) if issue.finding.fix and issue.finding.fix.safe]
     new = {
         name

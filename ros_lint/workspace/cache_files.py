@@ -21,8 +21,8 @@ MODULES = (
     "ros_lint.analysis.finding", "ros_lint.analysis.rule", "ros_lint.base.edit", "ros_lint.base.text", "ros_lint.base.tree",
     "ros_lint.collectors.cmake.syntax", "ros_lint.engine.report", "ros_lint.facts.build", "ros_lint.facts.cmake",
     "ros_lint.facts.interfaces", "ros_lint.facts.launch", "ros_lint.facts.manifest", "ros_lint.facts.repositories",
-    "ros_lint.facts.setup_py", "ros_lint.facts.sources", "ros_lint.facts.suppressions", "ros_lint.facts.visibility", "ros_lint.workspace.collect",
-    "ros_lint.workspace.target",
+    "ros_lint.facts.setup_py", "ros_lint.facts.sources", "ros_lint.facts.suppressions", "ros_lint.facts.visibility",
+    "ros_lint.workspace.collect", "ros_lint.workspace.target",
 )  # fmt: skip
 """The modules with classes of facts and reports."""
 

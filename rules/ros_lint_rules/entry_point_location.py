@@ -77,9 +77,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     config = package.start_of("setup.cfg")
     exists = "setup.cfg" in package.files
     changes = edits.setup_py.programs_to(script, package.name) if exists else (edits.setup_py.config(config, package.name),)
-    all_names = [entry.name for entry in nodes]
+    programs = names.shorten_list(entry.name for entry in nodes)
     yield Finding(
-        f"{names.shorten_list(all_names)} {'are' if len(all_names) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
+        f"{programs} {'are' if len(nodes) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
         f"{'write' if exists else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
         config if exists else nodes[0].span,
         "setup.cfg",
