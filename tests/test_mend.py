@@ -12,8 +12,10 @@ from ros_lint.base.diff import line_before
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
-from ros_lint.engine import fixing as mend
+from ros_lint.engine.fix_trials import FixTrials
+from ros_lint.engine.fixing import Regression, fix
 from ros_lint.engine.report import Issue
+from ros_lint.engine.selection import Selection
 
 RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda package, workspace: ())
 
@@ -23,7 +25,7 @@ def issue(number: int, package: str, text: str = "") -> Issue:
     return Issue(RULE, package, Finding("m", span, f"s{number}", fix=Fix("t", (Edit(span, text),))))
 
 
-class Proof(mend._Proof):
+class Harmful:
     """Fixes that do harm, each in the package named, or that are at odds with another one."""
 
     def __init__(self, issues: Sequence[Issue], harm: Mapping[str, str], odds: Sequence[tuple[str, str]] = ()) -> None:
@@ -38,13 +40,13 @@ class Proof(mend._Proof):
     def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
         return {**changed, **{issue.finding.subject: b"" for issue in group}}
 
-    def complaints(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[mend._Complaint, ...]:
+    def regressions(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[Regression, ...]:
         made = frozenset(self.applied(changed, group))
         self.trials.add(made)
-        found = [mend._Complaint(name, package, "x") for name, package in self._harm.items() if name in made]
-        return (*found, *(mend._Complaint("at odds") for one, other in self._odds if one in made and other in made))
+        found = [Regression(name, package, "x") for name, package in self._harm.items() if name in made]
+        return (*found, *(Regression("at odds") for one, other in self._odds if one in made and other in made))
 
-    def as_it_is(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
+    def original(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
         return issue
 
     def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
@@ -60,9 +62,9 @@ def test_all_that_is_harmless_is_made(seed: int) -> None:
     harm = {f"s{number}": issues[number].package if number % 2 else f"p{random.randrange(30)}" for number in bad}
     left = [number for number in range(60) if number not in bad]
     odds = [(f"s{a}", f"s{b}") for a, b in zip(random.sample(left, 2), random.sample(left, 2), strict=True) if a != b]
-    done = mend._mended(Proof(issues, harm, odds))
+    done = fix(Harmful(issues, harm, odds))
     made = {issue.finding.subject for issue in done.made}
-    withheld = {issue.finding.subject for issue, _ in done.withheld}
+    withheld = {issue.finding.subject for issue, _ in done.skipped}
     assert made | withheld == {issue.finding.subject for issue in issues}
     assert not made & harm.keys()
     assert not any(one in made and other in made for one, other in odds)
@@ -73,18 +75,17 @@ def test_all_that_is_harmless_is_made(seed: int) -> None:
 
 def test_a_few_trials_find_who_is_to_blame() -> None:
     issues = [issue(number, f"p{number // 2}", "" if number % 2 else "text") for number in range(200)]
-    proof = Proof(issues, {f"s{number}": f"p{number // 2}" for number in (11, 51, 101, 151)})
-    done = mend._mended(proof)
-    assert {issue.finding.subject for issue, _ in done.withheld} == {"s11", "s51", "s101", "s151"}
+    proof = Harmful(issues, {f"s{number}": f"p{number // 2}" for number in (11, 51, 101, 151)})
+    done = fix(proof)
+    assert {issue.finding.subject for issue, _ in done.skipped} == {"s11", "s51", "s101", "s151"}
     assert len(proof.trials) <= 2, "all, and all but these"
 
 
 def test_what_is_not_mended_stands_where_the_file_has_it() -> None:
-    proof = object.__new__(mend._Proof)
     loader = SimpleNamespace(tree=MemoryTree({"f": "a\nb\nc\n"}))
-    proof._opened = SimpleNamespace(loader=loader)  # type: ignore[assignment]  # nothing else is asked of it
-    assert proof.as_it_is({"f": b"b\nc\n"}, issue(1, "p")).finding.span == Span("f", 3, 1, 3, 2)
-    assert proof.as_it_is({"g": b""}, issue(1, "p")).finding.span == Span("f", 2, 1, 2, 2)
+    proof = FixTrials(loader, (), Selection((), frozenset(), {}, pedantic=False, ignores=()), ())  # type: ignore[arg-type]
+    assert proof.original({"f": b"b\nc\n"}, issue(1, "p")).finding.span == Span("f", 3, 1, 3, 2)
+    assert proof.original({"g": b""}, issue(1, "p")).finding.span == Span("f", 2, 1, 2, 2)
 
 
 def test_the_line_as_it_was() -> None:

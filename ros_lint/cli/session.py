@@ -57,10 +57,15 @@ class Session(NamedTuple):
     settings: Settings
     knowledge: Knowledge
     base: str
-    """As in :class:`Asked`."""
+    """As in :class:`Request`."""
     roots: tuple[str, ...]
-    """As in :class:`Asked`."""
+    """As in :class:`Request`."""
     warnings: tuple[str, ...]
+
+    @property
+    def folder(self) -> str:
+        """The checked folder relative to the base, "" if it is the base or if there are several."""
+        return self.roots[0] if len(self.roots) == 1 else ""
 
 
 def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:

@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
-from ros_lint.engine import registry
 from ros_lint.engine import run as engine
 from ros_lint.engine.report import BlindSpot, HiddenCount, Report
 from ros_lint.engine.selection import Selection, show
 
 if TYPE_CHECKING:
-    from ros_lint.cli.session import Session
+    from collections.abc import Iterable
+
+    from ros_lint.analysis.rule import Rule
+    from ros_lint.facts.suppressions import Suppression
     from ros_lint.workspace.model import Workspace
 
 
-def check(opened: Session, workspace: Workspace, selection: Selection) -> Report:
-    """Return what the selected rules say of a workspace, suppressions and settings respected."""
-    known = registry.load(opened.settings["plugins"])
-    checked = engine.check(workspace, selection.rules, opened.loader.suppressions(), known)
+class Context(NamedTuple):
+    """What a report contains besides findings, and the rules that suppressions may name."""
+
+    rules: tuple[Rule, ...]
+    """Every rule there is."""
+    data_date: str
+    """Of the data of the released world, as YYYY-MM-DD."""
+    folder: str
+    """The checked folder relative to the base, "" if it is the base or if there are several."""
+    warnings: tuple[str, ...]
+
+
+def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: Context) -> Report:
+    """Return the report of the selected rules, with suppressions and settings applied."""
+    checked = engine.check(workspace, selection.rules, suppressions, context.rules)
     shown, hidden = show(checked.issues, selection)
     if checked.suppressed:
         hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
@@ -27,14 +40,14 @@ def check(opened: Session, workspace: Workspace, selection: Selection) -> Report
         rules=selection.rules,
         packages=len(workspace.packages) + len(workspace.unusable),
         target=workspace.target,
-        data_date=opened.knowledge.date,
+        data_date=context.data_date,
         version=__version__,
         hidden=hidden,
         not_checked=workspace.not_checked,
         unseen=_unseen(workspace),
         crashes=checked.crashes,
-        workspace=opened.roots[0] if len(opened.roots) == 1 else "",
-        warnings=opened.warnings,
+        workspace=context.folder,
+        warnings=context.warnings,
     )
 
 

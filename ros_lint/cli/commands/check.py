@@ -1,4 +1,4 @@
-"""``ros-lint [check] PATH...``: look for what is wrong, and mend it when asked."""
+"""``ros-lint [check] PATH...``: check a workspace and print the findings."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ def run(said: Said) -> int:
                 return 0
             known = _known(asked.settings)
             if asked.settings["fix"] or asked.settings["diff"]:
-                from ros_lint.engine import fixing as mend  # noqa: PLC0415
+                from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = mend.run(opening.open_session(asked, progress.tell), _selection(asked.settings))
+                report, code = fix.run(opening.open_session(asked, progress.tell), _selection(asked.settings))
             else:
                 report, code = _checked(asked, progress), 0
             if asked.settings["write-baseline"]:
@@ -124,9 +124,12 @@ def _checked(asked: Request, progress: Progress) -> Report:
     if kept := reports.fetch(recorded):
         return kept
     opened = opening.open_session(asked, progress.tell, *(recorded if reports else disks))
-    from ros_lint.engine.check import check  # noqa: PLC0415
+    from ros_lint.engine import registry  # noqa: PLC0415
+    from ros_lint.engine.check import Context, check  # noqa: PLC0415
 
-    report = check(opened, opened.loader.load(), _selection(asked.settings))
+    context = Context(registry.load(asked.settings["plugins"]), opened.knowledge.date, opened.folder, opened.warnings)
+    workspace = opened.loader.load()
+    report = check(workspace, opened.loader.suppressions(), _selection(asked.settings), context)
     reports.store(recorded, report)
     return report
 

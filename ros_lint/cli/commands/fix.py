@@ -1,0 +1,52 @@
+"""``ros-lint --fix`` and ``--diff``: write the verified fixes, or print them as a patch."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from typing import TYPE_CHECKING
+
+from ros_lint.engine import edits, registry
+from ros_lint.engine.check import Context, check
+from ros_lint.engine.fix_trials import FixTrials
+from ros_lint.engine.fixing import fix
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ros_lint.cli.session import Session
+    from ros_lint.engine.report import Report
+    from ros_lint.engine.selection import Selection
+
+
+def run(session: Session, selection: Selection) -> tuple[Report, int]:
+    """Print or write the fixes. Return the report of the remaining findings, and 2 if files could not be written, else 0."""
+    gc.enable()  # the workspace is loaded several times, and the memory of a trial has to be freed
+    settings = session.settings
+    rules = registry.load(settings["plugins"])
+    trials = FixTrials(session.loader, session.roots, selection, rules, unsafe=settings["unsafe-fixes"])
+    context = Context(rules, session.knowledge.date, session.folder, session.warnings)
+
+    def report(changed: Mapping[str, bytes]) -> Report:
+        return check(trials.trial(changed).workspace, session.loader.suppressions(changed), selection, context)
+
+    result = fix(trials)
+    for issue, reason in result.skipped:
+        print(f"ros-lint: {issue.finding.span}: fix skipped: {reason} [{issue.rule.name}]", file=sys.stderr)
+    if settings["diff"]:
+        sys.stdout.buffer.write(trials.patch(result.changed))
+        sys.stdout.buffer.flush()
+        return report({}), 0
+    try:
+        edits.write_all(session.base, result.changed, session.loader.held)
+    except edits.EditError as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
+        return report({path: result.changed[path] for path in error.written}), 2
+    print(f"ros-lint: {_summary(len(result.made), len(result.changed))}", file=sys.stderr)
+    return report(result.changed), 0
+
+
+def _summary(count: int, files: int) -> str:
+    if not count:
+        return "nothing to fix"
+    return f"fixed {count} finding{'s' * (count != 1)} in {files} file{'s' * (files != 1)}"

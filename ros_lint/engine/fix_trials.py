@@ -1,0 +1,181 @@
+"""Try fixes on a workspace: load and check it with the changed files in memory."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.finding import Confidence
+from ros_lint.base.diff import line_before, unified_bytes
+from ros_lint.base.paths import join
+from ros_lint.base.text import Span, Text, read
+from ros_lint.engine import edits
+from ros_lint.engine import run as engine
+from ros_lint.engine.fixing import Regression
+from ros_lint.engine.selection import Selection, show
+from ros_lint.workspace.writable import Writable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from ros_lint.analysis.rule import Rule
+    from ros_lint.engine.report import Issue
+    from ros_lint.workspace.loader import Loader
+    from ros_lint.workspace.model import Workspace
+
+_MOST_TRIALS = 2
+"""Trials that are kept besides the workspace on disk: a trial that succeeded is asked for again at once."""
+
+
+class Trial(NamedTuple):
+    """A workspace with changes, and the issues in it."""
+
+    changed: Mapping[str, bytes]
+    workspace: Workspace
+    issues: tuple[Issue, ...]
+
+
+class FixTrials:
+    """Tries fixes on the workspace of a loader. It implements :class:`ros_lint.engine.fixing.Trials`.
+
+    ``roots`` are the folders that may be written, ``rules`` all rules there are. With ``unsafe``, fixes that may change
+    behaviour are tried as well.
+    """
+
+    def __init__(
+        self, loader: Loader, roots: Sequence[str], selection: Selection, rules: Sequence[Rule], *, unsafe: bool = False
+    ) -> None:
+        self._loader = loader
+        self._roots = roots
+        self._selection = selection
+        self._rules = rules
+        self._run = tuple(rule for rule in rules if rule.default or rule in selection.rules)
+        self._unsafe = unsafe
+        self._trials: list[Trial] = []
+        self._held: set[str] = set()
+        """Files that fixes edit. The loader holds the bytes that it read."""
+
+    @cached_property
+    def _writable(self) -> Writable:
+        workspace = self.trial({}).workspace
+        manifests = [package.manifest.path for package in workspace.unusable if package.manifest]
+        own = [join(package.path, file) for package in workspace.packages for file in package.files]
+        return Writable(self._loader.tree, self._roots, [*own, *manifests])
+
+    def trial(self, changed: Mapping[str, bytes]) -> Trial:
+        """Return the workspace with changed files, loaded and checked."""
+        for trial in self._trials:
+            if trial.changed == changed:
+                return trial
+        workspace = self._loader.load(changed)
+        issues = engine.check(workspace, self._run, self._loader.suppressions(changed), self._rules).issues
+        trial = Trial(changed, workspace, issues)
+        self._trials = [*self._trials[:1], *self._trials[1:][1 - _MOST_TRIALS :], trial]
+        return trial
+
+    def patch(self, changed: Mapping[str, bytes]) -> bytes:
+        """Return the changes as a patch of the files that were read."""
+        return b"".join(unified_bytes(path, self._loader.held.get(path), data) for path, data in sorted(changed.items()))
+
+    def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
+        """Return the issues that are shown and have a fix of the selected kind that may be written.
+
+        The spans of edits belong to one state of a file. So the files to edit are held, and the workspace is checked again.
+        """
+        while True:
+            issues = [issue for issue in self._with_fix(changed) if not self._refusal(issue)]
+            new = {path for issue in issues for path in _edited(issue)} - self._held
+            if not new:
+                return issues
+            self._held |= new
+            self._loader.hold(new)
+            self._trials.clear()
+
+    def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
+        issues = self._with_fix(changed)
+        return [(self.original(changed, issue), reason) for issue in issues if (reason := self._refusal(issue))]
+
+    def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
+        texts = edits.apply((issue.finding.fix for issue in group if issue.finding.fix), lambda path: self._text(changed, path))
+        return {**changed, **edits.encode(texts, lambda path: self._text(changed, path))}
+
+    def regressions(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[Regression, ...]:
+        if not group:
+            return ()
+        try:
+            new = self.applied(changed, group)
+        except edits.EditError as error:
+            return (Regression(str(error)),)
+        before = Counter(issue.identity for issue in self.trial(changed).issues)
+        after = self.trial(new).issues
+        useless = _useless(before, after, group)
+        worse = _worse(before, after)
+        if worse and not useless and self._recovers_next_round(before, new, group, worse):
+            return ()
+        regressions = [
+            Regression(f"it would cause a new finding: {issue.finding.message}", issue.package, issue.finding.subject)
+            for issue in worse
+        ]
+        regressions += [Regression("it does not resolve the finding", issue.package, issue.finding.subject) for issue in useless]
+        return tuple(regressions)
+
+    def original(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
+        span = issue.finding.span
+        if span.path not in changed:
+            return issue
+        before = edits.text_of(self._loader.tree, span.path).text
+        after = self._text(changed, span.path).text
+        line, end = (line_before(before, after, number) for number in (span.line, span.end_line))
+        place = Span(span.path, line, span.column, max(line, end), span.end_column)
+        return issue._replace(finding=issue.finding._replace(span=place))
+
+    def _refusal(self, issue: Issue) -> str:
+        return next(filter(None, map(self._writable.refusal, _edited(issue))), "")
+
+    def _with_fix(self, changed: Mapping[str, bytes]) -> list[Issue]:
+        issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
+        shown, _ = show(issues, self._selection)
+        return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or self._unsafe)]
+
+    def _recovers_next_round(
+        self, before: Counter[str], changed: Mapping[str, bytes], group: Sequence[Issue], worse: Sequence[Issue]
+    ) -> bool:
+        """Return whether fixes of the next round resolve all findings that the fixes of a group cause."""
+        names = {issue.identity for issue in worse}
+        wanted = [issue for issue in self.fixable(changed) if issue.identity in names]
+        fixes = [issue.finding.fix for issue in wanted if issue.finding.fix]
+        if {issue.identity for issue in wanted} != names or len(edits.choose(fixes)) < len(fixes):
+            return False
+        try:
+            after = self.trial(self.applied(changed, wanted)).issues
+        except edits.EditError:
+            return False
+        return not _worse(before, after) and not _useless(before, after, group)
+
+    def _text(self, changed: Mapping[str, bytes], path: str) -> Text:
+        if path in changed:
+            return read(path, changed[path])
+        return edits.text_of(self._loader.tree, path)
+
+
+def _edited(issue: Issue) -> Iterable[str]:
+    """Return the files that the fix of an issue edits."""
+    repair = issue.finding.fix
+    return dict.fromkeys(edit.span.path for edit in repair.edits) if repair else ()
+
+
+def _worse(before: Counter[str], after: Sequence[Issue]) -> list[Issue]:
+    """Return the findings that are new.
+
+    Findings of lower confidence and of rules that are off may change: an undeclared need can become a transitive one.
+    """
+    count = Counter(issue.identity for issue in after)
+    serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
+    return [issue for issue in serious if count[issue.identity] > before[issue.identity]]
+
+
+def _useless(before: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> list[Issue]:
+    """Return the issues of a group that their fixes do not resolve."""
+    count = Counter(issue.identity for issue in after)
+    return [issue for issue in group if count[issue.identity] >= before[issue.identity]]
