@@ -14,7 +14,7 @@ from ros_lint.facts.visibility import Facet
 from ros_lint.workspace import cache_files as kept_files
 from ros_lint.workspace import fact_cache as cache
 from ros_lint.workspace.collect import Collected, collect_all
-from ros_lint.workspace.fact_cache import Cache
+from ros_lint.workspace.fact_cache import FactCache
 
 FILES = {
     "p/CMakeLists.txt": "project(p)\nadd_executable(a a.cpp)\n",
@@ -47,13 +47,13 @@ def test_what_is_kept_is_what_was_found(tmp_path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     tree = DiskTree(str(tmp_path / "ws"))
-    found = collect_all(tree, list(FILES), 1, Cache(str(tmp_path / "cache"), "ws"), lambda done: None)
+    found = collect_all(tree, list(FILES), 1, FactCache(str(tmp_path / "cache"), "ws"), lambda done: None)
     assert not any(each.unreadable for each in found.values())
-    kept = Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)
+    kept = FactCache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)
     assert kept == found
     assert repr(kept) == repr(found)  # which tells the classes, too
     (tmp_path / "ws" / "p" / "a.cpp").write_text("#include <d/e.hpp>\n")
-    assert set(Cache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)) == set(FILES) - {"p/a.cpp"}
+    assert set(FactCache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)) == set(FILES) - {"p/a.cpp"}
 
 
 def test_enumerations_are_kept_whatever_way_python_writes_them_down(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from ros_lint.base.tree import DiskTree
 from ros_lint.workspace.collect import collect_all
-from ros_lint.workspace.fact_cache import Cache
+from ros_lint.workspace.fact_cache import FactCache
 
 
 class Pool:
@@ -55,6 +55,6 @@ def test_there_is_no_more_than_a_process_a_core(
     names = [f"{number}.cpp" for number in range(files)]
     for name in names:
         (tmp_path / name).write_text("#include <a/b.hpp>\n")
-    found = collect_all(DiskTree(str(tmp_path)), names, jobs, Cache("", ""), lambda done: None)
+    found = collect_all(DiskTree(str(tmp_path)), names, jobs, FactCache("", ""), lambda done: None)
     assert list(found) == names
     assert (Pool.asked or [1]) == [processes]

@@ -15,7 +15,7 @@ from ros_lint.cli.main import main
 from ros_lint.reporters import FORMATS
 from ros_lint.workspace import cache_files as kept_files
 from ros_lint.workspace.collect import collect_all
-from ros_lint.workspace.fact_cache import Cache
+from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.loader import Loader
 
 DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
@@ -265,11 +265,11 @@ def test_what_has_gone_is_forgotten(workspace: Path, tmp_path: Path) -> None:
 
     tree, folder = DiskTree(str(workspace)), str(tmp_path / "other")
     source, new = f"{DRIVER}/src/driver_node.cpp", f"{DRIVER}/src/new.cpp"
-    collect_all(tree, [source], 1, Cache(folder, "ws"), lambda done: None)
+    collect_all(tree, [source], 1, FactCache(folder, "ws"), lambda done: None)
     (facts,) = (tmp_path / "other").iterdir()
     assert source.encode() in facts.read_bytes()
     (workspace / source).rename(workspace / new)
-    collect_all(tree, [new], 1, Cache(folder, "ws"), lambda done: None)
+    collect_all(tree, [new], 1, FactCache(folder, "ws"), lambda done: None)
     assert source.encode() not in facts.read_bytes()
     assert new.encode() in facts.read_bytes()
 

@@ -15,7 +15,8 @@ from ros_lint.base.text import Text, read
 from ros_lint.collectors.python import collect as python
 from ros_lint.collectors.python.import_tree import walk
 from ros_lint.collectors.python.imports import scan
-from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, parse, refusal
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import is_of_others, parse, refusal
 from ros_lint.facts.visibility import Facet, Problem
 
 

@@ -10,7 +10,8 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.python import collect as python
 from ros_lint.collectors.python.excerpt import excerpt
 from ros_lint.collectors.python.lookups import in_excerpt, literals, look_ups
-from ros_lint.collectors.python.syntax import NotPythonError, parse
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import parse
 from ros_lint.facts.sources import FileFacts
 from ros_lint.facts.visibility import Facet
 

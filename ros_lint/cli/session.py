@@ -11,6 +11,7 @@ from ros_lint.base.tree import DiskTree, repository_of
 from ros_lint.cli.options import COMMANDS, OPTIONS
 from ros_lint.cli.settings import Settings, settle
 from ros_lint.engine.registry import BUILTIN
+from ros_lint.engine.report_cache import ReportCache
 from ros_lint.errors import UserError
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
@@ -115,7 +116,7 @@ def open_session(asked: Request, progress: Progress, workspace: Tree | None = No
         knowledge=knowledge,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=cache.Cache(asked.cache, _kept_by(asked)),
+        cache=cache.FactCache(asked.cache, _kept_by(asked)),
         progress=progress,
     )
     return Session(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
@@ -137,14 +138,14 @@ _LIBRARIES = ("libcst", "networkx", "yaml")
 """What takes part in reading a workspace besides Python and our own code."""
 
 
-def reports(asked: Request) -> cache.Reports:
+def reports(asked: Request) -> ReportCache:
     """Return the reports that are kept of what is asked for.
 
     None are while plugins take part: nobody watches all the files that these are made of.
     """
     settings = asked.settings
     if not asked.cache or settings["plugins"]:
-        return cache.Reports("", asked.base, "", ())
+        return ReportCache("", asked.base, "", ())
     from importlib.util import find_spec  # noqa: PLC0415
 
     values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
@@ -154,7 +155,7 @@ def reports(asked: Request) -> cache.Reports:
     data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
     said = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
-    return cache.Reports(asked.cache, asked.base, said, data)
+    return ReportCache(asked.cache, asked.base, said, data)
 
 
 def _underlays(

@@ -73,7 +73,8 @@ def _docstrings(text: Text) -> list[tuple[int, int]]:
     """Return the ranges of strings that stand alone: documentation, and code that is set aside."""
     import ast  # noqa: PLC0415
 
-    from ros_lint.collectors.python.syntax import NotPythonError, parse, range_of  # noqa: PLC0415
+    from ros_lint.collectors.python.source_errors import NotPythonError  # noqa: PLC0415
+    from ros_lint.collectors.python.syntax import parse, range_of  # noqa: PLC0415
 
     try:
         tree = parse(text)

@@ -22,7 +22,7 @@ from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.facts.suppressions import MARKER, Suppression
 from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque
-from ros_lint.workspace.fact_cache import Cache
+from ros_lint.workspace.fact_cache import FactCache
 
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
@@ -115,7 +115,9 @@ def _suppressions(text: Text) -> tuple[Suppression, ...]:
     return suppressions.collect(text)
 
 
-def collect_all(tree: Tree, paths: Sequence[str], jobs: int, cache: Cache, tick: Callable[[int], None]) -> dict[str, Collected]:
+def collect_all(
+    tree: Tree, paths: Sequence[str], jobs: int, cache: FactCache, tick: Callable[[int], None]
+) -> dict[str, Collected]:
     """Return what every file gave, by path.
 
     ``jobs`` is the number of processes, 0 decides by the number of files; ``tick`` hears how many files are done.

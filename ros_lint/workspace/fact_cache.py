@@ -18,29 +18,25 @@ from ros_lint.base.text import to_bytes
 from ros_lint.workspace import cache_files as kept_files
 
 if TYPE_CHECKING:
-    from ros_lint.base.tree import RecordedTree, Tree
-    from ros_lint.engine.report import Report
+    from ros_lint.base.tree import Tree
 
 Facts = TypeVar("Facts")
 
-_SOURCES = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SOURCES = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 """The folder of the package ``ros_lint``."""
 
 _PARTS = 16
 """How many files keep the facts of a workspace."""
 
-_MOST_REPORTS = 8
-"""Of one workspace: somebody may check it in different ways by turns."""
 
-
-class Cache:
+class FactCache:
     """Facts by path and stamp. An empty ``folder`` keeps nothing. Nothing here raises: a cache that fails is empty.
 
     They are kept in several files, so that a run after a small change writes little.
     """
 
     def __init__(self, folder: str, base: str) -> None:
-        start = os.path.join(folder, _digest(os.path.realpath(base))) if folder else ""
+        start = os.path.join(folder, digest(os.path.realpath(base))) if folder else ""
         self._files = [f"{start}.{number:x}.facts" for number in range(_PARTS if folder else 0)]
         self._parts: list[dict[str, tuple[tuple[int, ...], Any]]] = [{} for _ in self._files]
         self._stamps: dict[str, tuple[int, ...]] = {}
@@ -49,7 +45,7 @@ class Cache:
         """Return what is kept of those files that have not changed. ``kind`` is the class of what is kept of a file."""
         if not self._files:
             return {}
-        state = _state(_collectors())
+        state = state_of(_collectors())
         loaded = [kept_files.load(file, state) for file in self._files]
         self._parts = [found if _is_part(found, kind) else {} for found in loaded]
         # Before anything is read, so that what changes meanwhile counts as changed.
@@ -71,60 +67,9 @@ class Cache:
                 number = _part(path)
                 self._parts[number][path] = (self._stamps[path], facts)
                 changed.add(number)
-        state = _state(_collectors())
+        state = state_of(_collectors())
         for number in sorted(changed):
             kept_files.save(self._files[number], state, self._parts[number])
-
-
-class Reports:
-    """The last reports about a workspace.
-
-    ``asked`` and the state of the files in ``data`` are all that a report depends on besides our code and the trees.
-    """
-
-    def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
-        self._start = f"{_digest(os.path.realpath(base))}-" if folder else ""
-        self._folder = folder
-        self._file = os.path.join(folder, f"{self._start}{_digest(asked)}.report") if folder else ""
-        own = files_below(_SOURCES)
-        self._state = _state([*own, *data]) if folder else ""
-
-    def __bool__(self) -> bool:
-        """Whether any report is kept at all."""
-        return bool(self._file)
-
-    def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
-        """Return the report that a run would make now, or None when only the run can tell."""
-        from ros_lint.engine.report import Report  # noqa: PLC0415  (a module that the command needs anyway)
-
-        kept = kept_files.load(self._file, self._state) if self._file else None
-        if not isinstance(kept, tuple) or len(kept) != 1 + len(trees) or not isinstance(kept[0], Report):
-            return None
-        report, *said = kept
-        try:
-            return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
-        except (TypeError, ValueError):  # no list of questions, answers and paths
-            return None
-
-    def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
-        """Keep a report that was made from what some trees said. It loses the functions of its rules."""
-        if not self._file or report.crashes or not all(tree.steady for tree in trees):
-            return
-        bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
-        issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
-        said = ([(question, _bare(told)) for question, told in tree.said.items()] for tree in trees)
-        if kept_files.save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *said)):
-            self._clear()
-
-    def _clear(self) -> None:
-        """Remove the oldest reports of the workspace."""
-        try:
-            with os.scandir(self._folder) as entries:
-                mine = [(entry.stat().st_mtime_ns, entry.path) for entry in entries if entry.name.startswith(self._start)]
-            for _, path in sorted(mine)[:-_MOST_REPORTS]:
-                os.unlink(path)
-        except OSError:
-            return
 
 
 def folder(environment: Mapping[str, str]) -> str:
@@ -146,11 +91,6 @@ def _is_part(loaded: Any, kind: type) -> bool:
     )
 
 
-def _bare(told: Any) -> Any:
-    """Return stamps and the entries of a directory as plain tuples, which are equal to them and read faster."""
-    return [tuple(entry) for entry in told] if isinstance(told, list) else tuple(told) if isinstance(told, tuple) else told
-
-
 def _part(path: str) -> int:
     """Return which part keeps the facts of a file: that of its folder."""
     return zlib.crc32(to_bytes(path.rpartition("/")[0])) % _PARTS
@@ -163,13 +103,14 @@ def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
         return None
 
 
-def _digest(text: str) -> str:
+def digest(text: str) -> str:
+    """Return a short name for a text."""
     import hashlib  # noqa: PLC0415
 
     return hashlib.sha256(to_bytes(text)).hexdigest()[:24]
 
 
-def _state(files: Iterable[str]) -> str:
+def state_of(files: Iterable[str]) -> str:
     """Return what tells one interpreter and one state of some files from another."""
     stamps = []
     for file in sorted(files):
@@ -178,14 +119,14 @@ def _state(files: Iterable[str]) -> str:
             stamps.append(f"{file} {found.st_mtime_ns} {found.st_size} {found.st_ctime_ns} {found.st_ino}")
         except OSError:
             stamps.append(file)
-    return f"ros-lint {__version__} {sys.implementation.cache_tag} {_digest(' '.join([sys.version, *stamps]))}"
+    return f"ros-lint {__version__} {sys.implementation.cache_tag} {digest(' '.join([sys.version, *stamps]))}"
 
 
 def _collectors() -> Iterator[str]:
     """Yield the files that the facts of a file depend on."""
     for room in ("base", "facts", "collectors"):
-        yield from files_below(os.path.join(_SOURCES, room))
-    yield from (os.path.abspath(__file__), os.path.join(_SOURCES, "workspace", "collect.py"))
+        yield from files_below(os.path.join(SOURCES, room))
+    yield from (os.path.abspath(__file__), os.path.join(SOURCES, "workspace", "collect.py"))
 
 
 def files_below(place: str) -> Iterator[str]:

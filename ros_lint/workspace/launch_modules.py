@@ -198,7 +198,8 @@ def _named_by(action: LaunchAction) -> Iterator[LaunchValue]:
 
 def _module_of(text: Text) -> Module | None:
     from ros_lint.collectors.python.interpreter.values import Module  # noqa: PLC0415  (few launch files want anything)
-    from ros_lint.collectors.python.syntax import NotPythonError, parse  # noqa: PLC0415
+    from ros_lint.collectors.python.source_errors import NotPythonError  # noqa: PLC0415
+    from ros_lint.collectors.python.syntax import parse  # noqa: PLC0415
 
     try:
         return Module(text, parse(text))

@@ -32,7 +32,7 @@ from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.discovery import repository_lists as source_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
-from ros_lint.workspace.fact_cache import Cache
+from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.model import Declared, Package, Workspace
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 from ros_lint.workspace.usage import own_files, public_headers
@@ -71,7 +71,7 @@ class Loader:
         knowledge: Knowledge | None = None,
         exclude: Callable[[str], bool] = lambda path: False,
         jobs: int = 0,
-        cache: Cache | None = None,
+        cache: FactCache | None = None,
         progress: Progress = lambda what, done, all_: None,
     ) -> None:
         self.tree = tree
@@ -85,7 +85,7 @@ class Loader:
         self._knowledge = knowledge or Knowledge(target.distro)
         self._exclude = exclude
         self._jobs = jobs
-        self._cache = cache or Cache("", "")
+        self._cache = cache or FactCache("", "")
         self._progress = progress
         self._collected: dict[str, Collected] = {}
 
@@ -153,7 +153,7 @@ class Loader:
         again = [path for path in changed if path in self._collected]
         if not again:
             return self._collected
-        fresh = collect_all(OverlayTree(self.tree, changed), again, 1, Cache("", ""), lambda done: None)
+        fresh = collect_all(OverlayTree(self.tree, changed), again, 1, FactCache("", ""), lambda done: None)
         return {**self._collected, **fresh}
 
     def _read(self, tree: Tree, founds: Sequence[DiscoveredPackage], collected: Mapping[str, Collected]) -> list[_Read]:

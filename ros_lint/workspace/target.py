@@ -23,6 +23,11 @@ class TargetDistro(NamedTuple):
     """False when nobody chose it: then what only another distribution has is no mistake."""
 
     @property
+    def chosen(self) -> str:
+        """The distribution if the user chose it, else ""."""
+        return self.distro if self.explicit else ""
+
+    @property
     def context(self) -> Mapping[str, str]:
         """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
         return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}

@@ -84,7 +84,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch_file in launch.package_launch_files(package):
         newer = (
             *_newer(launch_file.file.version_problems, workspace.target),
-            *too_new(launch_file.file.syntax, workspace.target),
+            *too_new(launch_file.file.syntax, workspace.target.chosen),
         )
         problems = (*launch_file.file.problems, *newer)
         if not problems:

@@ -14,7 +14,8 @@ from configparser import RawConfigParser
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.pyproject import table, tables
-from ros_lint.collectors.python.syntax import NotPythonError, TooDeepError, parse, span_of
+from ros_lint.collectors.python.source_errors import NotPythonError, TooDeepError
+from ros_lint.collectors.python.syntax import parse, span_of
 from ros_lint.facts.manifest import ColconDepend, Role
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ from functools import lru_cache
 from typing import Any
 
 from ros_lint.collectors.python.operators import ARITHMETIC, COMPARISONS
-from ros_lint.collectors.python.syntax import NotPythonError, read_expression
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import read_expression
 from ros_lint.collectors.python.versions import BUILTINS, MATH
 from ros_lint.collectors.symbolic_text import UNKNOWN
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.python.import_tree import Import, walk
 from ros_lint.collectors.python.imports import added_folders, scan
 from ros_lint.collectors.python.lookups import Found, in_excerpt, literals, look_ups
-from ros_lint.collectors.python.syntax import NotPythonError, TooDeepError, parse, refusal
+from ros_lint.collectors.python.source_errors import NotPythonError, TooDeepError
+from ros_lint.collectors.python.syntax import parse, refusal
 from ros_lint.facts.sources import FileFacts, ImportedType, Mention
 from ros_lint.facts.visibility import Facet, Opaque
 

@@ -12,7 +12,8 @@ from typing import NamedTuple
 from ros_lint.base.text import Text
 from ros_lint.collectors.python.excerpt import block_end, is_whole
 from ros_lint.collectors.python.import_tree import GUARD, Import, walk
-from ros_lint.collectors.python.syntax import NotPythonError, parse
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import parse
 
 _IMPORT = re.compile(r"import(?=[ \t(*\\]|_module\(|orskip\(|__\()")
 _MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\d]\w*)?[ \t\r]*(,|\Z)")

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from ros_lint.base import python_parser as python_ast
 from ros_lint.base.python_nesting import DEEPEST, SYMBOLS, first_too_deep, may_be_paired
 from ros_lint.base.python_tokens import TemplateDepthError, Token, TokenError, tokens
 from ros_lint.base.text import Text
-from ros_lint.collectors.python import syntax
 from ros_lint.collectors.python.newer_syntax import brackets, rewrite
 from ros_lint.collectors.python.restored_tree import place_of, restore
-from ros_lint.collectors.python.syntax import NotPythonError, Parsed, TooDeepError
+from ros_lint.collectors.python.source_errors import NotPythonError, Parsed, TooDeepError
 from ros_lint.facts.visibility import NewerSyntax
 
 _MOST_DIGITS = 1_000
 
 
-def read(source: Text) -> Parsed:
-    """Return the tree of a source and what is newer than Python 3.10 in it. Raises NotPythonError, also as TooDeepError."""
+def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
+    """Return the tree of a source and what is newer than Python 3.10 in it. Raises NotPythonError, also as TooDeepError.
+
+    ``read_inner`` reads the expressions in f-strings, as sources of their own.
+    """
     try:
         paired = may_be_paired(source.text)
         found = [] if paired else list(tokens(source.text))
@@ -31,7 +33,12 @@ def read(source: Text) -> Parsed:
         rewritten = rewrite(source.text, found)
         tree = python_ast.module(rewritten.text)
         inner: list[NewerSyntax] = []
-        restore(tree, source, rewritten, lambda text, offset: _expression(text, offset, source, inner))
+        restore(
+            tree,
+            source,
+            rewritten,
+            lambda text, offset: _expression(_inner(text, offset, source, read_inner), offset, source, inner),
+        )
     except TemplateDepthError as error:
         raise _too_deep(source, error.message, error.offset) from None
     except (TokenError, SyntaxError):
@@ -108,12 +115,15 @@ def _too_deep(source: Text, message: str, offset: int) -> TooDeepError:
     return TooDeepError(message, source.span(offset, offset))
 
 
-def _expression(text: str, offset: int, source: Text, newer: list[NewerSyntax]) -> ast.expr:
-    """Return the tree of an expression in brackets that begins at an offset of a source."""
+def _inner(text: str, offset: int, source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
     try:
-        parsed = syntax.read(Text(source.path, text))
+        return read_inner(Text(source.path, text))
     except TooDeepError as error:
         raise _too_deep(source, error.message, offset) from None
+
+
+def _expression(parsed: Parsed, offset: int, source: Text, newer: list[NewerSyntax]) -> ast.expr:
+    """Return the tree of an expression in brackets that begins at an offset of a source."""
     body = parsed.tree.body
     if len(body) != 1 or not isinstance(body[0], ast.Expr):
         raise NotPythonError

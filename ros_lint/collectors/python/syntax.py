@@ -11,7 +11,8 @@ from typing import NamedTuple
 from ros_lint.base import python_parser as python_ast
 from ros_lint.base.python_nesting import DEEPEST, most_levels, nests_too_deep, plain
 from ros_lint.base.text import Span, Text, from_bytes, to_bytes
-from ros_lint.facts.visibility import Facet, NewerSyntax, Opaque, Problem
+from ros_lint.collectors.python.source_errors import NotPythonError, Parsed, TooDeepError
+from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 # What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
 _PYTHON_2 = re.compile(
@@ -31,27 +32,6 @@ _TEMPLATE_MARK = re.compile(r"\{\{|\{%|@\{|@\(|@\[|@[A-Za-z_]\w*@|\$\{|<%")
 
 Node = ast.expr | ast.stmt | ast.alias | ast.keyword
 """What stands in a place of its own."""
-
-
-class NotPythonError(Exception):
-    """A source is no Python of any version. :func:`refusal` says why."""
-
-
-class TooDeepError(NotPythonError):
-    """A source exceeds a bound of ros-lint. It may be Python all the same."""
-
-    def __init__(self, message: str, span: Span) -> None:
-        super().__init__(message)
-        self.message = message
-        self.span = span
-
-
-class Parsed(NamedTuple):
-    """A source that some version of Python reads."""
-
-    tree: ast.Module
-    newer: tuple[NewerSyntax, ...]
-    """What came later than Python 3.10, in order."""
 
 
 class Refusal(NamedTuple):
@@ -116,7 +96,7 @@ def _parsed(source: Text) -> Parsed:
                 return Parsed(tree, ())
     from ros_lint.collectors.python import rewritten_source as python_reread  # noqa: PLC0415  (one source of two hundred)
 
-    return python_reread.read(source)
+    return python_reread.read(source, read)
 
 
 _MOST_LEVELS = 10_000
@@ -207,7 +187,7 @@ def refusal(source: Text, error: NotPythonError) -> Refusal:
         return Refusal(error.message, error.span, known=False)
     from ros_lint.collectors.python.syntax_errors import reason  # noqa: PLC0415  (few sources are no Python)
 
-    offset, message, known = reason(source.text)
+    offset, message, known = reason(source.text, read_expression)
     return Refusal(message, source.span(offset, offset), known)
 
 

@@ -6,8 +6,9 @@ by the tokens, and for all else the parser of libcst tells the place, which has 
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from keyword import iskeyword
 from typing import Final, NamedTuple
@@ -16,7 +17,7 @@ from ros_lint.base import python_parser as python_ast
 from ros_lint.base.python_tokens import TemplateDepthError, Token, TokenError, template, tokens
 from ros_lint.collectors.python.newer_syntax import brackets, rewrite
 from ros_lint.collectors.python.rewritten_source import too_deep
-from ros_lint.collectors.python.syntax import NotPythonError, read_expression
+from ros_lint.collectors.python.source_errors import NotPythonError
 
 
 class Reason(NamedTuple):
@@ -43,8 +44,8 @@ _LEVELS: Final = 100
 _LONGEST_WORD: Final = 40
 
 
-def reason(text: str) -> Reason:
-    """Return why a source is no Python."""
+def reason(text: str, read_expression: Callable[[str], ast.expr]) -> Reason:
+    """Return why a source is no Python. ``read_expression`` raises NotPythonError for a text that is no expression."""
     if len(text) > _LONGEST_TEXT:
         return Reason(0, "Python refuses it, and it is too long to say why", known=False)
     found, reasons = list[Token](), list[Reason]()
@@ -66,7 +67,9 @@ def reason(text: str) -> Reason:
         return min(reasons)
     if (deep := too_deep(text, found)) is not None:
         return Reason(deep[1], deep[0], known=False)
-    return next(_in_statements(text, found), Reason(0, "Python refuses it for a reason that is not known", known=False))
+    return next(
+        _in_statements(text, found, read_expression), Reason(0, "Python refuses it for a reason that is not known", known=False)
+    )
 
 
 # --- indentation
@@ -121,7 +124,7 @@ def _indentation(text: str, found: Sequence[Token]) -> Iterator[Reason]:
 # --- statements
 
 
-def _in_statements(text: str, found: Sequence[Token]) -> Iterator[Reason]:
+def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[Reason]:
     """Yield what is wrong with the first statement that Python refuses."""
     try:
         code = rewrite(text, found).text
@@ -139,7 +142,7 @@ def _in_statements(text: str, found: Sequence[Token]) -> Iterator[Reason]:
             inside = [token for token in found if starts[first] <= token.start < end and token.kind != "comment"]
             if old := _OF_PYTHON_2.search(statement):
                 yield Reason(starts[first] + old.start(1), f'this is Python 2: say "as {old[2]}"')
-            yield from _literals(text, inside)
+            yield from _literals(text, inside, read_expression)
             place = _place(statement)
             if place is not None:
                 line, column = place
@@ -217,7 +220,7 @@ def _is_value(text: str, token: Token) -> bool:
     return is_name or token.kind in ("number", "string", "template")
 
 
-def _literals(text: str, code: Sequence[Token]) -> Iterator[Reason]:
+def _literals(text: str, code: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[Reason]:
     """Yield what is wrong with the strings and numbers of a source."""
     for before, token in pairwise([Token("newline", 0, 0), *code]):
         written = text[token.start : token.end]
@@ -230,7 +233,7 @@ def _literals(text: str, code: Sequence[Token]) -> Iterator[Reason]:
         elif token.kind == "string" and _are_unlike(text, before, token):
             yield Reason(token.start, "bytes and texts cannot stand side by side")
         elif token.kind == "template":
-            yield from _wrong_fields(text, token)
+            yield from _wrong_fields(text, token, read_expression)
 
 
 def _are_unlike(text: str, before: Token, token: Token) -> bool:
@@ -258,7 +261,7 @@ def _why_no_string(written: str) -> str:
     return "an escape in this string means nothing"
 
 
-def _wrong_fields(text: str, token: Token) -> Iterator[Reason]:
+def _wrong_fields(text: str, token: Token, read_expression: Callable[[str], ast.expr]) -> Iterator[Reason]:
     for piece in template(text, token.start).pieces:
         if piece.field is not None:
             start, end = piece.field.expression

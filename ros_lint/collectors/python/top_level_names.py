@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python.syntax import NotPythonError, parse
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import parse
 from ros_lint.facts.setup_py import PythonModule
 
 if TYPE_CHECKING:

@@ -6,12 +6,9 @@ import builtins
 import math
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from ros_lint.facts.visibility import NewerSyntax, Problem
-
-if TYPE_CHECKING:
-    from ros_lint.workspace.target import TargetDistro
 
 Version = tuple[int, int]
 
@@ -41,10 +38,10 @@ MATH: Final = frozenset(dir(math)) | {"cbrt", "exp2", "fma", "sumprod"}
 """The names of the module math, in any version from 3.10 to 3.14."""
 
 
-def too_new(syntax: Iterable[NewerSyntax], target: TargetDistro) -> Iterator[Problem]:
-    """Yield the constructs that the Python of a distribution refuses. None where nobody chose the distribution."""
-    runs = PYTHON_OF.get(target.distro) if target.explicit else None
+def too_new(syntax: Iterable[NewerSyntax], distro: str) -> Iterator[Problem]:
+    """Yield the constructs that the Python of a distribution rejects, none if ``distro`` is ""."""
+    runs = PYTHON_OF.get(distro)
     for construct, version, span in syntax:
         if runs is not None and runs < version:
             needs, has = (".".join(map(str, one)) for one in (version, runs))
-            yield Problem("newer-python", f"{construct} need Python {needs}; {target.distro} runs {has}", span)
+            yield Problem("newer-python", f"{construct} need Python {needs}; {distro} runs {has}", span)

@@ -7,8 +7,9 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.string_values import callee, dotted
-from ros_lint.collectors.python.syntax import NotPythonError, parse, span_of, start_of
+from ros_lint.collectors.python.syntax import parse, span_of, start_of
 from ros_lint.facts.setup_py import EditableList
 
 if TYPE_CHECKING:

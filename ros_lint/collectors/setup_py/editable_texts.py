@@ -6,8 +6,9 @@ import ast
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.string_values import callee
-from ros_lint.collectors.python.syntax import NotPythonError, parse, range_of, span_of
+from ros_lint.collectors.python.syntax import parse, range_of, span_of
 from ros_lint.facts.setup_py import WrittenText
 
 if TYPE_CHECKING:

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 from ros_lint.base.paths import join
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.python.import_tree import walk
-from ros_lint.collectors.python.syntax import NotPythonError, is_of_others, read, refusal, span_of
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import is_of_others, read, refusal, span_of
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.collectors.setup_py import setup_cfg as setup_cfg_collector
 from ros_lint.collectors.setup_py.distribution import INSTALLED, Context, Distribution

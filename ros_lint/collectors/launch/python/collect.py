@@ -22,7 +22,8 @@ from ros_lint.collectors.launch.python.substitutions import Within, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.values import PERHAPS, BudgetExceeded, Frame, Function, Modules, ProgramRaised, Source
-from ros_lint.collectors.python.syntax import NotPythonError, read, refusal, span_of
+from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.syntax import read, refusal, span_of
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.visibility import Facet, Opaque, Problem

@@ -1,0 +1,74 @@
+"""Keep the last reports of a workspace between runs, in the user's cache folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ros_lint.workspace import cache_files as kept_files
+from ros_lint.workspace.fact_cache import SOURCES, digest, files_below, state_of
+
+if TYPE_CHECKING:
+    from ros_lint.base.tree import RecordedTree
+    from ros_lint.engine.report import Report
+
+
+_MOST_REPORTS = 8
+"""Of one workspace: somebody may check it in different ways by turns."""
+
+
+class ReportCache:
+    """The last reports about a workspace.
+
+    ``asked`` and the state of the files in ``data`` are all that a report depends on besides our code and the trees.
+    """
+
+    def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
+        self._start = f"{digest(os.path.realpath(base))}-" if folder else ""
+        self._folder = folder
+        self._file = os.path.join(folder, f"{self._start}{digest(asked)}.report") if folder else ""
+        own = files_below(SOURCES)
+        self._state = state_of([*own, *data]) if folder else ""
+
+    def __bool__(self) -> bool:
+        """Whether any report is kept at all."""
+        return bool(self._file)
+
+    def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
+        """Return the report that a run would make now, or None when only the run can tell."""
+        from ros_lint.engine.report import Report  # noqa: PLC0415  (a module that the command needs anyway)
+
+        kept = kept_files.load(self._file, self._state) if self._file else None
+        if not isinstance(kept, tuple) or len(kept) != 1 + len(trees) or not isinstance(kept[0], Report):
+            return None
+        report, *said = kept
+        try:
+            return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
+        except (TypeError, ValueError):  # no list of questions, answers and paths
+            return None
+
+    def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
+        """Keep a report that was made from what some trees said. It loses the functions of its rules."""
+        if not self._file or report.crashes or not all(tree.steady for tree in trees):
+            return
+        bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
+        issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
+        said = ([(question, _bare(told)) for question, told in tree.said.items()] for tree in trees)
+        if kept_files.save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *said)):
+            self._clear()
+
+    def _clear(self) -> None:
+        """Remove the oldest reports of the workspace."""
+        try:
+            with os.scandir(self._folder) as entries:
+                mine = [(entry.stat().st_mtime_ns, entry.path) for entry in entries if entry.name.startswith(self._start)]
+            for _, path in sorted(mine)[:-_MOST_REPORTS]:
+                os.unlink(path)
+        except OSError:
+            return
+
+
+def _bare(told: Any) -> Any:
+    """Return stamps and the entries of a directory as plain tuples, which are equal to them and read faster."""
+    return [tuple(entry) for entry in told] if isinstance(told, list) else tuple(told) if isinstance(told, tuple) else told
