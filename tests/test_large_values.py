@@ -6,7 +6,6 @@ from ros_lint.base.safe_yaml import YamlBoundError, load
 from ros_lint.base.text import Text
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.colcon import python_project as colcon_python
-from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.launch.python import collect as launch_py
 from ros_lint.collectors.python import collect as python
 from ros_lint.collectors.setup_py import evaluate as setup_py

@@ -86,6 +86,10 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors.python import collect as python  # noqa: PLC0415
 
         facts = python.collect(text, launch=launch is not None)
+        if launch is not None and "moveit_controller_manager" in text.text:
+            from ros_lint.collectors.resources.collect import loaded  # noqa: PLC0415
+
+            facts = facts._replace(mentions=(*facts.mentions, *loaded(text)))
     elif kind == "cmake":
         from ros_lint.collectors.cmake import syntax as cmake_syntax  # noqa: PLC0415
 

@@ -112,7 +112,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue  # only under a condition
         elif exported and any(entry.type in all_names - described for library in plugin.libraries for entry in library.classes):
             yield Finding(
-                f"'{plugin.path}' is not exported, so its plugins are not found; add {build.EXPORTING_PLUGINS}(... {plugin.path})",
+                f"'{plugin.path}' is not exported, so its plugins are not found; "
+                f"add {build.EXPORTING_PLUGINS}(... {plugin.path})",
                 plugin.span,
                 plugin.path,
                 fix=_export(package, plugin),
@@ -182,7 +183,8 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
         if loaders and exported_for not in asked and not workspace.world.is_package(exported_for):
             fix = Fix(f"export it for '{asked[0]}'", (edits.cmake.write(call, 0, asked[0]),), safe=False)
             yield Finding(
-                f"'{path}' is exported for '{exported_for}', which is not a package; the loader searches for {names.shorten_list(asked)}",
+                f"'{path}' is exported for '{exported_for}', which is not a package; "
+                f"the loader searches for {names.shorten_list(asked)}",
                 call.span(0),
                 path,
                 first_related(Related("loaded here", loader.span) for loader in loaders),

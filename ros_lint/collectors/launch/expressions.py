@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+from ros_lint.collectors.python.methods import LENGTH_PRESERVING
 from ros_lint.collectors.python.operators import ARITHMETIC, COMPARISONS
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import read_expression
@@ -68,9 +69,7 @@ _COMPARE: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.In: lambda a, b: a in b,
     ast.NotIn: lambda a, b: a not in b,
 }
-EVALUATED = frozenset({"capitalize", "casefold", "endswith", "lower", "startswith", "title", "upper"})
-"""Methods of texts that an expression may call, and that are no longer than these."""
-_METHODS = EVALUATED | {"strip", "lstrip", "rstrip", "replace", "split", "find", "count"}
+_METHODS = LENGTH_PRESERVING | {"strip", "lstrip", "rstrip", "replace", "split", "find", "count"}
 
 
 def _value(node: ast.expr) -> Any:

@@ -56,10 +56,6 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         for item in found
         if not item.module
     ]
-    if launch and "moveit_controller_manager" in source.text:
-        from ros_lint.collectors.resources import collect as resources  # noqa: PLC0415
-
-        mentions += resources.loaded(source)
     if looked_up.mentions:
         mentions = sorted([*mentions, *looked_up.mentions], key=lambda mention: mention.span)
     return FileFacts(

@@ -26,6 +26,9 @@ SPLITS: Final = frozenset({"partition", "rpartition", "rsplit", "split", "splitl
 STRIPS: Final = frozenset({"lstrip", "removeprefix", "removesuffix", "rstrip", "strip"})
 """Methods that take something off the ends of a text."""
 
+LENGTH_PRESERVING: Final = frozenset({"capitalize", "casefold", "endswith", "lower", "startswith", "title", "upper"})
+"""Methods whose result is no longer than the text, and that a Python expression of launch may call."""
+
 TEXT_METHODS: Final = (
     TRUTHS | NUMBERS | SPLITS | STRIPS | {"capitalize", "casefold", "lower", "swapcase", "title", "upper"}
 )  # fmt: skip

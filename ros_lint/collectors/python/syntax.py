@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from ros_lint.base import python_parser as python_ast
 from ros_lint.base.python_nesting import DEEPEST, most_levels, nests_too_deep, plain
@@ -29,6 +29,8 @@ _PYTHON_2 = re.compile(
 )
 _TEMPLATE_NAME = re.compile(r"\.(?:in|em|j2|jinja2?|mako|template|tmpl|tpl)(?:\.py)?\Z|\{\{|\}\}|__[A-Z_]+__\.py\Z")
 _TEMPLATE_MARK = re.compile(r"\{\{|\{%|@\{|@\(|@\[|@[A-Za-z_]\w*@|\$\{|<%")
+
+_Tree = TypeVar("_Tree", bound=ast.AST)
 
 Node = ast.expr | ast.stmt | ast.alias | ast.keyword
 """What stands in a place of its own."""
@@ -194,3 +196,19 @@ def refusal(source: Text, error: NotPythonError) -> Refusal:
 def is_of_others(source: Text) -> bool:
     """Return whether a source is a template, or of Python 2."""
     return bool(_TEMPLATE_NAME.search(source.path) or _TEMPLATE_MARK.search(source.text) or _PYTHON_2.search(source.text))
+
+
+def placed(node: _Tree, at: ast.AST) -> _Tree:
+    """Return a copy of a syntax tree with one location for all its nodes, and no constant that counts as written there."""
+    copy = type(node)(**{name: _placed_field(value, at) for name, value in ast.iter_fields(node)})
+    return ast.copy_location(copy, at)
+
+
+def _placed_field(value: object, at: ast.AST) -> object:
+    if isinstance(value, ast.Constant) and isinstance(value.value, str):
+        return ast.copy_location(ast.JoinedStr([value]), at)
+    if isinstance(value, ast.JoinedStr):  # placed before
+        return ast.copy_location(ast.JoinedStr(value.values), at)
+    if isinstance(value, ast.AST):
+        return placed(value, at)
+    return [_placed_field(item, at) for item in value] if isinstance(value, list) else value

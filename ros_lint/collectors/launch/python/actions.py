@@ -15,8 +15,8 @@ from ros_lint.collectors.launch.python import nodes as launch_py_nodes
 from ros_lint.collectors.launch.python.nodes import nested, started_node
 from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_text, texts
 from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of
-from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.protocol import Interpreter
 from ros_lint.collectors.python.interpreter.values import Conditions, LaunchObject, Source, Value, alternatives, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
@@ -24,7 +24,7 @@ from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
 _MOST_TEXTS = 2_000
 
 
-def walker(machine: Machine, source: Source) -> Walker:
+def walker(machine: Interpreter, source: Source) -> Walker:
     """Return what turns the objects of a launch file into actions."""
     return Walker(machine, source, _RULES, _other)
 

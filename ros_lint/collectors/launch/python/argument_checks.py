@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.suggestions import ask_if_meant, similar_names
 from ros_lint.collectors.launch.python.import_checks import is_from_launch
-from ros_lint.collectors.launch.python.substitution_misuse import are_unknown
 from ros_lint.collectors.launch.python.substitutions import texts
 from ros_lint.collectors.launch.python.walker import span_of
+from ros_lint.collectors.python.interpreter.recorder import are_unknown
 from ros_lint.collectors.python.string_values import callee, dotted
 from ros_lint.collectors.python.unbound_names import tried
 from ros_lint.collectors.symbolic_text import UNKNOWN

@@ -17,6 +17,7 @@ from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
 from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped, not_taken
 from ros_lint.collectors.launch.python.import_checks import strays
+from ros_lint.collectors.launch.python.meaning import LaunchLibraries
 from ros_lint.collectors.launch.python.runtime_errors import misused, not_condition, not_text, undefined
 from ros_lint.collectors.launch.python.substitutions import Within, texts
 from ros_lint.collectors.launch.references import References
@@ -53,7 +54,7 @@ def collect(
         problems = (why.problem(),) if why.known else ()
         return LaunchFile(source.path, "python", (), (why.opaque(Facet.USES),), problems, test, helper)
     helper = helper or any(_asks_for_arguments(node) for node in tree.body)
-    reading = _Reading(source, Machine(modules, files))
+    reading = _Reading(source, Machine(modules, files, LaunchLibraries()))
     try:
         reading.read(tree, helper)
     except (BudgetExceeded, RecursionError, MemoryError):
@@ -191,7 +192,7 @@ class _Reading:
     def _leftovers(self, everything: bool) -> None:
         """Take what went where it cannot be followed for launched, perhaps."""
         for made in self._machine.made:
-            if not made.seen and (made.lost or everything) and made.name in LAUNCHED:
+            if not made.seen and (made.escaped or everything) and made.name in LAUNCHED:
                 self.actions += self._walker.actions(made, (PERHAPS,))
 
     def add_to(self, references: References) -> None:

@@ -10,12 +10,11 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import symbolic_text as launch_text
-from ros_lint.collectors.launch.python.substitution_misuse import note
 from ros_lint.collectors.launch.python.substitutions import conditions_of
 from ros_lint.collectors.python.interpreter import path_functions as launch_py_paths
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
-from ros_lint.collectors.python.interpreter.methods import built_for, items
+from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import INSTALLED, text_of
 from ros_lint.collectors.python.interpreter.values import (
     FilePath,
@@ -35,12 +34,12 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, joined, presence
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 
 
 def call_library(
-    machine: Machine,
+    machine: Interpreter,
     what: str | Method,
     arguments: list[Value],
     keywords: dict[str, Value],
@@ -57,9 +56,9 @@ def call_library(
         return rule(call)
     if last[:1].isupper():
         return _make(call, last)
-    machine.lose([arguments, keywords])
+    machine.escape([arguments, keywords])
     if "package" in keywords and "executable" in keywords:
-        _make(call, "Node").lost = True  # by its name a function that makes one
+        _make(call, "Node").escaped = True  # by its name a function that makes one
     return Unknown("" if what.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 
@@ -101,6 +100,27 @@ def _note_builder(call: Call, made: LaunchObject) -> None:
         names = tuple(f"{one.value}_moveit_config" for one in alternatives(robots) if isinstance(one.value, str))
         for name in names:
             _note(call, name, made.written(0, "robot_name"), eager=True)
+
+
+def built_for(builder: LaunchObject) -> str:
+    """Return the package of a builder of MoveIt, "" if it is unknown. The default is derived from the name of the robot."""
+    of_robots = builder.name == "MoveItConfigsBuilder"
+    package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
+    if package is None and of_robots and isinstance(robot, str):
+        package = f"{robot}_moveit_config"
+    return package if isinstance(package, str) and launch_text.is_plain(package) else ""
+
+
+def attribute_of_library(owner: LaunchObject, name: str) -> Value:
+    """Return an attribute of an object of a library."""
+    match owner.name, name:
+        case "LaunchDescription", "entities":
+            return owner.entities
+        case "DeclareLaunchArgument", "name":
+            return owner.get(0, "name")
+        case "MoveItConfigsBuilder", "package_path" if package := built_for(owner):
+            return FilePath(launch_text.share(package))
+    return Method(owner, name)
 
 
 _READ_BY_BUILDERS: Mapping[str, int] = {
@@ -167,7 +187,7 @@ def _method(call: Call, owner: LaunchObject) -> Value:
         owner.keywords.update({f"{name}.{key}": value for key, value in call.keywords.items()})
         owner.keywords.update({f"{name}.{index}": value for index, value in enumerate(call.arguments)})
         return owner
-    machine.lose([owner, call.arguments, call.keywords])
+    machine.escape([owner, call.arguments, call.keywords])
     return Unknown(f"{name}() of {owner.name}")
 
 
@@ -190,7 +210,7 @@ def _prefix(call: Call) -> Value:
 
 def _join(call: Call) -> Value:
     for argument in call.arguments:
-        note(call.machine, argument, "joined", call.node, call.frame)
+        call.machine.record_misuse(argument, "joined", call.node, call.frame)
     rows = [call.texts(position) for position in range(len(call.arguments))]
     return call.result(joined(rows, lambda row: posixpath.join("", *row)))
 
@@ -275,11 +295,11 @@ def _runs(call: Call) -> Value:
         for option, path in pairwise(words):
             if "-o" in call.machine.texts(option):
                 call.machine.ask(call.machine.texts(path))
-    call.machine.lose([call.arguments, call.keywords])
+    call.machine.escape([call.arguments, call.keywords])
     return Unknown("")
 
 
-def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
+def subscript_library(machine: Interpreter, owner: Value, key: Value) -> Value:
     """Return an element of something that a library has."""
     if isinstance(owner, LibraryName):
         if owner.name == "os.environ":
@@ -288,7 +308,7 @@ def subscript_library(machine: Machine, owner: Value, key: Value) -> Value:
             return union(launch_text.configuration(name) for name in text_of(key))
     if isinstance(owner, (Unknown, LibraryName)):
         return Unknown("element of what is not known")
-    machine.lose(owner)
+    machine.escape(owner)
     return Unknown("element of what is not known")
 
 

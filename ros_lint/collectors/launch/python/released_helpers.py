@@ -10,9 +10,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping
 from functools import cache
-from typing import TypeVar
 
-_Node = TypeVar("_Node", bound=ast.AST)
+from ros_lint.collectors.python.syntax import placed
 
 HELPERS: Mapping[str, str] = {
     # controller_manager (ros2_control): controller_manager/launch_utils.py
@@ -257,19 +256,3 @@ def helper(name: str, at: ast.stmt) -> ast.Module:
 @cache
 def _parsed(name: str) -> ast.Module:
     return ast.parse(HELPERS[name])
-
-
-def placed(node: _Node, at: ast.AST) -> _Node:
-    """Return a copy of a syntax tree all of which stands at one place, where none of its texts is written."""
-    copy = type(node)(**{name: _field(value, at) for name, value in ast.iter_fields(node)})
-    return ast.copy_location(copy, at)
-
-
-def _field(value: object, at: ast.AST) -> object:
-    if isinstance(value, ast.Constant) and isinstance(value.value, str):
-        return ast.copy_location(ast.JoinedStr([value]), at)
-    if isinstance(value, ast.JoinedStr):  # has been placed before
-        return ast.copy_location(ast.JoinedStr(value.values), at)
-    if isinstance(value, ast.AST):
-        return placed(value, at)
-    return [_field(one, at) for one in value] if isinstance(value, list) else value

@@ -11,16 +11,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch.python.import_checks import ACTIONS
-from ros_lint.collectors.launch.python.substitution_misuse import are_unknown
 from ros_lint.collectors.launch.python.substitutions import is_text
 from ros_lint.collectors.launch.python.walker import span_of
+from ros_lint.collectors.python.interpreter.recorder import are_unknown
 from ros_lint.collectors.python.interpreter.values import Function, LaunchObject
 from ros_lint.collectors.python.string_values import callee
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.launch.python.substitution_misuse import How, Misused
+    from ros_lint.collectors.python.interpreter.recorder import How, Misused
     from ros_lint.collectors.python.interpreter.values import Source, Value
 
 

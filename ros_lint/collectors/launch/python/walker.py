@@ -31,7 +31,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchValue
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Source
 
 _DEEPEST = 60
@@ -55,7 +55,7 @@ def place_of(made: LaunchObject) -> Span:
 class Walker:
     """Turns values into actions."""
 
-    def __init__(self, machine: Machine, source: Source, rules: Mapping[str, Rule], otherwise: Rule) -> None:
+    def __init__(self, machine: Interpreter, source: Source, rules: Mapping[str, Rule], otherwise: Rule) -> None:
         """Make a walker. ``rules`` say what objects of a class do, ``otherwise`` what those of any other class do."""
         self.machine = machine
         self._rules = rules

@@ -6,7 +6,6 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
 from ros_lint.collectors.python.interpreter.values import (
@@ -27,21 +26,21 @@ from ros_lint.collectors.python.interpreter.values import (
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
-def _assign(machine: Machine, node: ast.Assign, frame: Frame) -> None:
+def _assign(machine: Interpreter, node: ast.Assign, frame: Frame) -> None:
     value = machine.evaluate(node.value, frame)
     for target in node.targets:
         bind(machine, target, value, frame)
 
 
-def _annotated(machine: Machine, node: ast.AnnAssign, frame: Frame) -> None:
+def _annotated(machine: Interpreter, node: ast.AnnAssign, frame: Frame) -> None:
     if node.value is not None:
         bind(machine, node.target, machine.evaluate(node.value, frame), frame)
 
 
-def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> None:
+def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
     value = machine.evaluate(node.value, frame)
     load: ast.expr = node.target
     before = machine.evaluate(load, frame)
@@ -49,7 +48,7 @@ def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> None:
     if isinstance(one, list) and isinstance(node.op, ast.Add):
         found = items(machine, value)
         if found is None:
-            machine.lose(value)
+            machine.escape(value)
             found = [Unknown("elements that are not known")]
         machine.spend(len(found))
         one += [machine.guard(element) for element in found]
@@ -59,7 +58,7 @@ def _augmented(machine: Machine, node: ast.AugAssign, frame: Frame) -> None:
     bind(machine, node.target, operation(machine, node.op, before, value, where, frame), frame)
 
 
-def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None:
+def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> None:
     """Give a value to a target of an assignment."""
     if isinstance(target, ast.Name):
         around = frame.declared.get(target.id)
@@ -75,18 +74,18 @@ def bind(machine: Machine, target: ast.expr, value: Value, frame: Frame) -> None
             elif isinstance(one.value, LaunchObject):
                 one.value.keywords[target.attr] = value
             else:
-                machine.lose(value)
+                machine.escape(value)
     elif isinstance(target, ast.Subscript):
         _store(machine, target, value, frame)
     elif isinstance(target, ast.Starred):
         bind(machine, target.value, value, frame)
 
 
-def _unpack(machine: Machine, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
+def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
     values = items(machine, value)
     star = next((index for index, target in enumerate(targets) if isinstance(target, ast.Starred)), -1)
     if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
-        machine.lose(value)
+        machine.escape(value)
         for target in targets:
             bind(machine, target, Unknown("part of what is not known"), frame)
         return
@@ -97,14 +96,14 @@ def _unpack(machine: Machine, targets: Sequence[ast.expr], value: Value, frame: 
         bind(machine, target, plain(one), frame)
 
 
-def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) -> None:
+def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Frame) -> None:
     key = _key(machine, target.slice, frame)
     for one in alternatives(machine.evaluate(target.value, frame)):
         owner = one.value
         if isinstance(owner, list) and isinstance(key, slice) and not machine.conditions:
             _store_slice(machine, owner, key, value)
         elif isinstance(owner, dict):
-            name = hashable(key)
+            name = hashable(machine, key)
             if machine.conditions and name in owner:
                 owner[name] = union([owner[name], machine.guard(value)])
             else:
@@ -114,10 +113,10 @@ def _store(machine: Machine, target: ast.Subscript, value: Value, frame: Frame) 
         elif isinstance(owner, LibraryName) and owner.name == "os.environ":
             _set_variable(machine, target, key, value, frame)
         else:
-            machine.lose(value)
+            machine.escape(value)
 
 
-def _key(machine: Machine, node: ast.expr, frame: Frame) -> Value:
+def _key(machine: Interpreter, node: ast.expr, frame: Frame) -> Value:
     """Return what stands between brackets: a value, or a slice if it is one whose ends are known."""
     if not isinstance(node, ast.Slice):
         return plain(machine.evaluate(node, frame))
@@ -125,10 +124,10 @@ def _key(machine: Machine, node: ast.expr, frame: Frame) -> Value:
     return slice(*ends) if all(end is None or isinstance(end, int) for end in ends) else Unknown("a slice")
 
 
-def _store_slice(machine: Machine, owner: list[Value], key: slice, value: Value) -> None:
+def _store_slice(machine: Interpreter, owner: list[Value], key: slice, value: Value) -> None:
     given = items(machine, value)
     if given is None:
-        machine.lose(value)
+        machine.escape(value)
         given = [Unknown("elements that are not known")]
     try:
         owner[key] = given
@@ -136,13 +135,13 @@ def _store_slice(machine: Machine, owner: list[Value], key: slice, value: Value)
         raise ProgramRaised("ValueError") from None
 
 
-def _set_variable(machine: Machine, target: ast.Subscript, name: Value, value: Value, frame: Frame) -> None:
+def _set_variable(machine: Interpreter, target: ast.Subscript, name: Value, value: Value, frame: Frame) -> None:
     if isinstance(name, str) and is_plain(name):
         call = ast.copy_location(ast.Call(target, [target.slice, target], []), target)
         machine.set_variable(name, value, call, frame.source)
 
 
-def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:
+def _import(machine: Interpreter, node: ast.Import, frame: Frame) -> None:
     for alias in node.names:
         found = machine.module(alias.name, frame.source, node)
         top = alias.name.partition(".")[0]
@@ -152,14 +151,14 @@ def _import(machine: Machine, node: ast.Import, frame: Frame) -> None:
             frame.names[top] = found or LibraryName(top)
 
 
-def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
+def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> None:
     name = "." * node.level + (node.module or "")
     found = machine.module(name, frame.source, node)
     for alias in node.names:
         if alias.name == "*":
             frame.names.update(found.names if found is not None else {})
             continue
-        if alias.name in SUBSTITUTIONS:
+        if machine.library.is_substitution(alias.name):
             frame.names[alias.asname or alias.name] = LibraryName(f"{name}.{alias.name}")
             continue
         inner = found.names.get(alias.name) if found is not None else None
@@ -169,14 +168,14 @@ def _import_from(machine: Machine, node: ast.ImportFrom, frame: Frame) -> None:
         frame.names[alias.asname or alias.name] = inner if inner is not None else LibraryName(f"{name}.{alias.name}")
 
 
-def _global(_machine: Machine, node: ast.Global, frame: Frame) -> None:
+def _global(_machine: Interpreter, node: ast.Global, frame: Frame) -> None:
     outermost = frame
     while outermost.outer is not None:
         outermost = outermost.outer
     frame.declared.update(dict.fromkeys(node.names, outermost))
 
 
-def _nonlocal(_machine: Machine, node: ast.Nonlocal, frame: Frame) -> None:
+def _nonlocal(_machine: Interpreter, node: ast.Nonlocal, frame: Frame) -> None:
     for name in node.names:
         around = frame.outer
         while around is not None and name not in around.names:
@@ -185,7 +184,7 @@ def _nonlocal(_machine: Machine, node: ast.Nonlocal, frame: Frame) -> None:
             frame.declared[name] = around
 
 
-def _delete(machine: Machine, node: ast.Delete, frame: Frame) -> None:
+def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
     waiting = list(node.targets)
     while waiting:
         target = waiting.pop(0)
@@ -203,10 +202,10 @@ def _delete(machine: Machine, node: ast.Delete, frame: Frame) -> None:
                 _delete_element(machine, one.value, key)
 
 
-def _delete_element(machine: Machine, owner: Value, key: Value) -> None:
+def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
     """Remove an element of a list or a dictionary; an element that is removed only under conditions is perhaps there."""
     if isinstance(owner, dict):
-        key = hashable(key)
+        key = hashable(machine, key)
         known = UNKNOWN not in owner and key != UNKNOWN
     elif isinstance(owner, list):
         known = isinstance(key, (int, slice)) and not may_have_more(owner)
@@ -224,7 +223,7 @@ def _delete_element(machine: Machine, owner: Value, key: Value) -> None:
             raise ProgramRaised(type(error).__name__) from None
 
 
-STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], None]] = {
+STATEMENTS: dict[type[ast.stmt], Callable[[Interpreter, Any, Frame], None]] = {
     ast.Assign: _assign,
     ast.AnnAssign: _annotated,
     ast.AugAssign: _augmented,

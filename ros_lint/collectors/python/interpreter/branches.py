@@ -32,7 +32,7 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, asked_for, expression, qu
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 _MOST_TURNS = 2_000
 _MOST_EXITS = 100
@@ -57,7 +57,7 @@ class _Side(NamedTuple):
 
 
 def either(
-    machine: Machine,
+    machine: Interpreter,
     body: Sequence[ast.stmt],
     other: Sequence[ast.stmt],
     condition: LaunchCondition,
@@ -105,7 +105,7 @@ def either(
 
 
 def _follow(
-    machine: Machine,
+    machine: Interpreter,
     block: Sequence[ast.stmt],
     taken: LaunchCondition,
     before: Conditions,
@@ -130,7 +130,7 @@ def _follow(
     return _Side(block, taken, signal, frame.names, machine.conditions, exits)
 
 
-def _join(machine: Machine, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
+def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
     """Join other names, which hold under conditions, to those of a frame."""
     for name, value in names.items():
         if name not in frame.names:
@@ -139,7 +139,7 @@ def _join(machine: Machine, frame: Frame, held: Conditions, names: dict[str, Val
             frame.names[name] = machine.joined([Guarded(frame.names[name], held), Guarded(value, conditions)])
 
 
-def _join_exit(machine: Machine, frame: Frame, one: Exit, around: Conditions) -> None:
+def _join_exit(machine: Interpreter, frame: Frame, one: Exit, around: Conditions) -> None:
     taken = _beyond(one, around)
     _join(machine, frame, (_complement(machine, taken),), one.names, taken)
 
@@ -150,7 +150,7 @@ def _beyond(one: Exit, around: Iterable[LaunchCondition]) -> Conditions:
     return tuple([condition for condition in one.conditions if condition not in known])
 
 
-def _bars(machine: Machine, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
+def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
     """Return what must be so for none of some ways out to be taken, where ``depth`` conditions hold around them."""
     bars: list[LaunchCondition] = []
     for one in exits:
@@ -158,7 +158,7 @@ def _bars(machine: Machine, exits: Iterable[Exit], depth: int) -> list[LaunchCon
     return bars
 
 
-def _complement(machine: Machine, conditions: Conditions) -> LaunchCondition:
+def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition:
     """Return the condition that holds when not all of some conditions hold."""
     if len(conditions) == 1:
         return opposite_of(conditions[0])
@@ -198,7 +198,7 @@ def _stops(body: Sequence[ast.stmt]) -> bool:
 class _Loop:
     """A loop whose turns are followed one after the other."""
 
-    def __init__(self, machine: Machine, frame: Frame) -> None:
+    def __init__(self, machine: Interpreter, frame: Frame) -> None:
         self._machine = machine
         self._frame = frame
         self._before = machine.conditions
@@ -250,7 +250,7 @@ class _Loop:
         return NEXT
 
 
-def follow_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
+def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
     """Follow a for loop. Raises Raised and OutOfBudget."""
     values = items(machine, machine.evaluate(node.iter, frame))
     if values is None:
@@ -269,7 +269,7 @@ def follow_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> 
     return loop.end(node.orelse)
 
 
-def follow_while(machine: Machine, node: ast.While, frame: Frame) -> int:
+def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
     """Follow a while loop. Raises Raised and OutOfBudget."""
     loop = _Loop(machine, frame)
     for _ in range(_MOST_TURNS):
@@ -286,6 +286,6 @@ def follow_while(machine: Machine, node: ast.While, frame: Frame) -> int:
     raise BudgetExceeded
 
 
-def _perhaps(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
+def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
     """Follow a block that may run any number of times."""
     return either(machine, body, (), PERHAPS, frame, loop=True)

@@ -11,8 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import symbolic_text as launch_text
-from ros_lint.collectors.launch.python.substitution_misuse import note
-from ros_lint.collectors.python.interpreter import container_functions as launch_py_collections
+from ros_lint.collectors.python.interpreter import container_functions
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import call_method, of_instance
 from ros_lint.collectors.python.interpreter.operations import each, text_of, truth
@@ -33,13 +32,13 @@ from ros_lint.collectors.python.interpreter.values import (
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
 def _str(call: Call) -> Value:
     value = call.get(0)
     if isinstance(value, LaunchObject):
-        note(call.machine, value, "formatted", call.node, call.frame)
+        call.machine.record_misuse(value, "formatted", call.node, call.frame)
         return unknown_text(call)
     return call.result(text_of(value)) if value is not None or call.arguments else ""
 
@@ -193,9 +192,9 @@ def _parsed(call: Call) -> Value:
     return each(call.get(0, "stream", "s"), partial(_content, call.machine))
 
 
-def _content(machine: Machine, text: Value) -> Value:
+def _content(machine: Interpreter, text: Value) -> Value:
     if not isinstance(text, str) or not launch_text.is_plain(text):
-        machine.lose(text)
+        machine.escape(text)
         return text if isinstance(text, Unknown) else Unknown("the content of a file")
     machine.spend(len(text) // 50)
     from ros_lint.base.safe_yaml import YamlBoundError, YamlError, load  # noqa: PLC0415  (few launch files read YAML)
@@ -223,7 +222,7 @@ def _copied_whole(call: Call) -> Value:
     return _deep(call.machine, call.get(0), {})
 
 
-def _deep(machine: Machine, value: Value, done: dict[int, Value]) -> Value:
+def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
     """Return a value with new lists and dictionaries all the way down, the same one where the same one was."""
     if isinstance(value, Guarded):
         return Guarded(_deep(machine, value.value, done), value.conditions)
@@ -268,7 +267,7 @@ BUILTINS: Mapping[str, Value] = {
 """Names that Python binds."""
 
 FUNCTIONS: Mapping[str, Rule] = {
-    **launch_py_collections.FUNCTIONS,
+    **container_functions.FUNCTIONS,
     "yaml.safe_load": _parsed,
     "yaml.load": _parsed,
     "json.load": _parsed,

@@ -12,7 +12,7 @@ from ros_lint.collectors.python.interpreter.values import Union, Unknown, Value,
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 
 
@@ -22,7 +22,7 @@ class Call:
     __slots__ = ("arguments", "frame", "keywords", "machine", "name", "node")
 
     def __init__(
-        self, machine: Machine, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+        self, machine: Interpreter, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
     ) -> None:
         self.machine = machine
         self.name = name
@@ -56,7 +56,7 @@ Rule = Callable[[Call], Value]
 
 def unknown(call: Call) -> Value:
     """Return what a function returns of which nothing is known: what it got may go anywhere."""
-    call.machine.lose([call.arguments, call.keywords])
+    call.machine.escape([call.arguments, call.keywords])
     return Unknown(f"{call.name.rpartition('.')[2]}()")
 
 

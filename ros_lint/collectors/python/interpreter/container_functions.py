@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, unknown
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import truth
-from ros_lint.collectors.python.interpreter.ordering import arranged, extreme, unique
-from ros_lint.collectors.python.interpreter.values import Conditions, Guarded, Unknown, Value, around, plain
+from ros_lint.collectors.python.interpreter.ordering import arranged, positions, sort_keys, unique
+from ros_lint.collectors.python.interpreter.values import Conditions, Guarded, ProgramRaised, Unknown, Value, around, plain
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
 def _set(call: Call) -> Value:
@@ -38,6 +38,26 @@ def _rows(call: Call, start: int) -> list[tuple[list[Value], Conditions]] | None
 
 def _under(conditions: Conditions, value: Value) -> Value:
     return Guarded(value, conditions) if conditions else value
+
+
+def _extreme(function: Callable[..., int]) -> Rule:
+    """Return the rule for min() or max()."""
+
+    def rule(call: Call) -> Value:
+        values = call.items(0) if len(call.arguments) == 1 else call.arguments
+        if values is None or any(isinstance(value, Guarded) for value in values):
+            return Unknown("the least or the greatest of what is not known")
+        if not values:
+            if "default" not in call.keywords:
+                raise ProgramRaised
+            return call.keywords["default"]
+        keys = sort_keys(call.machine, values, call.keywords, call.node, call.frame)
+        if keys is None:
+            return Unknown("the least or the greatest of what is not known")
+        positions(keys)
+        return values[function(range(len(values)), key=keys.__getitem__)]
+
+    return rule
 
 
 def _sorted(call: Call) -> Value:
@@ -85,7 +105,7 @@ def _any_all(wanted: bool) -> Rule:
     return rule
 
 
-def _answer(machine: Machine, value: Value, wanted: bool) -> bool | None:
+def _answer(machine: Interpreter, value: Value, wanted: bool) -> bool | None:
     """Return whether an element is true; None if that is unknown, or if the element may be missing and would decide."""
     answer, _ = truth(machine, value)
     return None if answer is wanted and isinstance(value, Guarded) else answer
@@ -130,8 +150,8 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.filter": _filter,
     "builtins.any": _any_all(True),
     "builtins.all": _any_all(False),
-    "builtins.min": extreme(min),
-    "builtins.max": extreme(max),
+    "builtins.min": _extreme(min),
+    "builtins.max": _extreme(max),
     "builtins.sum": _sum,
 }
 """The rules of functions, by their full names."""

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.launch.python.substitution_misuse import note
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.methods import attribute, items
 from ros_lint.collectors.python.interpreter.operations import (
@@ -46,17 +45,17 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, expression, joined, quote
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
 _NUMBERS = (int, float, bool)
 
 
-def _constant(_: Machine, node: ast.Constant, frame: Frame) -> Value:
+def _constant(_: Interpreter, node: ast.Constant, frame: Frame) -> Value:
     return written(node.value, node, frame.source) if isinstance(node.value, str) else node.value
 
 
-def _name(machine: Machine, node: ast.Name, frame: Frame) -> Value:
+def _name(machine: Interpreter, node: ast.Name, frame: Frame) -> Value:
     around: Frame | None = frame.declared.get(node.id, frame)
     while around is not None:
         if node.id in around.names:
@@ -65,22 +64,22 @@ def _name(machine: Machine, node: ast.Name, frame: Frame) -> Value:
     return machine.builtin(node, frame)
 
 
-def _list(machine: Machine, node: ast.List, frame: Frame) -> Value:
+def _list(machine: Interpreter, node: ast.List, frame: Frame) -> Value:
     return _elements(machine, node.elts, frame)
 
 
-def _tuple(machine: Machine, node: ast.Tuple, frame: Frame) -> Value:
+def _tuple(machine: Interpreter, node: ast.Tuple, frame: Frame) -> Value:
     found = _elements(machine, node.elts, frame)
     return tuple(found) if isinstance(found, list) else found
 
 
-def _set(machine: Machine, node: ast.Set, frame: Frame) -> Value:
+def _set(machine: Interpreter, node: ast.Set, frame: Frame) -> Value:
     # Kept as a list: its order is of no account, and what is in it need not have a hash.
     found = _elements(machine, node.elts, frame)
     return unique(found) if isinstance(found, list) else found
 
 
-def _elements(machine: Machine, nodes: Iterable[ast.expr], frame: Frame) -> Value:
+def _elements(machine: Interpreter, nodes: Iterable[ast.expr], frame: Frame) -> Value:
     found: list[Value] = []
     for node in nodes:
         if not isinstance(node, ast.Starred):
@@ -89,13 +88,13 @@ def _elements(machine: Machine, nodes: Iterable[ast.expr], frame: Frame) -> Valu
         value = machine.evaluate(node.value, frame)
         inner = items(machine, value)
         if inner is None:
-            machine.lose(value)
+            machine.escape(value)
             return Unknown("a list with * of what is not known")
         found += inner
     return found
 
 
-def _dict(machine: Machine, node: ast.Dict, frame: Frame) -> Value:
+def _dict(machine: Interpreter, node: ast.Dict, frame: Frame) -> Value:
     found: dict[Value, Value] = {}
     unknown = False
     for key_node, value_node in zip(node.keys, node.values, strict=True):
@@ -108,14 +107,14 @@ def _dict(machine: Machine, node: ast.Dict, frame: Frame) -> Value:
                 unknown = True
             continue
         key = plain(machine.evaluate(key_node, frame))
-        found[hashable(key)] = value
+        found[hashable(machine, key)] = value
     if unknown:
-        machine.lose(found)
+        machine.escape(found)
         found[UNKNOWN] = Unknown("elements that are not known")
     return found
 
 
-def _formatted(machine: Machine, node: ast.JoinedStr, frame: Frame) -> Value:
+def _formatted(machine: Interpreter, node: ast.JoinedStr, frame: Frame) -> Value:
     rows: list[tuple[str, ...]] = []
     for part in node.values:
         if isinstance(part, ast.Constant):
@@ -123,7 +122,7 @@ def _formatted(machine: Machine, node: ast.JoinedStr, frame: Frame) -> Value:
             continue
         assert isinstance(part, ast.FormattedValue)
         value = machine.evaluate(part.value, frame)
-        note(machine, value, "formatted", node, frame)
+        machine.record_misuse(value, "formatted", node, frame)
         found = text_of(value)
         if part.format_spec is not None or part.conversion not in (-1, 115):
             spec = machine.evaluate(part.format_spec, frame) if part.format_spec is not None else ""
@@ -132,16 +131,16 @@ def _formatted(machine: Machine, node: ast.JoinedStr, frame: Frame) -> Value:
     return texts_made(joined(rows, "".join), node, frame)
 
 
-def _operation(machine: Machine, node: ast.BinOp, frame: Frame) -> Value:
+def _operation(machine: Interpreter, node: ast.BinOp, frame: Frame) -> Value:
     left = machine.evaluate(node.left, frame)
     right = machine.evaluate(node.right, frame)
     return operation(machine, node.op, left, right, node, frame)
 
 
-def _unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
+def _unary(machine: Interpreter, node: ast.UnaryOp, frame: Frame) -> Value:
     value = machine.evaluate(node.operand, frame)
     if isinstance(node.op, ast.Not):
-        note(machine, value, "tested", node, frame)
+        machine.record_misuse(value, "tested", node, frame)
         return negated(machine, value)
     value = plain(value)
     if isinstance(value, _NUMBERS) and isinstance(node.op, ast.USub):
@@ -149,7 +148,7 @@ def _unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
     return value if isinstance(value, _NUMBERS) and isinstance(node.op, ast.UAdd) else Unknown("the result of an operator")
 
 
-def _boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
+def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
     stop_at = isinstance(node.op, ast.Or)
     perhaps: list[Value] = []
     passed: Conditions = ()
@@ -157,7 +156,7 @@ def _boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
         with machine.under(*passed):
             value = machine.evaluate(part, frame)
         if part is not node.values[-1]:
-            note(machine, value, "tested", part, frame)
+            machine.record_misuse(value, "tested", part, frame)
         answer, condition = truth(machine, value)
         if part is node.values[-1] or answer is stop_at:
             if not (value == "" and any(isinstance(plain(one), Unknown) for one in perhaps)):  # any value, and so an empty text
@@ -186,7 +185,7 @@ def _together(values: list[Value], word: str) -> Value:
     return Unknown("a truth", LaunchCondition((expression(f" {word} ".join(parts)),), None))
 
 
-def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
+def _compare(machine: Interpreter, node: ast.Compare, frame: Frame) -> Value:
     left = machine.evaluate(node.left, frame)
     result: Value = True
     for op, right_node in zip(node.ops, node.comparators, strict=True):
@@ -196,7 +195,7 @@ def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
         elif isinstance(op, (ast.Eq, ast.NotEq)):
             for one, other in ((left, right), (right, left)):
                 if isinstance(other, str):
-                    note(machine, one, "compared", node, frame)
+                    machine.record_misuse(one, "compared", node, frame)
         result = compared(op, left, right)
         if len(node.ops) == 1:
             return result
@@ -207,9 +206,9 @@ def _compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
     return result
 
 
-def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
+def _choice(machine: Interpreter, node: ast.IfExp, frame: Frame) -> Value:
     test = machine.evaluate(node.test, frame)
-    note(machine, test, "tested", node.test, frame)
+    machine.record_misuse(test, "tested", node.test, frame)
     answer, condition = truth(machine, test)
     if answer is not None:
         return machine.evaluate(node.body if answer else node.orelse, frame)
@@ -222,14 +221,14 @@ def _choice(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
     return machine.joined([Guarded(first, (condition,)), Guarded(second, (opposite,))])
 
 
-def _attribute(machine: Machine, node: ast.Attribute, frame: Frame) -> Value:
+def _attribute(machine: Interpreter, node: ast.Attribute, frame: Frame) -> Value:
     owner = machine.evaluate(node.value, frame)
     if not isinstance(owner, (Guarded, Union)):
         return attribute(machine, owner, node, frame)
     return each(owner, lambda one: attribute(machine, one, node, frame))
 
 
-def _subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
+def _subscript(machine: Interpreter, node: ast.Subscript, frame: Frame) -> Value:
     owner = machine.evaluate(node.value, frame)
     if isinstance(node.slice, ast.Slice):
         parts = [
@@ -241,7 +240,7 @@ def _subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
     return each(owner, lambda one: each(key, lambda other: subscript(machine, one, other)))
 
 
-def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
+def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
     function = machine.evaluate(node.func, frame)
     arguments: list[Value] = []
     for argument in node.args:
@@ -262,7 +261,7 @@ def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
             machine.spend(len(inner_value) // 8)
             keywords.update({str(name): one for name, one in inner_value.items()})
         else:
-            machine.lose(value)
+            machine.escape(value)
     if not isinstance(function, (Guarded, Union)):
         return machine.call(function, arguments, keywords, node, frame)
     # Each is called only where it is the one.
@@ -275,7 +274,7 @@ def _call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     return union(found)
 
 
-def _lambda(machine: Machine, node: ast.Lambda, frame: Frame) -> Value:
+def _lambda(machine: Interpreter, node: ast.Lambda, frame: Frame) -> Value:
     return machine.function(node, frame)
 
 
@@ -288,7 +287,7 @@ def _inside(node: ast.expr, frame: Frame) -> Frame:
     return inner
 
 
-def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.GeneratorExp, frame: Frame) -> Value:
+def _comprehension(machine: Interpreter, node: ast.ListComp | ast.SetComp | ast.GeneratorExp, frame: Frame) -> Value:
     found: list[Value] = []
     inner = _inside(node, frame)
     of = machine.evaluate(node.generators[0].iter, inner)
@@ -298,12 +297,12 @@ def _comprehension(machine: Machine, node: ast.ListComp | ast.SetComp | ast.Gene
     return unique(found) if isinstance(node, ast.SetComp) else found
 
 
-def _dict_comprehension(machine: Machine, node: ast.DictComp, frame: Frame) -> Value:
+def _dict_comprehension(machine: Interpreter, node: ast.DictComp, frame: Frame) -> Value:
     found: dict[Value, Value] = {}
     inner = _inside(node, frame)
 
     def add() -> None:
-        key = hashable(plain(machine.evaluate(node.key, inner)))
+        key = hashable(machine, plain(machine.evaluate(node.key, inner)))
         found[key] = machine.evaluate(node.value, inner)
 
     _generate(machine, node.generators, machine.evaluate(node.generators[0].iter, inner), inner, add)
@@ -311,7 +310,7 @@ def _dict_comprehension(machine: Machine, node: ast.DictComp, frame: Frame) -> V
 
 
 def _generate(
-    machine: Machine, generators: list[ast.comprehension], of: Value, frame: Frame, produce: Callable[[], None]
+    machine: Interpreter, generators: list[ast.comprehension], of: Value, frame: Frame, produce: Callable[[], None]
 ) -> None:
     """Produce something for every choice of elements; ``of`` is what the first generator goes through."""
     first, rest = generators[0], generators[1:]
@@ -338,36 +337,36 @@ def _generate(
                     produce()
 
 
-def _slice_object(machine: Machine, node: ast.Slice, frame: Frame) -> Value:  # noqa: ARG001
+def _slice_object(machine: Interpreter, node: ast.Slice, frame: Frame) -> Value:  # noqa: ARG001
     return Unknown("a slice")
 
 
-def _named(machine: Machine, node: ast.NamedExpr, frame: Frame) -> Value:
+def _named(machine: Interpreter, node: ast.NamedExpr, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame)
     bind(machine, node.target, value, frame)
     return value
 
 
-def _starred(machine: Machine, node: ast.Starred, frame: Frame) -> Value:
+def _starred(machine: Interpreter, node: ast.Starred, frame: Frame) -> Value:
     return machine.evaluate(node.value, frame)
 
 
-def _yield(machine: Machine, node: ast.Yield, frame: Frame) -> Value:
+def _yield(machine: Interpreter, node: ast.Yield, frame: Frame) -> Value:
     frame.yielded.append(machine.guard(machine.evaluate(node.value, frame) if node.value is not None else None))
     return None
 
 
-def _yield_from(machine: Machine, node: ast.YieldFrom, frame: Frame) -> Value:
+def _yield_from(machine: Interpreter, node: ast.YieldFrom, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame)
     frame.yielded += items(machine, value) or [value]
     return None
 
 
-def _await(machine: Machine, node: ast.Await, frame: Frame) -> Value:
+def _await(machine: Interpreter, node: ast.Await, frame: Frame) -> Value:
     return machine.evaluate(node.value, frame)
 
 
-EVALUATE: dict[type[ast.expr], Callable[[Machine, Any, Frame], Value]] = {
+EVALUATE: dict[type[ast.expr], Callable[[Interpreter, Any, Frame], Value]] = {
     ast.Constant: _constant,
     ast.Name: _name,
     ast.List: _list,

@@ -12,16 +12,13 @@ import posixpath
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
-from ros_lint.collectors.launch.expressions import evaluate
-from ros_lint.collectors.launch.python.library import call_library, subscript_library
-from ros_lint.collectors.launch.python.released_helpers import HELPERS, helper, placed
-from ros_lint.collectors.launch.python.substitutions import Within, texts
 from ros_lint.collectors.python.interpreter.branches import LEAVE
 from ros_lint.collectors.python.interpreter.builtins import BUILTINS
 from ros_lint.collectors.python.interpreter.expressions import EVALUATE
 from ros_lint.collectors.python.interpreter.methods import call_method
 from ros_lint.collectors.python.interpreter.operations import text_of
-from ros_lint.collectors.python.interpreter.recorder import Recorder
+from ros_lint.collectors.python.interpreter.protocol import Interpreter, Library
+from ros_lint.collectors.python.interpreter.recorder import How, Misused, are_unknown
 from ros_lint.collectors.python.interpreter.repeated_calls import UnderWay, begin
 from ros_lint.collectors.python.interpreter.statements import execute
 from ros_lint.collectors.python.interpreter.values import (
@@ -46,38 +43,24 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
     union,
 )
+from ros_lint.collectors.python.syntax import placed
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
-from ros_lint.collectors.symbolic_text import fill, is_settled, joined
-from ros_lint.facts.launch import LAUNCH_RUNTIME, LaunchCondition
+from ros_lint.collectors.symbolic_text import is_settled, joined
+from ros_lint.facts.launch import LaunchCondition
 
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _DEEPEST_CALL = 40
 
-_KNOWN = (
-    STANDARD_LIBRARY
-    | LAUNCH_RUNTIME
-    | {
-        "launch_param_builder",
-        "launch_pytest",
-        "launch_testing",
-        "launch_testing_ros",
-        "moveit_configs_utils",
-        "xacro",
-        "yaml",
-    }
-)
-"""Libraries of which it is known what their classes and functions do. In a workspace that builds ROS itself their sources
-lie around, and say less."""
-
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
-class Machine(Recorder):
+class Machine(Interpreter):
     """Follows one launch file and the modules that it imports."""
 
-    def __init__(self, modules: Modules, files: Callable[[str], Value]) -> None:
-        super().__init__()
+    def __init__(self, modules: Modules, files: Callable[[str], Value], library: Library) -> None:
+        """``modules`` finds modules of the workspace, ``files`` texts of its files, ``library`` interprets other modules."""
+        super().__init__(library)
         self._modules = modules
         self._files = files
         self._sources: dict[str, Source | None] = {}
@@ -119,13 +102,9 @@ class Machine(Recorder):
         return frame
 
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
-        """Return a module of the workspace, or what is known of a released one, followed once.
-
-        None for any other, and for the libraries of launch, wherever their sources are.
-        """
-        known = name.partition(".")[0] in _KNOWN
-        if known and name not in HELPERS:
-            return None
+        """Return a module of the workspace, or a model of a released module, followed once; None for any other module."""
+        top = name.partition(".")[0]
+        known = top in STANDARD_LIBRARY or self.library.describes(top)
         key = f"{importer.text.path}:{name}" if name.startswith(".") else name
         if key in self._sources:
             return self._sources[key]
@@ -137,10 +116,11 @@ class Machine(Recorder):
             return found
         if not known:
             self.wanted.add(name)
-        if name in HELPERS:
+        model = self.library.model(name, at)
+        if model is not None:
             self.borrows = True
             found = self._sources[key] = Source(importer.text, lent=True)
-            self.run(helper(name, at), found)
+            self.run(model, found)
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
@@ -194,10 +174,10 @@ class Machine(Recorder):
         """Return what calling a value returns."""
         self.spend(1)
         if isinstance(function, LibraryName):
-            return call_library(self, function.name, arguments, keywords, node, frame)
+            return self.library.call(self, function.name, arguments, keywords, node, frame)
         if isinstance(function, Method):
             if isinstance(function.owner, LaunchObject):
-                return call_library(self, function, arguments, keywords, node, frame)
+                return self.library.call(self, function, arguments, keywords, node, frame)
             return call_method(self, function, arguments, keywords, node, frame)
         if isinstance(function, Function):
             try:
@@ -206,13 +186,13 @@ class Machine(Recorder):
                 if function.frame.source is frame.source:
                     raise
                 # A helper is more likely to be misread than to fail.
-                self.lose([arguments, keywords])
+                self.escape([arguments, keywords])
                 return Unknown(f"{getattr(function.node, 'name', 'a function')}() cannot be followed")
         if isinstance(function, Bound):
             return self._run_bound(function, arguments, keywords, node, frame)
         if isinstance(function, Class):
             return self._make(function, arguments, keywords, node, frame)
-        self.lose([arguments, keywords])
+        self.escape([arguments, keywords])
         return Unknown("the result of a call that cannot be followed")
 
     def _run_bound(self, bound: Bound, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
@@ -223,7 +203,7 @@ class Machine(Recorder):
         made = Instance(cls)
         base = cls.library_base()
         if base is not None and base.last not in ("ABC", "object", "Enum", "NamedTuple", "Protocol"):
-            result = call_library(self, base.name, arguments, keywords, node, frame)
+            result = self.library.call(self, base.name, arguments, keywords, node, frame)
             made.made = result if isinstance(result, LaunchObject) else None
         init = cls.find("__init__")
         if isinstance(init, Function):
@@ -241,11 +221,11 @@ class Machine(Recorder):
         if source.lent:
             node, source = self._lent(function, call, caller.source)
         if len(self._under_way) >= _DEEPEST_CALL:
-            self.lose([arguments, keywords])
+            self.escape([arguments, keywords])
             return Unknown("calls that are nested too deeply")
         frame = Frame(source, function.frame, function.taking(arguments, keywords))
         if not begin(self._under_way, function, frame.names, len(self.conditions)):
-            self.lose([arguments, keywords])
+            self.escape([arguments, keywords])
             return Unknown(f"the result of {getattr(node, 'name', 'a function')}() within itself")
         if isinstance(node, ast.Lambda):
             try:
@@ -260,7 +240,7 @@ class Machine(Recorder):
         except BudgetExceeded:
             if left <= allowed:
                 raise
-            self.lose([arguments, keywords])
+            self.escape([arguments, keywords])
             return Unknown("a call that takes too long")
         except ProgramRaised:
             if not frame.returned:
@@ -298,7 +278,7 @@ class Machine(Recorder):
         if not self.guarded and not path.isascii():
             self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
-        paths = fill(path, self._defaults().get, evaluate)
+        paths = self.library.with_defaults(self, path)
         if len(paths) != 1 or not is_settled(paths[0]):
             return unknown
         found = self._files(paths[0])
@@ -308,19 +288,9 @@ class Machine(Recorder):
         # Who launches the file can name another one.
         return found if paths[0] == path else union([Guarded(found, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
 
-    def _defaults(self) -> dict[str, tuple[str, ...]]:
-        """Return what is known so far of the values of launch configurations when nobody gives others."""
-        return {
-            str(name): texts(default)
-            for made in self.made
-            if made.name == "DeclareLaunchArgument"
-            if (default := made.get(1, "default_value")) is not None
-            for name in texts(made.get(0, "name"))
-        }
-
-    def subscript_of_library(self, owner: Value, key: Value) -> Value:
-        """Return an element of something that a library has."""
-        return subscript_library(self, owner, key)
-
     def texts(self, value: Value) -> tuple[str, ...]:
-        return texts(value, Within(self.spend))
+        return self.library.texts(value, self.spend)
+
+    def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
+        if isinstance(value, LaunchObject) and (misuse := self.library.misuse(value, how)) and not are_unknown(self.conditions):
+            self.misused.append(Misused(misuse, value, node, frame.source))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.launch.expressions import EVALUATED
-from ros_lint.collectors.launch.python.substitution_misuse import note
 from ros_lint.collectors.python.interpreter.operations import (
     chosen,
     hashable,
@@ -41,7 +39,7 @@ from ros_lint.collectors.python.interpreter.values import (
     union,
     written,
 )
-from ros_lint.collectors.python.methods import CONSTANTS, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
+from ros_lint.collectors.python.methods import CONSTANTS, LENGTH_PRESERVING, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
 from ros_lint.collectors.symbolic_text import (
     LONGEST,
     UNKNOWN,
@@ -51,20 +49,19 @@ from ros_lint.collectors.symbolic_text import (
     joined,
     names_places,
     quoted,
-    share,
 )
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     import ast
 
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 
 _MOST_ITEMS = 5_000
 
 
-def items(machine: Machine, value: Value) -> list[Value] | None:
+def items(machine: Interpreter, value: Value) -> list[Value] | None:
     """Return the elements of a value in a fresh list, guarded where they are conditional; None if they are not known."""
     value = plain(value)
     if isinstance(value, Union):
@@ -89,7 +86,7 @@ def items(machine: Machine, value: Value) -> list[Value] | None:
     return None
 
 
-def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
+def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
     """Return an attribute of a value."""
     name = node.attr
     if isinstance(owner, LibraryName):
@@ -107,12 +104,12 @@ def attribute(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame)
     if isinstance(owner, FilePath):
         return of_path(owner, name)
     if isinstance(owner, LaunchObject):
-        return _of_made(owner, name)
+        return machine.library.attribute(owner, name)
     if isinstance(owner, Context):
         return LibraryName(f"context.{name}")
     if isinstance(owner, (str, list, dict, tuple, set)):
         return Method(owner, name)
-    machine.lose(owner)
+    machine.escape(owner)
     return Unknown(f"attribute {name} of what is not known")
 
 
@@ -132,33 +129,13 @@ def of_instance(owner: Instance, name: str) -> Value:
     return Unknown(f"attribute {name} of an object")
 
 
-def _of_made(owner: LaunchObject, name: str) -> Value:
-    match owner.name, name:
-        case "LaunchDescription", "entities":
-            return owner.entities
-        case "DeclareLaunchArgument", "name":
-            return owner.get(0, "name")
-        case "MoveItConfigsBuilder", "package_path" if package := built_for(owner):
-            return FilePath(share(package))
-    return Method(owner, name)
-
-
-def built_for(builder: LaunchObject) -> str:
-    """Return the package that one of MoveIt's builders is for, "" if it is not known: by the name of a robot, unless told."""
-    of_robots = builder.name == "MoveItConfigsBuilder"
-    package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
-    if package is None and of_robots and isinstance(robot, str):
-        package = f"{robot}_moveit_config"
-    return package if isinstance(package, str) and is_plain(package) else ""
-
-
 _OF_MARKED = STRIPS | SPLITS | {"replace"}
 """Methods that mean something for texts, too, in which something stands that is known at launch only."""
 _OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
 
 
 def call_method(
-    machine: Machine, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+    machine: Interpreter, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
     """Return what a method returns."""
     owner, name = method.owner, method.name
@@ -177,16 +154,16 @@ def call_method(
         return call_of_path(machine, owner, name, arguments, node, frame)
     if isinstance(owner, tuple) and name == "index":
         return Unknown("index in a tuple")
-    machine.lose([owner, arguments, keywords])
+    machine.escape([owner, arguments, keywords])
     return Unknown(f"{name}()")
 
 
 def _of_text(
-    machine: Machine, owner: str, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+    machine: Interpreter, owner: str, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
     if name == "format":
         for value in (*arguments, *keywords.values()):
-            note(machine, value, "formatted", node, frame)
+            machine.record_misuse(value, "formatted", node, frame)
         return _formatted(owner, arguments, keywords, node, frame)
     if name == "read":
         return owner  # a file that is open is its text
@@ -207,7 +184,7 @@ def _of_text(
         except (OverflowError, TypeError, ValueError):
             raise ProgramRaised from None
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
-    if known and name in EVALUATED and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
+    if known and name in LENGTH_PRESERVING and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
         later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
         return Unknown("a truth", LaunchCondition((later,), None)) if name in TRUTHS else written(later, node, frame.source)
     if name in TRUTHS or name in NUMBERS:
@@ -248,7 +225,7 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
     return texts_made(joined(rows, "".join), node, frame)
 
 
-def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Value]) -> Value:
+def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: list[Value]) -> Value:
     first = arguments[0] if arguments else None
     match name:
         case "append":
@@ -263,7 +240,7 @@ def _of_list(machine: Machine, owner: list[Value], name: str, arguments: list[Va
         case "extend" | "update":
             found = items(machine, first)
             if found is None:
-                machine.lose(first)
+                machine.escape(first)
                 owner.append(machine.guard(Unknown("elements that are not known")))
             else:
                 machine.spend(len(found))
@@ -307,8 +284,10 @@ def _popped(owner: list[Value], position: Value) -> Value:
         raise ProgramRaised("IndexError") from None
 
 
-def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]) -> Value:
-    key = hashable(plain(arguments[0])) if arguments else None
+def _of_dict(
+    machine: Interpreter, owner: dict[Any, Value], name: str, arguments: list[Value], keywords: dict[str, Value]
+) -> Value:
+    key = hashable(machine, plain(arguments[0])) if arguments else None
     match name:
         case "items":
             return list(owner.items())
@@ -343,7 +322,7 @@ def _of_dict(machine: Machine, owner: dict[Any, Value], name: str, arguments: li
     return Unknown(f"{name}() of a dictionary")
 
 
-def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
+def _updated(machine: Interpreter, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
     for argument in arguments:
         for one in alternatives(argument):
             if isinstance(one.value, dict):
@@ -353,10 +332,10 @@ def _updated(machine: Machine, owner: dict[Any, Value], arguments: list[Value], 
             for pair in pairs or ():
                 parts = items(machine, pair)
                 if parts is not None and len(parts) == 2:
-                    owner[hashable(plain(parts[0]))] = parts[1]
+                    owner[hashable(machine, plain(parts[0]))] = parts[1]
                 else:
                     owner[UNKNOWN] = Unknown("elements that are not known")
             if pairs is None:
                 owner[UNKNOWN] = Unknown("elements that are not known")
-                machine.lose(one.value)
+                machine.escape(one.value)
     owner.update(keywords)

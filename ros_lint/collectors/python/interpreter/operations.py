@@ -6,8 +6,6 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.launch.python.substitution_misuse import note
-from ros_lint.collectors.launch.python.substitutions import texts
 from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -45,7 +43,7 @@ from ros_lint.collectors.symbolic_text import (
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 INSTALLED = "installed packages"
 """What stands for the answer of the ament index which packages there are."""
@@ -72,7 +70,7 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
     return union(found)
 
 
-def truth(machine: Machine, value: Value) -> tuple[bool | None, LaunchCondition]:
+def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondition]:
     """Return whether a value is true, and the condition for it where that is not known."""
     value = plain(value)
     if isinstance(value, Unknown):
@@ -88,7 +86,7 @@ def truth(machine: Machine, value: Value) -> tuple[bool | None, LaunchCondition]
     return (None if isinstance(value, LibraryName) else True), PERHAPS
 
 
-def _truth_of_several(machine: Machine, value: Union) -> tuple[bool | None, LaunchCondition]:
+def _truth_of_several(machine: Interpreter, value: Union) -> tuple[bool | None, LaunchCondition]:
     answers = [(truth(machine, one.value)[0], one.conditions) for one in alternatives(value)]
     if len({answer for answer, _ in answers}) == 1:
         return answers[0][0], PERHAPS
@@ -133,13 +131,13 @@ def _shown(value: Any) -> str:
     return str(value)
 
 
-def hashable(key: Value) -> Any:
+def hashable(machine: Interpreter, key: Value) -> Any:
     """Return what a value is as a key: itself, or a text for what cannot be one."""
-    if isinstance(key, (list, tuple, LaunchObject)):
-        found = texts(key)
-        return found[0] if len(found) == 1 else UNKNOWN
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
+    if isinstance(key, (list, tuple, LaunchObject)):
+        found = machine.texts(key)
+        return found[0] if len(found) == 1 else UNKNOWN
     return UNKNOWN
 
 
@@ -169,19 +167,19 @@ _OPERATORS = {**ARITHMETIC, **BITWISE}
 _ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 
-def operation(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
+def operation(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
     """Return what an operator makes of two values."""
     if isinstance(op, ast.Add):
         for one, other in ((left, right), (right, left)):
             if isinstance(other, (str, list, tuple, LaunchObject)):
-                note(machine, one, "added", node, frame)
+                machine.record_misuse(one, "added", node, frame)
     elif isinstance(op, ast.Mod) and isinstance(left, str):
         for one in right if isinstance(right, tuple) else (right,):
-            note(machine, one, "formatted", node, frame)
+            machine.record_misuse(one, "formatted", node, frame)
     return each(left, lambda one: each(right, lambda other: _single(machine, op, one, other, node, frame)))
 
 
-def _single(machine: Machine, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
+def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
     if isinstance(op, ast.Add):
         if isinstance(left, str) and isinstance(right, str):
             return written(left + right if len(left) + len(right) <= LONGEST else UNKNOWN, node, frame.source)
@@ -213,8 +211,8 @@ def _single(machine: Machine, op: ast.operator, left: Value, right: Value, node:
             left, right = right, left
         if isinstance(left, (str, list, tuple)) and isinstance(right, int) and len(left) * right <= _MOST_ITEMS:
             return left * right
-    for lost in (left, right):
-        machine.lose(lost)
+    for operand in (left, right):
+        machine.escape(operand)
     return Unknown("the result of an operator")
 
 
@@ -237,7 +235,7 @@ def _wide(template: str) -> bool:
     return "*" in template or any(len(run) > 3 for run in "".join(c if c.isdigit() else " " for c in template).split())
 
 
-def negated(machine: Machine, value: Value) -> Value:
+def negated(machine: Interpreter, value: Value) -> Value:
     """Return the opposite of the truth of a value."""
     answer, condition = truth(machine, value)
     if answer is not None:
@@ -360,12 +358,12 @@ def may_have_more(values: Sequence[Value]) -> bool:
     return any(isinstance(one, (Guarded, Unknown)) for one in values)
 
 
-def subscript(machine: Machine, owner: Value, key: Value) -> Value:
+def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:
     """Return an element of a value."""
     if isinstance(owner, dict):
         if isinstance(key, str) and not is_plain(key):
             return union(chosen(owner, key)) if owner else Unknown("element of an empty dictionary")
-        name = hashable(key)
+        name = hashable(machine, key)
         if name in owner:
             return owner[name]
         if isinstance(key, Unknown) or UNKNOWN in owner:
@@ -385,4 +383,4 @@ def subscript(machine: Machine, owner: Value, key: Value) -> Value:
             raise ProgramRaised("IndexError") from None
     if isinstance(owner, str) and isinstance(key, int) and waits(owner):
         return expression(f"{quoted(owner)}[{key}]")
-    return machine.subscript_of_library(owner, key)
+    return machine.library.subscript(machine, owner, key)

@@ -2,52 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.python.interpreter.values import Guarded, ProgramRaised, Unknown, Value, plain
+from ros_lint.collectors.python.interpreter.values import Guarded, ProgramRaised, Value, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 
 if TYPE_CHECKING:
     import ast
 
-    from ros_lint.collectors.python.interpreter.calls import Call, Rule
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 
 MOST_COMPARED = 500
 """How many values a collection may hold that is compared with another collection."""
 
 
-def arranged(machine: Machine, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame) -> list[Value]:
+def arranged(
+    machine: Interpreter, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame
+) -> list[Value]:
     """Return values in the order of list.sort() with its keywords, or as they are if their order is unknown."""
-    keys = _keys(machine, values, keywords, node, frame)
+    keys = sort_keys(machine, values, keywords, node, frame)
     if keys is None:
         return values
-    return [values[index] for index in _ordered(keys, reverse=bool(plain(keywords.get("reverse"))))]
+    return [values[index] for index in positions(keys, reverse=bool(plain(keywords.get("reverse"))))]
 
 
-def extreme(function: Callable[..., int]) -> Rule:
-    """Return the rule for min() or max()."""
-
-    def rule(call: Call) -> Value:
-        values = call.items(0) if len(call.arguments) == 1 else call.arguments
-        if values is None or any(isinstance(value, Guarded) for value in values):
-            return Unknown("the least or the greatest of what is not known")
-        if not values:
-            if "default" not in call.keywords:
-                raise ProgramRaised
-            return call.keywords["default"]
-        keys = _keys(call.machine, values, call.keywords, call.node, call.frame)
-        if keys is None:
-            return Unknown("the least or the greatest of what is not known")
-        _ordered(keys)
-        return values[function(range(len(values)), key=keys.__getitem__)]
-
-    return rule
-
-
-def _keys(machine: Machine, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame) -> list[Any] | None:
+def sort_keys(
+    machine: Interpreter, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame
+) -> list[Any] | None:
     """Return what values are compared by, None if that is unknown."""
     key = keywords.get("key")
     keys = [plain(value if key is None else machine.call(key, [plain(value)], {}, node, frame)) for value in values]
@@ -78,7 +61,7 @@ def is_small(value: Any) -> bool:
     return True
 
 
-def _ordered(keys: list[Any], *, reverse: bool = False) -> list[int]:
+def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
     """Return the positions of keys in their order. Raises Raised if they cannot be compared."""
     try:
         return sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import ast
     from collections.abc import Sequence
 
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 
 _MOST_PARENTS = 12
@@ -84,7 +84,9 @@ def _split_name(name: str) -> tuple[str, str]:
     return (name, "") if suffix == "." else (stem, suffix)
 
 
-def call_of_path(machine: Machine, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame) -> Value:
+def call_of_path(
+    machine: Interpreter, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame
+) -> Value:
     """Return what a method of a path of pathlib returns."""
     match name:
         case "joinpath":

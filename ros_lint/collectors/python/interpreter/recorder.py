@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Sequence
+from typing import Literal, NamedTuple
 
-from ros_lint.collectors.launch.python.substitution_misuse import Misused
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -21,6 +21,23 @@ from ros_lint.collectors.python.interpreter.values import (
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchCondition
+
+How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
+"""The operation that takes a substitution for a text."""
+
+
+class Misused(NamedTuple):
+    """A place where a substitution is taken for a text."""
+
+    how: How
+    made: LaunchObject
+    node: ast.expr
+    source: Source
+
+
+def are_unknown(conditions: Conditions) -> bool:
+    """Return whether any of some conditions depends on an unknown value."""
+    return any(UNKNOWN in text for condition in conditions for text in condition.texts)
 
 
 class Recorder:
@@ -74,18 +91,18 @@ class Recorder:
         """Return one of several values. Where these are too many to be kept apart, what they hold may be launched."""
         found = union(values)
         if isinstance(found, Unknown):
-            self.lose(values)
+            self.escape(values)
         return found
 
-    def lose(self, value: Value) -> None:
+    def escape(self, value: Value) -> None:
         """Note that a value goes where it cannot be followed: what it holds may be launched."""
         waiting, count = [value], 0
         while waiting and count < 1_000:
             one = waiting.pop()
             count += 1
             if isinstance(one, LaunchObject):
-                if not one.lost:
-                    one.lost = True
+                if not one.escaped:
+                    one.escaped = True
                     waiting += [*one.arguments, *one.keywords.values(), *one.entities]
             elif isinstance(one, Guarded):
                 waiting.append(one.value)

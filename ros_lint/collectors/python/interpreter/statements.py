@@ -6,9 +6,8 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ros_lint.collectors.launch.python.substitution_misuse import note
 from ros_lint.collectors.python.exceptions import catching, kind_raised
-from ros_lint.collectors.python.interpreter import assignments as launch_py_bindings
+from ros_lint.collectors.python.interpreter import assignments
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.branches import (
     BREAK,
@@ -40,12 +39,12 @@ from ros_lint.collectors.symbolic_text import presence
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.machine import Machine
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 _Node = TypeVar("_Node", bound=ast.AST)
 
 
-def execute(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
+def execute(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
     """Follow statements. Raises Raised and OutOfBudget."""
     for statement in body:
         handler = _STATEMENTS.get(type(statement))
@@ -56,12 +55,12 @@ def execute(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:
     return NEXT
 
 
-def _expression(machine: Machine, node: ast.Expr, frame: Frame) -> int:
+def _expression(machine: Interpreter, node: ast.Expr, frame: Frame) -> int:
     machine.evaluate(node.value, frame)
     return NEXT
 
 
-def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
+def _if(machine: Interpreter, node: ast.If, frame: Frame) -> int:
     test = node.test
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And) and not node.orelse and not _may_leave(node.body):
         inner: list[ast.stmt] = node.body  # one condition within the other, so that each is known for what it is
@@ -69,7 +68,7 @@ def _if(machine: Machine, node: ast.If, frame: Frame) -> int:
             inner = [ast.copy_location(ast.If(part, inner, []), node)]
         node = ast.copy_location(ast.If(test.values[0], inner, []), node)
     value = machine.evaluate(node.test, frame)
-    note(machine, value, "tested", node.test, frame)
+    machine.record_misuse(value, "tested", node.test, frame)
     answer, condition = truth(machine, value)
     if answer is not None:
         return execute(machine, node.body if answer else node.orelse, frame)
@@ -81,7 +80,7 @@ def _may_leave(body: Sequence[ast.stmt]) -> bool:
     return any(isinstance(node, ways_out) for statement in body for node in ast.walk(statement))
 
 
-def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
+def _with(machine: Interpreter, node: ast.With | ast.AsyncWith, frame: Frame) -> int:
     for item in node.items:
         value = machine.evaluate(item.context_expr, frame)
         if item.optional_vars is not None:
@@ -89,7 +88,7 @@ def _with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> int
     return execute(machine, node.body, frame)
 
 
-def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
+def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
     before = machine.conditions
     missing = next((handler for handler in node.handlers if catches_missing_package(handler)), None)
     if missing is not None and _looks_up(node.body) and not gives_up(missing.body, everywhere=not machine.conditions):
@@ -120,7 +119,7 @@ def _try(machine: Machine, node: ast.Try, frame: Frame) -> int:
     return _finally(machine, node, frame, before) or signal
 
 
-def _finally(machine: Machine, node: ast.Try, frame: Frame, before: Conditions) -> int:
+def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditions) -> int:
     """Follow what comes at the end of a try statement, which runs whatever way the statement is left."""
     after, machine.conditions = machine.conditions, before
     signal = execute(machine, node.finalbody, frame)
@@ -132,21 +131,21 @@ def _looks_up(body: Sequence[ast.stmt]) -> bool:
     return any(isinstance(node, ast.Call) and callee(node) in LOOK_UPS for statement in body for node in ast.walk(statement))
 
 
-def _return(machine: Machine, node: ast.Return, frame: Frame) -> int:
+def _return(machine: Interpreter, node: ast.Return, frame: Frame) -> int:
     value = machine.evaluate(node.value, frame) if node.value is not None else None
     frame.returned.append(Guarded(value, machine.conditions))
     return LEAVE
 
 
-def _raise(_machine: Machine, node: ast.Raise, _frame: Frame) -> int:
+def _raise(_machine: Interpreter, node: ast.Raise, _frame: Frame) -> int:
     raise ProgramRaised(kind_raised(node))
 
 
-def _break(_machine: Machine, _node: ast.Break, _frame: Frame) -> int:
+def _break(_machine: Interpreter, _node: ast.Break, _frame: Frame) -> int:
     return BREAK
 
 
-def _continue(_machine: Machine, _node: ast.Continue, _frame: Frame) -> int:
+def _continue(_machine: Interpreter, _node: ast.Continue, _frame: Frame) -> int:
     return CONTINUE
 
 
@@ -154,7 +153,7 @@ _SUBJECT, _ANYTHING = "<subject>", "<anything>"
 """Names that no program has."""
 
 
-def _match(machine: Machine, node: ast.Match, frame: Frame) -> int:
+def _match(machine: Interpreter, node: ast.Match, frame: Frame) -> int:
     subject = frame.names[_SUBJECT] = machine.evaluate(node.subject, frame)
     frame.names[_ANYTHING] = Unknown("whether a pattern fits")
     chain: list[ast.stmt] = []
@@ -190,7 +189,7 @@ def _at(made: _Node, place: ast.AST) -> _Node:
     return ast.copy_location(made, place)
 
 
-def _function(machine: Machine, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
+def _function(machine: Interpreter, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
     found: Value = machine.function(node, frame)
     for decorator in reversed(node.decorator_list):
         name = decorator.id if isinstance(decorator, ast.Name) else ""
@@ -206,7 +205,7 @@ _LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_test
 """Modules whose decorators have a function do what it does."""
 
 
-def _decorated(machine: Machine, function: Function, decorator: ast.expr, frame: Frame) -> Value:
+def _decorated(machine: Interpreter, function: Function, decorator: ast.expr, frame: Frame) -> Value:
     """Return what a decorator makes of a function; the function itself, marked as changed, if that is not followed."""
     name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
     if isinstance(name, LibraryName) and name.name.partition(".")[0] in _LEAVING:
@@ -221,7 +220,7 @@ def _decorated(machine: Machine, function: Function, decorator: ast.expr, frame:
     return function
 
 
-def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
+def _class(machine: Interpreter, node: ast.ClassDef, frame: Frame) -> int:
     bases = [plain(machine.evaluate(base, frame)) for base in node.bases]
     inner = Frame(frame.source, frame, {})
     execute(machine, node.body, inner)
@@ -242,8 +241,8 @@ def _class(machine: Machine, node: ast.ClassDef, frame: Frame) -> int:
     return NEXT
 
 
-_STATEMENTS: dict[type[ast.stmt], Callable[[Machine, Any, Frame], int | None]] = {
-    **launch_py_bindings.STATEMENTS,
+_STATEMENTS: dict[type[ast.stmt], Callable[[Interpreter, Any, Frame], int | None]] = {
+    **assignments.STATEMENTS,
     ast.Expr: _expression,
     ast.If: _if,
     ast.For: follow_for,

@@ -131,7 +131,7 @@ def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
 class LaunchObject:
     """What calling a class of the launch libraries makes: an action, a substitution, a description."""
 
-    __slots__ = ("arguments", "conditions", "entities", "keywords", "lost", "name", "node", "seen", "source")
+    __slots__ = ("arguments", "conditions", "entities", "escaped", "keywords", "name", "node", "seen", "source")
 
     def __init__(self, name: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, source: Source) -> None:
         self.name = name
@@ -144,7 +144,7 @@ class LaunchObject:
         """Of a launch description: what it holds. The list lives on while it is visited."""
         self.seen = False
         """Whether it is part of what is launched."""
-        self.lost = False
+        self.escaped = False
         """Whether it went where it cannot be followed."""
 
     def get(self, position: int, *names: str) -> Value:

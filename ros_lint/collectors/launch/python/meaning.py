@@ -1,0 +1,75 @@
+"""The meaning of the launch libraries, and of the libraries that launch files use, for the interpreter of Python."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+
+from ros_lint.collectors.launch.expressions import evaluate
+from ros_lint.collectors.launch.python.library import attribute_of_library, call_library, subscript_library
+from ros_lint.collectors.launch.python.released_helpers import HELPERS, helper
+from ros_lint.collectors.launch.python.substitutions import CONDITIONS, SUBSTITUTIONS, Within, is_text, texts
+from ros_lint.collectors.python.interpreter.protocol import Interpreter
+from ros_lint.collectors.python.interpreter.recorder import How
+from ros_lint.collectors.python.interpreter.values import Frame, LaunchObject, Method, Value
+from ros_lint.collectors.symbolic_text import fill
+from ros_lint.facts.launch import LAUNCH_RUNTIME
+
+_DESCRIBED = LAUNCH_RUNTIME | {
+    "launch_param_builder",
+    "launch_pytest",
+    "launch_testing",
+    "launch_testing_ros",
+    "moveit_configs_utils",
+    "xacro",
+    "yaml",
+}
+"""Their sources are not followed in a workspace that builds ROS itself, because they are written for a launch that runs."""
+
+
+class LaunchLibraries:
+    """A :class:`ros_lint.collectors.python.interpreter.protocol.Library`."""
+
+    def describes(self, module: str) -> bool:
+        return module in _DESCRIBED
+
+    def model(self, module: str, at: ast.stmt) -> ast.Module | None:
+        return helper(module, at) if module in HELPERS else None
+
+    def is_substitution(self, name: str) -> bool:
+        return name in SUBSTITUTIONS
+
+    def call(
+        self,
+        interpreter: Interpreter,
+        callee: str | Method,
+        arguments: list[Value],
+        keywords: dict[str, Value],
+        node: ast.Call,
+        frame: Frame,
+    ) -> Value:
+        return call_library(interpreter, callee, arguments, keywords, node, frame)
+
+    def attribute(self, owner: LaunchObject, name: str) -> Value:
+        return attribute_of_library(owner, name)
+
+    def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:
+        return subscript_library(interpreter, owner, key)
+
+    def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
+        return texts(value, Within(spend))
+
+    def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
+        defaults = {
+            str(name): texts(default)
+            for made in interpreter.made
+            if made.name == "DeclareLaunchArgument"
+            if (default := made.get(1, "default_value")) is not None
+            for name in texts(made.get(0, "name"))
+        }
+        return fill(text, defaults.get, evaluate)
+
+    def misuse(self, made: LaunchObject, how: How) -> How | None:
+        if how == "tested" and made.name in CONDITIONS:
+            return "combined"
+        return how if is_text(made) else None

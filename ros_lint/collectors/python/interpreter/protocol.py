@@ -1,0 +1,117 @@
+"""The interfaces of the interpreter of Python: to its handlers, and to the libraries that programs use."""
+
+from __future__ import annotations
+
+import ast
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from typing import Protocol
+
+from ros_lint.collectors.python.interpreter.recorder import How, Recorder
+from ros_lint.collectors.python.interpreter.values import Frame, Function, LaunchObject, Method, Source, Value
+from ros_lint.facts.launch import LaunchCondition
+
+
+class Library(Protocol):
+    """The meaning of libraries that a program imports, and of the objects that they make."""
+
+    def describes(self, module: str) -> bool:
+        """Return whether the library gives a top-level module its meaning, so that no source of the module is followed."""
+        ...
+
+    def model(self, module: str, at: ast.stmt) -> ast.Module | None:
+        """Return a program that has the effects of a module, all of it located at ``at``; None for any other module."""
+        ...
+
+    def is_substitution(self, name: str) -> bool:
+        """Return whether a name is a class of substitutions wherever it is imported from."""
+        ...
+
+    def call(
+        self,
+        interpreter: Interpreter,
+        callee: str | Method,
+        arguments: list[Value],
+        keywords: dict[str, Value],
+        node: ast.Call,
+        frame: Frame,
+    ) -> Value:
+        """Return the result of a function, named by its full name, or of a method of an object of the library."""
+        ...
+
+    def attribute(self, owner: LaunchObject, name: str) -> Value:
+        """Return an attribute of an object of the library."""
+        ...
+
+    def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:
+        """Return an element of an object of the library."""
+        ...
+
+    def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
+        """Return every text that a value can become; ``spend`` receives the number of steps and may raise BudgetExceeded."""
+        ...
+
+    def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
+        """Return the values of a symbolic text if all arguments declared so far have their defaults."""
+        ...
+
+    def misuse(self, made: LaunchObject, how: How) -> How | None:
+        """Return in which way an operation misuses an object of the library, None if it does not."""
+        ...
+
+
+class Interpreter(Recorder, ABC):
+    """The operations of the interpreter that the handlers of statements, expressions and calls need."""
+
+    def __init__(self, library: Library) -> None:
+        super().__init__()
+        self.library = library
+
+    @abstractmethod
+    def spend(self, steps: int) -> None:
+        """Count steps. Raises BudgetExceeded."""
+
+    @abstractmethod
+    def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:
+        """Follow something that happens only under conditions."""
+
+    @abstractmethod
+    def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
+        """Return a module of the workspace, or a model of a released module; None for any other module."""
+
+    @abstractmethod
+    def evaluate(self, node: ast.expr, frame: Frame) -> Value:
+        """Return the value of an expression. Raises ProgramRaised and BudgetExceeded."""
+
+    @abstractmethod
+    def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
+        """Follow statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
+
+    @abstractmethod
+    def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
+        """Return a function of the program."""
+
+    @abstractmethod
+    def builtin(self, node: ast.Name, frame: Frame) -> Value:
+        """Return the value of a name that the program does not bind."""
+
+    @abstractmethod
+    def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
+        """Return the result of a call. Raises ProgramRaised and BudgetExceeded."""
+
+    @abstractmethod
+    def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
+        """Return the result of ``/`` or joinpath: a path of pathlib, or a substitution."""
+
+    @abstractmethod
+    def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
+        """Return the text of a file of the workspace, Unknown for any other file."""
+
+    @abstractmethod
+    def texts(self, value: Value) -> tuple[str, ...]:
+        """Return every text that a value can become. Raises BudgetExceeded."""
+
+    @abstractmethod
+    def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
+        """Note an operation on a value if it misuses an object of a library and is certain to run."""
