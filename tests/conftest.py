@@ -1,9 +1,13 @@
+from itertools import count
+
 import pytest
 from hypothesis import settings
 
 # How long an example takes says nothing on a busy machine.
 settings.register_profile("here", deadline=None)
 settings.load_profile("here")
+
+_NUMBERS = count()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -30,5 +34,7 @@ def _no_ros_around(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.Tem
         monkeypatch.delenv(name, raising=False)
     home = tmp_path_factory.getbasetemp() / "home"
     home.mkdir(exist_ok=True)
-    for name in ("XDG_CACHE_HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME"):
+    for name in ("XDG_CACHE_HOME", "XDG_CONFIG_HOME"):
         monkeypatch.setenv(name, str(home / name.lower()))
+    # An index that a test refreshes is no data of the next one.
+    monkeypatch.setenv("XDG_DATA_HOME", str(home / f"data-{next(_NUMBERS)}"))

@@ -33,7 +33,7 @@ ATTRIBUTE = re.compile(r"""\s+([\w:.-]+)\s*=\s*("[^"<]*"|'[^'<]*')""")
 
 def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str, str, str, str]]:
     """Return what is said of a case, or by ``default``: rule, package, subject and message of each finding."""
-    target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.told)
+    target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
     checked = engine.check(loader.load(), RULES, loader.suppressions(), RULES)

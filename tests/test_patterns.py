@@ -63,7 +63,8 @@ def _compiled() -> dict[str, re.Pattern[Any]]:
     for package in (ros_lint, ros_lint_rules):
         for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             if not info.name.endswith("__main__"):
-                for name, value in vars(importlib.import_module(info.name)).items():
+                names = vars(importlib.import_module(info.name))
+                for name, value in [entry for entry in names.items() if not entry[0].startswith("__")]:
                     found.update(_held(f"{info.name}.{name}", value))
     return found
 
