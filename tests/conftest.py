@@ -19,6 +19,13 @@ def pytest_configure(config: pytest.Config) -> None:
         raise pytest.UsageError("--bless rewrites files that several cases share: without -n")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark property tests as slow: they run hundreds of examples."""
+    for item in items:
+        if getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture(autouse=True)
 def _no_ros_around(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> None:
     """The caller's ROS, colours and caches are no part of any test."""

@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 GOOD = """<?xml version="1.0"?>
 <package format="3">
   <name>{0}</name>

@@ -19,6 +19,8 @@ from ros_lint.engine.report import UNSURE, Crash, HiddenCount, Issue, Report
 from ros_lint.workspace.target import TargetDistro
 from tests.test_cli import DEMO, HEADLINES, run
 
+pytestmark = pytest.mark.slow
+
 PLACE = Span("a/package.xml", 1, 1, 1, 2)
 
 

@@ -16,6 +16,8 @@ import pytest
 from tests.cmake_runs import run
 from tests.setup_scripts import script
 
+pytestmark = pytest.mark.slow
+
 _MEMORY: Final = 1 << 30
 _SECONDS: Final = 8.0
 """Of processor time for one script."""

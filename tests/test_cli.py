@@ -16,6 +16,8 @@ from ros_lint.cli.options import COMMANDS
 from ros_lint.reporters import FORMATS
 from tests.packages import manifest_text
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parent.parent
 DEMO = ROOT / "fixtures" / "workspaces" / "demo"
 HEADLINES = {

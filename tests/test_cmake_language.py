@@ -24,6 +24,8 @@ from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is
 from ros_lint.collectors.cmake.syntax import parse
 from tests.cmake_writer import UNKNOWN, VARIABLES, Script, generate
 
+pytestmark = pytest.mark.slow
+
 
 class Outcome(NamedTuple):
     values: dict[str, str | None]

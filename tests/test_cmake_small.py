@@ -19,6 +19,8 @@ from tests.cmake_runs import mentioned, run
 from tests.cmake_writer import Script
 from tests.test_cmake_language import CMAKE, disagreements, evaluated, really_run
 
+pytestmark = pytest.mark.slow
+
 needs_cmake = pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
 
 # Scripts in which U0, U1 and U2 are variables that the evaluator does not know.

@@ -15,6 +15,8 @@ from ros_lint.collectors.cpp import collect as cpp
 from ros_lint.collectors.cpp.includes import STANDARD, Found, exact, mentions
 from ros_lint.facts.sources import Mention
 
+pytestmark = pytest.mark.slow
+
 
 def includes(text: str) -> Found:
     """Return what both ways to find includes find."""

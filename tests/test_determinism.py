@@ -11,6 +11,8 @@ import pytest
 
 from ros_lint.reporters import FORMATS
 
+pytestmark = pytest.mark.slow
+
 DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
 
 

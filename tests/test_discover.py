@@ -15,6 +15,8 @@ from tests.colcon_oracle import colcon_list
 from tests.packages import CONTEXT, found_package, manifest_text
 from tests.workspaces import write_workspace
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(int(os.environ.get("ROS_LINT_SEEDS", "60")))
 
 

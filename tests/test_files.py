@@ -18,6 +18,8 @@ from ros_lint.base.tree import DiskTree, Machine
 from ros_lint.knowledge.store import KnowledgeError, Store
 from tests.test_bad_input import GOOD, lint, package, rules
 
+pytestmark = pytest.mark.slow
+
 
 def fifo(place: Path) -> None:
     os.mkfifo(place)

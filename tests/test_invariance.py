@@ -23,6 +23,8 @@ from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
 from tests.trees import Locked
 
+pytestmark = pytest.mark.slow
+
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 RULES = registry.load()
 CASES = [case for source in sorted(FIXTURES.glob("*.md")) for case in read_cases(source)]

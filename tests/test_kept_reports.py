@@ -18,6 +18,8 @@ from ros_lint.workspace.collect import collect_all
 from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.loader import Loader
 
+pytestmark = pytest.mark.slow
+
 DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
 
 

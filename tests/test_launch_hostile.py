@@ -18,6 +18,8 @@ from ros_lint.engine.registry import load
 from ros_lint.facts.launch import LaunchFile
 from tests.one_package import loaded
 
+pytestmark = pytest.mark.slow
+
 SECONDS = 2.0
 KILOBYTES = 100 << 10
 

@@ -13,6 +13,8 @@ import pytest
 from ros_lint.base.tree import LEADS_OUT, DiskTree
 from tests.test_bad_input import GOOD, lint, package, rules, script_package
 
+pytestmark = pytest.mark.slow
+
 SECRET = "the_secret_line"
 FORMATS = ("text", "sarif")
 """Those that show lines of files."""

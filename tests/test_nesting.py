@@ -11,6 +11,8 @@ import pytest
 from ros_lint.base.text import Text
 from ros_lint.collectors.python.syntax import NotPythonError, TooDeepError, parse
 
+pytestmark = pytest.mark.slow
+
 DEPTHS = (10, 60, 300, 1_500, 10_000, 100_000)
 _SECONDS = 20
 """How long six depths of one form may take, on a slow machine."""

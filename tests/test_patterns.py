@@ -15,12 +15,16 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import Any, Final
 
+import pytest
+
 import ros_lint
 import ros_lint_rules
 from ros_lint.base.gitignore import is_ignored, patterns
 from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator.glob import of_paths
 from ros_lint.collectors.colcon import cmake_lists as colcon_cmake
+
+pytestmark = pytest.mark.slow
 
 _LONG: Final = 100_000
 """How often a part of the table below is repeated: a quadratic expression needs several seconds for that."""

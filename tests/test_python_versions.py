@@ -15,6 +15,8 @@ from ros_lint.collectors.python.syntax import NotPythonError, parse, read, refus
 from ros_lint.collectors.python.versions import PYTHON_OF, too_new
 from ros_lint.workspace.target import TargetDistro
 
+pytestmark = pytest.mark.slow
+
 NEWER = [
     ("def f[T](x: T) -> T: pass", "type parameter lists", (3, 12), "1:6"),
     ("class A[T: int, *Ts, **P](B[T]): pass", "type parameter lists", (3, 12), "1:8"),

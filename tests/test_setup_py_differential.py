@@ -5,6 +5,8 @@ import pytest
 from tests.python_programs import EXPRESSIONS, IMPORTS, OPEN_EXPRESSIONS, OPEN_PROGRAMS, PROGRAMS, values
 from tests.setup_scripts import script
 
+pytestmark = pytest.mark.slow
+
 HEAD = f"from setuptools import setup\n{IMPORTS}"
 ALL = [
     *[f"values = [{expression}]" for block in (EXPRESSIONS, OPEN_EXPRESSIONS) for expression in block.strip().split("\n")],

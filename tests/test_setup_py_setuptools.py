@@ -14,6 +14,8 @@ import pytest
 
 from tests.setup_scripts import FILES, HEAD, script
 
+pytestmark = pytest.mark.slow
+
 # Each is the body of a setup.py after HEAD.
 VARIANTS = {
     "literals": """

@@ -14,6 +14,8 @@ import ros_lint
 import ros_lint_rules
 from ros_lint.cli import start
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parent.parent
 DEMO = ROOT / "fixtures" / "workspaces" / "demo"
 OTHERS = ("libcst", "networkx", "ros_lint_rules", "tomli", "yaml")

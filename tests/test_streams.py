@@ -11,6 +11,8 @@ import pytest
 
 from tests.test_bad_input import CMAKE, GOOD, package
 
+pytestmark = pytest.mark.slow
+
 ENCODINGS = ["latin-1:strict", "ascii:strict", "ascii:surrogateescape"]
 
 

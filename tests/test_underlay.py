@@ -17,6 +17,8 @@ from ros_lint.knowledge import underlays as underlay
 from ros_lint.knowledge.underlays import Installed, UnderlayError
 from ros_lint.knowledge.world import World
 
+pytestmark = pytest.mark.slow
+
 COLCON = shutil.which("colcon", path=os.path.dirname(sys.executable)) or shutil.which("colcon")
 
 MANIFEST = """<?xml version="1.0"?>

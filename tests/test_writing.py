@@ -15,6 +15,8 @@ from ros_lint.base.text import Span, Text
 from ros_lint.engine import edits
 from tests.test_bad_input import Ran, lint, package, rules
 
+pytestmark = pytest.mark.slow
+
 CHANGED = "changed since it was read; fix skipped"
 
 

@@ -11,6 +11,8 @@ from lxml import etree
 
 from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
 
+pytestmark = pytest.mark.slow
+
 if TYPE_CHECKING:
     from hypothesis.strategies import DrawFn
 
