@@ -80,7 +80,7 @@ def test_places() -> None:
         ("f(\0)", "'\\x00' cannot stand here", "\0"),
         ("#[[", "a comment is not closed", "#"),
         ('# see a(b)\n"c', "a string is not closed", '"'),
-        ("f #[[a]] # b\n(c)", '"(" is missing after "f"', "f"),
+        ("f #[[a]] # b\n(c)", "'(' is missing after 'f'", "f"),
     ],
 )
 def test_syntax_errors(text: str, message: str | None, place: str) -> None:

@@ -6,6 +6,7 @@ from ros_lint.base.safe_yaml import YamlBoundError, load
 from ros_lint.base.text import Text
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.colcon import python_project as colcon_python
+from ros_lint.collectors.launch import collect as launch_files
 from ros_lint.collectors.launch.python import collect as launch_py
 from ros_lint.collectors.python import collect as python
 from ros_lint.collectors.setup_py import evaluate as setup_py
@@ -57,10 +58,10 @@ ODD = ("!!int ''", "!!bool x", "!!timestamp x", "!!float ''", f"0x{'f' * 5_000}"
 @pytest.mark.parametrize("text", ODD)
 def test_values_that_yaml_cannot_make(text: str) -> None:
     source = Text("a.launch.yaml", f"launch:\n- let:\n    name: a\n    value: {text}\n- node: {{pkg: a, exec: b}}\n")
-    assert [one.name for one in collect(source, "yaml").references] == ["b"]
+    assert [one.name for one in launch_files.collect(source, "yaml").references] == ["b"]
     value = text.replace("'", "&apos;")
     source = Text("a.launch.xml", f'<launch><node pkg="a" exec="b"><param name="c" value="{value}"/></node></launch>')
-    assert [one.name for one in collect(source, "xml").references] == ["b"]
+    assert [one.name for one in launch_files.collect(source, "xml").references] == ["b"]
     assert len(collect(f'x = yaml.safe_load("{text}")\nreturn LaunchDescription([Node(package="a", executable="b")])')) < 2
 
 
