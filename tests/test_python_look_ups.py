@@ -162,3 +162,9 @@ def test_functions_without_the_words_are_left_out() -> None:
     assert found.text.count("\n") == text.count("\n")
     assert found.text.startswith("@d\ndef f(): pass\n\n")
     assert found.text.endswith(f"def h():\n        word()\n{long}")
+
+
+def test_a_function_in_a_last_line_without_an_end_is_read() -> None:
+    text = "a = 'b'\nget_package_share_directory(a)\ndef f(): " + "pass; " * 50 + "pass"
+    assert excerpt(text, {"word"}).omitted == (text.splitlines()[-1],)
+    assert [mention.name for mention in python.collect(Text("a.py", text)).mentions] == ["b"]

@@ -128,6 +128,7 @@ def shape(tree: ast.AST) -> str:
         "class A[\n  Té,\n  U,\n](bb):\n  z = bb",
         'x = f"{f"{f"{bb}"}"}"; z',
         'f"{(lambda z: bb)(c["d"])} {z=}"',
+        'x = f"{bb["a"]}"\ny = f"{bb["a"]}"\nz',
     ],
 )
 def test_names_stand_in_their_places(code: str) -> None:

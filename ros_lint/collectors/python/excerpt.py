@@ -47,8 +47,11 @@ def _functions(text: str) -> Iterator[tuple[int, int, str]]:
 
 def block_end(text: str, width: int, head: int) -> int:
     """Return where a compound statement ends whose head has some indentation; ``head`` is an offset in it."""
+    behind = text.find("\n", head) + 1
+    if not behind:
+        return len(text)
     further = rf"[ \t]{{{width + 1}}}|[ \t]*(?:[#\r\n)\]}}]|(?:except|elif|else|finally)\b)"
-    match = re.compile(rf"^(?!{further})", re.MULTILINE).search(text, text.find("\n", head) + 1)
+    match = re.compile(rf"^(?!{further})", re.MULTILINE).search(text, behind)
     return match.start() if match else len(text)
 
 

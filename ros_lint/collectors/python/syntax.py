@@ -77,14 +77,15 @@ def _outcome(path: str, text: str) -> Parsed | Refusal | None:
     """Return a source parsed, why it is not checked, or None where it is no Python."""
     source = Text(path, text)
     try:
-        return _parsed(source)
+        return read_anew(source)
     except TooDeepError as error:
         return Refusal(error.message, error.span, known=False)
     except NotPythonError:
         return None
 
 
-def _parsed(source: Text) -> Parsed:
+def read_anew(source: Text) -> Parsed:
+    """Return what :func:`read` does, with a tree that nobody else has."""
     levels = most_levels(source.text)
     if plain(source.text) and not (levels > _MOST_LEVELS and nests_too_deep(source.text)):
         try:
@@ -98,7 +99,7 @@ def _parsed(source: Text) -> Parsed:
                 return Parsed(tree, ())
     from ros_lint.collectors.python import rewritten_source as python_reread  # noqa: PLC0415  (one source of two hundred)
 
-    return python_reread.read(source, read)
+    return python_reread.read(source, read_anew)
 
 
 _MOST_LEVELS = 10_000
