@@ -1,6 +1,8 @@
-"""What collectors find out: plain frozen values. No file is read here and nothing is looked up.
+"""Facts that collectors return, as frozen named tuples.
 
-They are named tuples because a workspace has a hundred thousand of them: they start, are made, travel between
-processes and are cached in half the time that frozen dataclasses take. The cache loads no class but those of these
-modules and what a report is made of.
+This package reads no file and looks nothing up.
+
+Facts are named tuples because a large workspace has a hundred thousand of them: they are created, sent between
+processes and cached in half the time of frozen dataclasses. The fact cache unpickles only classes of these modules
+and the classes that a report is made of.
 """

@@ -1,4 +1,4 @@
-"""What the build of a package does and installs: CMakeLists.txt and setup.py in the same words."""
+"""Facts about the build of a package: the same types describe CMakeLists.txt and setup.py."""
 
 from __future__ import annotations
 
@@ -16,22 +16,28 @@ class InstalledFile(NamedTuple):
     """A file that the package installs."""
 
     path: str
-    """Relative to the install prefix: ``lib/<package>/talker``, ``share/<package>/launch/a.launch.py``."""
+    """Path relative to the install prefix:
+
+    ``lib/<package>/talker``, ``share/<package>/launch/a.launch.py``.
+    """
     source: str
-    """Relative to the package, "" when it is built or generated. It leads upwards where it lies around the package."""
+    """Source path relative to the package, "" for a built or generated file.
+
+    It begins with ``..`` if the source is outside the package folder.
+    """
     program: bool
-    """Whether it is installed with the executable bit."""
+    """True if the file is installed with the executable bit."""
     conditional: bool
-    """Whether it depends on something that is not known."""
+    """True if the installation depends on a condition whose value is unknown."""
     span: Span
     target: str = ""
-    """The CMake target that builds it."""
+    """Name of the CMake target that builds the file."""
     test: bool = False
-    """Whether it is installed only where tests are wanted."""
+    """True if the file is installed only when tests are built."""
 
     @property
     def importable(self) -> bool:
-        """Whether it lies where Python looks for modules."""
+        """True if the file is installed into a folder of ``sys.path`` (site-packages or dist-packages)."""
         return "site-packages/" in self.path or "dist-packages/" in self.path
 
 
@@ -42,19 +48,19 @@ class Component(NamedTuple):
     conditional: bool
     span: Span
     lost: bool = False
-    """Whether it is registered where ament_package() does not see it: in a function, or in a subfolder."""
+    """True if ament_package() does not see the registration: it is in a function or in a subdirectory."""
 
 
 class PluginClass(NamedTuple):
-    """A class that a plugin description lists (pluginlib; reference, section C5.8)."""
+    """A class that a plugin description lists (pluginlib)."""
 
     name: str
-    """By which it is looked up."""
+    """Name by which a loader looks the class up."""
     type: str
-    """Here and in what is said of sources: without blanks and without a leading ``::``."""
+    """C++ type of the class, without blanks and without a leading ``::``, as in the facts of sources."""
     base: str
     span: Span
-    """Of the type."""
+    """Span of the type."""
 
 
 class PluginLibrary(NamedTuple):
@@ -62,7 +68,7 @@ class PluginLibrary(NamedTuple):
 
     path: str
     span: Span
-    """Of the path, or of the element that has none."""
+    """Span of the path, or of the element if it has no path."""
     classes: tuple[PluginClass, ...]
 
 
@@ -70,46 +76,52 @@ class PluginFile(NamedTuple):
     """A plugin description file."""
 
     path: str
-    """Relative to the package."""
+    """Path relative to the package."""
     libraries: tuple[PluginLibrary, ...]
     span: Span
-    """Of its root element."""
+    """Span of the root element."""
 
 
 class ScriptFile(NamedTuple):
-    """A script that may be meant to be started."""
+    """A script that may be intended as a program."""
 
     path: str
-    """Relative to the package."""
+    """Path relative to the package."""
     shebang: str
-    """The interpreter line without ``#!``, "" when there is none."""
+    """Interpreter line without ``#!``, "" if the script has none."""
     carriage_return: bool
-    """Whether that line ends with a carriage return, so that nothing can run it."""
+    """True if the interpreter line ends with a carriage return: the kernel then finds no interpreter."""
     main: bool
-    """Whether it runs something when it is started: ``if __name__ == "__main__"``, or a language other than Python."""
+    """True if the script does something when run: it has a ``__main__`` guard, or it is not Python."""
     executable: bool
-    """Whether the source has the executable bit."""
+    """True if the source file has the executable bit."""
     run: Span | None = None
-    """Where a text of the package says ``ros2 run`` with its name; sought only if the script is not installed."""
+    """Place where a text of the package names the script after ``ros2 run``.
+
+    Searched for only if the script is not installed.
+    """
     helper: bool = False
-    """Whether a script beside it imports it; sought only if it runs something and has no interpreter line."""
+    """True if another script of the same folder imports this script.
+
+    Determined only for a script with a main part and no interpreter line.
+    """
 
 
 class UninstalledImport(NamedTuple):
-    """An import in an installed program of what lies beside it in the sources, and not where it is installed."""
+    """An import, in an installed program, of a module that is next to the program only in the sources."""
 
     program: str
-    """Where it is installed, such as ``lib/<package>/talker.py``, or the module of an entry point, dotted."""
+    """Install path such as ``lib/<package>/talker.py``, or the dotted module of an entry point."""
     module: str
     source: str
-    """A file, or a folder with a slash at the end, relative to the package."""
+    """File, or folder with a slash at the end, relative to the package."""
     span: Span
     sure: bool
-    """Whether the program leaves alone where modules are sought."""
+    """True if the program does not change ``sys.path``."""
 
 
 REPOSITORIES: Final[Mapping[str, str]] = {"gtest": "googletest", "gmock": "googletest"}
-"""What a project is called by whoever brings it along, where its targets and the folders of its headers have another name."""
+"""Upstream project of a library, where targets and header folders have a different name."""
 
 
 class Exported(NamedTuple):
@@ -118,15 +130,18 @@ class Exported(NamedTuple):
     target: str
     export_set: str
     reaches_dependents: bool
-    """Whether whoever finds the package has it for sure, for ament_export_targets() names the set."""
+    """True if each package that finds this one gets the target: ament_export_targets() names the set."""
 
 
 class BuildScript(NamedTuple):
-    """What the build of a package does: evaluated from CMakeLists.txt and what it includes, or from setup.py and setup.cfg."""
+    """The build of a package, evaluated.
+
+    The source is CMakeLists.txt with the files that it includes, or setup.py with setup.cfg.
+    """
 
     path: str
     name: str = ""
-    """As project() or setup(name=) gives it; "" when not known."""
+    """Name given to project() or setup(name=), "" if unknown."""
     name_span: Span | None = None
     version: str = ""
     version_span: Span | None = None
@@ -136,87 +151,108 @@ class BuildScript(NamedTuple):
     components: tuple[Component, ...] = ()
     entry_points: tuple[EntryPoint, ...] = ()
     python_packages: tuple[str, ...] = ()
-    """Importable modules and packages that it installs, dotted."""
+    """Dotted names of importable modules and packages that the build installs."""
     interfaces: tuple[str, ...] = ()
     """Generated interfaces, as ``msg/Name``."""
     command_names: tuple[str, ...] = ()
-    """Names of the CMake commands that ran, in lower case, sorted, each once."""
+    """Names of the CMake commands that ran: lower case, sorted, without duplicates."""
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
     insertion: Span | None = None
-    """Where an install rule can be added: an empty span before ament_package(), or None."""
+    """Place for a new install rule: an empty span before ament_package(), or None."""
     config_extras: tuple[str, ...] = ()
-    """CMake files, relative to the package, whose code runs in every package that finds this one (CONFIG_EXTRAS)."""
+    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
     calls: tuple[Call, ...] = ()
-    """The commands of its CMake files as they are written, file by file."""
+    """Commands of the CMake files as written, file by file."""
     entry_point_modules: tuple[PythonModule, ...] = ()
-    """Modules that its entry points name."""
+    """Modules that the entry points name."""
     plugin_files: tuple[PluginFile, ...] = ()
-    """Its plugin descriptions."""
+    """Plugin descriptions of the package."""
     editable_lists: tuple[EditableList, ...] = ()
     referenced_resources: tuple[tuple[str, Span], ...] = ()
-    """Resources that it does not install, each with a place where a text of the package names it in its folder."""
+    """Resources that are not installed, each with the place where a text of the package refers to it.
+
+    Such a reference names the resource inside the package, for example ``package://robot/meshes/arm.stl``.
+    """
     scripts: tuple[ScriptFile, ...] = ()
-    """Scripts that it installs to lib/<package> or bin, and those that lie beside them or in folders for scripts."""
+    """Scripts installed to lib/<package> or bin, their neighbours, and scripts in folders for scripts."""
     build_inputs: tuple[str, ...] = ()
-    """Resources that it does not install and that its CMake files name all the same: what it is built from. Folders of
-    them end with a slash."""
+    """Resources that CMake files name without installing them, because the build reads them.
+
+    Folders end with a slash.
+    """
     editable_texts: tuple[WrittenText, ...] = ()
     subdirectories: tuple[str, ...] = ()
-    """Folders below the package whose CMakeLists.txt is part of every build, relative to it."""
+    """Folders whose CMakeLists.txt is part of every build, relative to the package."""
     test_subdirectories: tuple[str, ...] = ()
-    """Folders below the package whose CMakeLists.txt is part of the build where tests are wanted, relative to it."""
+    """Folders whose CMakeLists.txt is part of the build when tests are built, relative to the package."""
     exported_packages: tuple[tuple[Mention, bool], ...] = ()
-    """Packages that the CMake files for those who find this one search, and whether they do so under no condition."""
+    """Packages that the CMake configuration of this package finds for its dependents.
+
+    The second value is True if the search is unconditional.
+    """
     unused_optional_finds: tuple[Span, ...] = ()
-    """Where packages are searched that need not be there, and of which nothing is taken."""
+    """Places of find_package() calls that are optional and whose results are not used."""
     bundled_projects: tuple[str, ...] = ()
-    """Projects that are built along with the package, by name: fetched ones, and those of its own folders."""
+    """Names of projects built along with the package: fetched projects and vendored folders."""
     interpreted_tests: tuple[str, ...] | None = None
-    """Files and folders that are run as tests by an interpreter, relative to the package, "" for any; None where nobody
-    knows."""
+    """Files and folders that an interpreter runs as tests, relative to the package.
+
+    "" means any file; None means unknown.
+    """
     relocated_modules: tuple[str, ...] = ()
-    """Files with Python modules that it installs, relative to the package, and folders of them, with a slash at the end,
-    where they lie elsewhere than the names say: ``package_dir`` of a setup.py."""
+    """Installed Python files and folders whose place in the sources differs from their module name.
+
+    The cause is ``package_dir`` of a setup.py. Paths are relative to the package; folders end with a slash.
+    """
     exported: tuple[Exported, ...] = ()
     failed: bool = False
-    """Whether it could not be evaluated by a mistake of ours, which ``opaque`` then tells."""
+    """True if evaluation failed because of a bug in ros-lint, which ``opaque`` then describes."""
     insertion_after: Span | None = None
-    """Where the command before ``end`` ends, if nothing but blank lines stand between the two."""
+    """End of the command before ``insertion``, if only blank lines separate the two."""
     runs_tests: bool = False
-    """Whether it is a CMake script that calls what runs tests by an interpreter, going by the names of commands."""
+    """True if a CMake script calls a command that runs tests by an interpreter.
+
+    The name of the command decides.
+    """
     includes_outside_package: bool = False
-    """Whether it is a CMake script that takes headers from folders of the sources outside of the package."""
+    """True if a CMake script adds include directories of the source tree outside the package."""
     makes_nothing: bool = False
-    """Whether it is a CMake script that builds, installs and tests nothing but the style of what is there."""
+    """True if a CMake script builds and installs nothing and tests at most the style of the sources."""
     commented_interfaces: tuple[str, ...] = ()
-    """Interfaces that stand in comments of its CMake files, as ``msg/Name``: somebody took them off a list."""
+    """Interfaces listed only in comments of CMake files, as ``msg/Name``: they were removed."""
 
     syntax: tuple[NewerSyntax, ...] = ()
-    """What not every version of Python reads in a setup.py."""
+    """Constructs in setup.py that older versions of Python reject."""
     cmake_errors: tuple[Problem, ...] = ()
-    """What CMake refuses in commands that are seen through all the same, so that it hides nothing: "undefined-target" of what
-    commands are given targets for, "no-package" of what they are given packages for. The subject is the name."""
+    """Errors of CMake in commands whose effect is still known, so that they hide nothing.
+
+    The kind is "undefined-target" for a missing target and "no-package" for a missing package; the subject is the
+    name of the target or package.
+    """
 
     @property
     def of_cmake(self) -> bool:
-        """Whether it is a CMake script, and none of Python."""
+        """True if the script is a CMakeLists.txt, not a setup.py."""
         return self.path.endswith("CMakeLists.txt")
 
     @property
     def installed(self) -> frozenset[str]:
-        """The files that are installed, by where they lie in the package. Generated ones are none of them."""
+        """Installed files by their path in the package, without generated files."""
         return frozenset([provided.source for provided in self.installs if provided.source])
 
     @property
     def is_empty(self) -> bool:
-        """Whether it is a CMake script without a command: empty, or all of it a comment."""
+        """True if the script is a CMakeLists.txt without commands: empty, or only comments."""
         return self.of_cmake and not (self.command_names or self.problems or self.opaque)
 
     def hides(self, facet: Facet) -> bool:
-        """Whether the script cannot be seen through as to a facet. What code computes when it runs is no matter here."""
+        """Return whether a part of the script that cannot be evaluated hides ``facet``.
+
+        What the built code computes at run time does not matter here.
+        """
         return any(opaque.hides & facet for opaque in self.opaque)
 
 
 NOTHING_BUILT: Final = BuildScript("")
-"""What stands for the script of a package that has none: it builds and installs nothing."""
+"""The build script of a package that has none: it builds and installs nothing."""

@@ -1,4 +1,4 @@
-"""Targets of CMake, and its commands as they are written."""
+"""Facts about CMake: targets, and commands as written."""
 
 from __future__ import annotations
 
@@ -14,48 +14,54 @@ class BuildTarget(NamedTuple):
     name: str
     kind: Literal["executable", "library", "interface", "other"]
     sources: tuple[str, ...]
-    """Relative to the package."""
+    """Source files, relative to the package."""
     test: bool
     span: Span
     links: tuple[tuple[str, Span], ...] = ()
-    """What it is linked with for sure, by name, each with the place that says so."""
+    """Names that the target links in every build, each with the place of the name."""
     optional_sources: tuple[str, ...] = ()
-    """Those of its sources that are not compiled in every build: all of them where it is not built in every one."""
+    """Sources that are not compiled in every build.
+
+    If the target itself is conditional, these are all its sources.
+    """
     sources_known: bool = True
-    """Whether all of its sources are known."""
+    """True if all sources of the target are known."""
     headers: tuple[str, ...] | None = None
-    """What may give it headers that are not of the package, mostly as find_package() calls it; None if anything may, and for
-    tests and what has no sources."""
+    """Names, mostly as in find_package(), whose headers the target can include.
+
+    Headers of the package itself are left out. None means any header: for tests, for targets without sources, and
+    if the list is unknown.
+    """
 
 
 class Call(NamedTuple):
     """A command of a CMake file as it is written, not evaluated."""
 
     name: str
-    """In lower case."""
+    """Name in lower case."""
     path: str
     args: tuple[tuple[str, int, int, int], ...]
-    """As :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, and offsets of the whole argument."""
+    """Arguments as :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, start and end offset."""
     start: int
     end: int
     """Offset after the closing parenthesis."""
     line: int
     column: int
     breaks: tuple[int, ...]
-    """Offsets at which further lines of the command begin."""
+    """Offsets at which the second and later lines of the command begin."""
     blocks: tuple[str, ...]
-    """What it stands in, from outside: "if", "foreach", "while", "function", "macro"."""
+    """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro"."""
     test: bool
-    """Whether one of the conditions asks if tests are wanted."""
+    """True if an enclosing condition asks whether tests are built."""
 
     @property
     def texts(self) -> tuple[str, ...]:
-        """The arguments, without quotes."""
+        """Texts of the arguments, without quotes."""
         return tuple([argument[0] for argument in self.args])
 
     @property
     def name_span(self) -> Span:
-        """The name."""
+        """Span of the name."""
         return Span(self.path, self.line, self.column, self.line, self.column + len(self.name))
 
     @property
@@ -63,7 +69,7 @@ class Call(NamedTuple):
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
     def span(self, index: int) -> Span:
-        """Return the place of an argument, quotes included."""
+        """Return the span of an argument, quotes included."""
         _, _, start, end = self.args[index]
         return Span(self.path, *self._position(start), *self._position(end))
 
@@ -72,9 +78,9 @@ class Call(NamedTuple):
 
 
 def position(offset: int, start: int, line: int, column: int, breaks: tuple[int, ...]) -> tuple[int, int]:
-    """Return line and column of an offset in what begins at some offset, line and column.
+    """Return line and column of ``offset`` in a text that begins at ``start``, ``line`` and ``column``.
 
-    ``breaks`` are the offsets at which further lines of it begin.
+    ``breaks`` are the offsets at which further lines of the text begin.
     """
     passed = bisect_right(breaks, offset)
     return (line + passed, offset - breaks[passed - 1] + 1) if passed else (line, column + offset - start)

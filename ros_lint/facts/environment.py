@@ -1,4 +1,4 @@
-"""What every environment of ROS 2 says of itself, whatever the distribution."""
+"""Environment variables with the same value in every distribution of ROS 2."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from collections.abc import Mapping
 from typing import Final
 
 ROS_2: Final[Mapping[str, str]] = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}
-"""Variables of the environment that builds, launches and conditions of manifests can ask for (REP 149)."""
+"""Variables that build scripts, launch files and conditions in manifests can read (REP 149)."""

@@ -1,4 +1,4 @@
-"""What a definition of a message, service or action says."""
+"""Facts about definitions of messages, services and actions."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from ros_lint.base.text import Span
 
 
 class InterfaceProblem(NamedTuple):
-    """A place in a definition that rosidl refuses, or makes code of that no compiler takes."""
+    """A place in a definition that rosidl rejects, or for which it generates code that does not compile."""
 
     message: str
     span: Span
     instead: str | None = None
-    """What has to stand there for sure, None where somebody has to decide."""
+    """The text to write there, None if the correct text is not certain."""
 
 
 class InterfaceFile(NamedTuple):
@@ -21,5 +21,5 @@ class InterfaceFile(NamedTuple):
 
     path: str
     types: tuple[tuple[str, Span], ...] = ()
-    """Messages that its fields are made of, as written: ``Type`` of the same package, or ``package/Type``."""
+    """Types of the fields, as written: ``Type`` of the same package, or ``package/Type``."""
     problems: tuple[InterfaceProblem, ...] = ()

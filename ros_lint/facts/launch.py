@@ -1,4 +1,4 @@
-"""What launch files do, before it is known how they are called."""
+"""Facts about launch files, before the values of their arguments are known."""
 
 from __future__ import annotations
 
@@ -16,108 +16,138 @@ LAUNCH_RUNTIME: Final = LAUNCH_LIBRARIES | {"ament_index_python"}
 
 
 class LaunchValue(NamedTuple):
-    """What a text in a launch file can be when it runs."""
+    """The possible values of a text in a launch file."""
 
     texts: tuple[str, ...]
-    """Each alternative, never empty; with the marks of :mod:`ros_lint.collectors.symbolic_text` for what is not known yet."""
+    """Each alternative, never empty.
+
+    Parts that are not known yet are marks of :mod:`ros_lint.collectors.symbolic_text`.
+    """
     span: Span
     exact: bool = False
-    """Whether ``span`` covers the only text and nothing else, so that a fix can put another one there."""
+    """True if ``span`` covers exactly the only text, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
-    """Of a parameter or a file of them: what must be so for it to be given. All of them must hold."""
+    """Conditions of a parameter or parameter file; it is passed only if all of them hold."""
 
 
 class LaunchCondition(NamedTuple):
-    """What must be so for an action to be taken."""
+    """A condition of an action."""
 
     texts: tuple[str, ...]
-    """With the same marks."""
+    """Alternatives of the text, with the same marks as ``LaunchValue.texts``."""
     equals: str | None
-    """The text must be this one; None: it must mean true, as IfCondition takes it."""
+    """The value that the text must equal; None: the text must be true in the sense of IfCondition."""
     wanted: bool = True
-    """False: it must not."""
+    """False if the condition is negated (UnlessCondition)."""
 
 
 UNSCOPED: Final = "unscoped"
-"""The ``name`` of a group that leaves set what is set in it."""
+"""The ``name`` of a group whose settings remain in effect after its end (``scoped=False``)."""
 
 
 class LaunchAction(NamedTuple):
-    """What a launch file does, before it is known how it is called. Which fields count depends on the kind."""
+    """An action of a launch file, before its arguments are known. The kind decides which fields are used."""
 
     kind: str
-    """``argument``, ``set``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``, ``remap``,
-    ``parameter``, ``environment``, ``later`` (what a timer or an event starts), or ``other``."""
+    """Kind of the action.
+
+    One of ``argument``, ``set``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
+    ``remap``, ``parameter``, ``environment``, ``later`` (actions of a timer or an event handler) or ``other``.
+    """
     span: Span
     package: LaunchValue | None = None
     package_span: Span | None = None
-    """Where a package is written that ``target`` looks up."""
+    """Place of the package that ``target`` looks up."""
     target: LaunchValue | None = None
-    """The executable, class or file; the name of an argument, a configuration or a variable; the command line."""
+    """Main operand of the action.
+
+    An executable, a component class or a file; the name of an argument, configuration or variable; or the command
+    line of a process.
+    """
     value: LaunchValue | None = None
-    """The default of an argument, None if it has to be given; what is set or pushed."""
+    """Default of an argument (None if the argument is required), or the value that is set or pushed."""
     name: LaunchValue | None = None
     namespace: LaunchValue | None = None
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
-    """What is passed to an included file by name; the words that a process or node is given, under "", and what else it is
-    given by name: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``."""
+    """Values passed by name.
+
+    For an include, the launch arguments. For a process or node, the words of the command line under "", and further
+    options: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``.
+    """
     argument_spans: tuple[Span, ...] = ()
-    """Where the names of what is passed to an included file stand: one for each of ``arguments``, or none."""
+    """Places of the names of the arguments of an include: one for each of ``arguments``, or none."""
     choices: tuple[str, ...] = ()
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
-    """By name; a file under "", any number of parameters that are not known under UNKNOWN."""
+    """Parameters by name.
+
+    A parameter file has the name "", any number of unknown parameters the name UNKNOWN.
+    """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
     conditions: tuple[LaunchCondition, ...] = ()
-    """All of them must hold; an unknown one has UNKNOWN for its text."""
+    """Conditions that must all hold; an unknown condition has the text UNKNOWN."""
     children: tuple[LaunchAction, ...] = ()
     conditional_arguments: tuple[str, ...] = ()
-    """Names of what is passed to an included file only if something holds of which nothing is known."""
+    """Names of arguments that an include gets only under a condition of unknown value."""
     builtin_model: bool = False
-    """Whether a helper of a released package names what is started: that is the need of the package that has the helper."""
+    """True if a helper of a released package names the executable, which is thus its dependency."""
 
     @property
     def has_scope(self) -> bool:
-        """Whether what is set in it is put back at its end: a group that does not say otherwise."""
+        """True if settings made inside are restored at the end: a group, unless it is unscoped."""
         return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 
 ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]
-"""What a launch file names: what it starts or reads, or a package alone. The package of a program is a rosdep key."""
+"""Kind of the thing that a launch file names and starts or reads; "package" is a package alone.
+
+For "program", the package is a rosdep key.
+"""
 
 
 class LaunchReference(NamedTuple):
-    """A line of a launch file that names a package, and mostly something in it."""
+    """A place in a launch file that names a package, and mostly something in it."""
 
     kind: ReferenceKind
     package: str
     name: str
-    """The executable, the component class, the command of a shell, or a path below share/<package>; "" for a plain look-up of
-    the package."""
+    """Name of the thing in the package, "" for a plain look-up of the package.
+
+    An executable, a component class, a command of a shell, or a path below share/<package>.
+    """
     span: Span
-    """Of the name, or of the package where there is no name."""
+    """Span of the name, or of the package if there is no name."""
     package_span: Span
     conditional: bool = False
-    """Under a condition that may be false."""
+    """True if the action is under a condition that may be false."""
     exact: bool = True
-    """Whether ``span`` covers the name and nothing else, so that a fix can put another one there."""
+    """True if ``span`` covers exactly the name, so that a fix can replace it."""
     package_exact: bool = True
-    """The same of ``package_span`` and the package."""
+    """True if ``package_span`` covers exactly the package, so that a fix can replace it."""
     optional: bool = False
-    """Whether the launch file asks first if the package is there, and does without, or names it in some distributions only."""
+    """True if the launch file works without the package.
+
+    It checks first that the package exists, or names it in some distributions only.
+    """
     from_default: bool = False
-    """Whether it holds only as long as nobody gives the arguments of the launch file other values than their defaults."""
+    """True if the reference holds only with the default values of the launch arguments."""
     package_from_default: bool = False
-    """The same of the package: its name is made of the default of an argument, and stands nowhere as it is."""
+    """True if the name of the package is composed from the default of an argument, so it is not literal."""
     surely_read: bool = False
-    """Whether what is started reads this file for certain, so that it cannot be one that is written: parameters, displays."""
+    """True if the started program certainly reads the file: parameters, RViz configurations.
+
+    Such a file cannot be an output.
+    """
     existence_checked: bool = False
-    """Whether the launch file asks first if this file is there, and does without."""
+    """True if the launch file checks first that the file exists, and works without it."""
     distros: tuple[str, ...] = ()
-    """The distributions that come to it, sorted, where a launch file asks which one runs; none if all do."""
+    """Distributions in which the reference is reached, sorted, if the launch file checks ROS_DISTRO.
+
+    Empty if it is reached in all distributions.
+    """
 
 
 class LaunchFile(NamedTuple):
-    """A launch file, as far as it can be read without running it."""
+    """A launch file, as far as it is known without running it."""
 
     path: str
     language: Literal["python", "xml", "yaml"]
@@ -125,36 +155,46 @@ class LaunchFile(NamedTuple):
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
     test: bool = False
-    """Whether it serves tests only: it has generate_test_description() (launch_testing)."""
+    """True if the file serves tests only: it has generate_test_description() (launch_testing)."""
     helper: bool = False
-    """Whether it cannot be launched itself: a Python module that builds actions, without a generate_launch_description() that
-    can be called with nothing."""
+    """True if the file cannot be launched itself.
+
+    It is a Python module that builds actions, but it has no generate_launch_description() that can be called
+    without arguments.
+    """
     actions: tuple[LaunchAction, ...] = ()
     imports: tuple[tuple[str, Span], ...] = ()
-    """Modules that a Python launch file imports whenever it is loaded, dotted as written; none if it changes where Python
-    looks for them."""
+    """Dotted names of modules that a Python launch file imports whenever it is loaded.
+
+    Empty if the file changes ``sys.path``.
+    """
     configurations_read: tuple[str, ...] = ()
-    """Launch configurations that it asks for, wherever they go, sorted; with UNKNOWN for any other."""
+    """Launch configurations that the file reads for any purpose, sorted; UNKNOWN for any other."""
     missing_inputs: tuple[str, ...] = ()
-    """What a Python launch file reads besides itself, and that was not at hand when it was followed: modules, dotted, and
-    files by their install path; sorted."""
+    """Inputs of a Python launch file that were not available when it was interpreted, sorted.
+
+    Modules are dotted names, files are install paths.
+    """
     substitutes_parameters: bool = False
-    """Whether launch configurations are filled into a file of parameters (allow_substs), which can ask for any."""
+    """True if launch configurations are substituted in a parameter file (allow_substs).
+
+    The parameter file can read any configuration.
+    """
     version_problems: tuple[Problem, ...] = ()
-    """What not every distribution takes; ``kind`` is the first that does."""
+    """Problems that only older distributions have; ``kind`` is the first distribution without the problem."""
     syntax: tuple[NewerSyntax, ...] = ()
-    """What not every version of Python reads in a Python launch file."""
+    """Constructs in a Python launch file that older versions of Python reject."""
 
 
 def walk_actions(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
-    """Yield actions and all those in them."""
+    """Yield actions and, recursively, their child actions."""
     for action in actions:
         yield action
         yield from walk_actions(action.children)
 
 
 def values_of_action(action: LaunchAction) -> Iterator[tuple[str, Span]]:
-    """Yield every text of an action and its conditions with its place, but for those of the actions in it."""
+    """Yield each text of an action and of its conditions with its span, without child actions."""
     for value in values(action):
         yield from ((text, value.span) for text in value.texts)
     for condition in action.conditions:
@@ -162,7 +202,7 @@ def values_of_action(action: LaunchAction) -> Iterator[tuple[str, Span]]:
 
 
 def values(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield every text of an action, but for those of the actions in it."""
+    """Yield each value of an action, without child actions."""
     for value in (action.package, action.target, action.value, action.name, action.namespace):
         if value is not None:
             yield value

@@ -1,4 +1,4 @@
-"""What a package says of itself and of what it depends on: package.xml, colcon.pkg and colcon.meta."""
+"""Facts about package metadata and dependencies: package.xml, colcon.pkg and colcon.meta."""
 
 from __future__ import annotations
 
@@ -12,26 +12,28 @@ from ros_lint.facts.visibility import Problem
 
 
 class Role(Sealed, Flag):
-    """What a package is needed for."""
+    """A purpose for which a package needs another package."""
 
     BUILD = auto()
     EXPORT = auto()
-    """To build against this package: its public headers and exported targets."""
+    """Needed to build against this package: by its public headers and exported targets."""
     EXEC = auto()
     TEST = auto()
     TOOL = auto()
-    """To run on the build machine."""
+    """Needed as a program on the build machine."""
 
 
 class DependencyKind(NamedTuple):
-    """What a dependency tag means to ROS, to colcon and in the data of the released world."""
+    """The meaning of a dependency tag for ROS, for colcon and in the data of released packages."""
 
     role: Role
     letters: str
-    """In the index of the released world: b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc,
-    G group, M membership."""
+    """Letters of the tag in the index of released packages.
+
+    b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc, G group, M membership.
+    """
     phases: tuple[str, ...]
-    """The categories of colcon-ros that order packages; () if the tag orders none."""
+    """Dependency categories of colcon-ros that order packages; () if the tag orders none."""
 
 
 DEPENDENCY_KINDS: Final[Mapping[str, DependencyKind]] = {
@@ -49,14 +51,14 @@ DEPENDENCY_KINDS: Final[Mapping[str, DependencyKind]] = {
     "conflict": DependencyKind(Role(0), "", ()),
     "replace": DependencyKind(Role(0), "", ()),
 }
-"""What each dependency tag means (REP 127, 140 and 149; colcon_ros/package_identification/ros.py)."""
+"""The meaning of each dependency tag (REP 127, 140 and 149; colcon_ros/package_identification/ros.py)."""
 
 ROLES: Final[Mapping[str, Role]] = {tag: kind.role for tag, kind in DEPENDENCY_KINDS.items() if kind.role}
-"""The role of each tag that declares a need."""
+"""The role of each tag that declares a dependency."""
 
 
 class Element(NamedTuple):
-    """An element of a manifest that is no dependency: a child of ``<package>`` or of ``<export>``."""
+    """An element of a manifest that is not a dependency: a child of ``<package>`` or of ``<export>``."""
 
     tag: str
     text: str
@@ -74,17 +76,26 @@ class Depend(NamedTuple):
     name: str
     tag: str
     condition: str
-    """The text of the attribute, "" when there is none and " " when it is empty, which fails to parse. REP 149."""
+    """Text of the attribute ``condition`` (REP 149), "" if absent.
+
+    " " stands for an empty attribute, which fails to parse.
+    """
     versions: tuple[tuple[str, str], ...]
-    """Such as ("version_gte", "1.2.0")."""
+    """Version attributes, such as ("version_gte", "1.2.0")."""
     span: Span
     name_span: Span
     close: int = 0
-    """Length of the end tag in code points, 0 when there is none or when it runs over a line end."""
+    """Length of the end tag in code points.
+
+    0 if there is no end tag or if it contains a line end.
+    """
 
 
 class Manifest(NamedTuple):
-    """A ``package.xml``, as far as it can be read. With problems, colcon takes it for no package."""
+    """A ``package.xml``, as far as it can be read.
+
+    If it has problems, colcon does not recognize the package.
+    """
 
     path: str
     format: int
@@ -98,20 +109,23 @@ class Manifest(NamedTuple):
     end: Span
     """The empty span just before ``</package>``, where an element can be added."""
     begin: Span | None = None
-    """The empty span just after ``<package ...>``; None when there is no such element."""
+    """The empty span just after ``<package ...>``; None if there is no such element."""
     format_span: Span | None = None
-    """The value of the attribute ``format``; None when it has none, which means 1."""
+    """Span of the value of the attribute ``format``; None if it is absent, which means format 1."""
     asides: tuple[Span, ...] = ()
-    """Whatever else stands directly in ``<package>``: comments, instructions, stray text."""
+    """Other direct contents of ``<package>``: comments, processing instructions, stray text."""
     strays: tuple[Span, ...] = ()
-    """Those of ``asides`` that are text."""
+    """The members of ``asides`` that are text."""
     indent: str = "  "
-    """The white space before a child of ``<package>``."""
+    """White space before a child of ``<package>``."""
     newline: str = "\n"
 
 
 class ColconDepend(NamedTuple):
-    """An ordering edge that colcon takes from elsewhere than the manifest: colcon.pkg, colcon.meta or a plain script."""
+    """A dependency that colcon takes from a place other than package.xml.
+
+    The place is colcon.pkg, colcon.meta or a plain script.
+    """
 
     name: str
     role: Role
@@ -119,12 +133,12 @@ class ColconDepend(NamedTuple):
 
 
 class ColconSettings(NamedTuple):
-    """What a ``colcon.pkg``, or an entry of a ``colcon.meta``, sets for a package."""
+    """Settings of a package in a ``colcon.pkg``, or in an entry of a ``colcon.meta``."""
 
     name: str
-    """"" when it sets none."""
+    """Name of the package, "" if not set."""
     type: str
-    """"" when it sets none."""
+    """Build type of the package, "" if not set."""
     depends: tuple[ColconDepend, ...]
 
 
@@ -134,4 +148,4 @@ class ColconMeta(NamedTuple):
     path: str
     by_name: tuple[tuple[str, ColconSettings], ...]
     by_path: tuple[tuple[str, ColconSettings], ...]
-    """Paths as written, relative to the file."""
+    """Settings by path: as written, relative to the file."""

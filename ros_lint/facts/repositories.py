@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 
 class ExpectedRepositories(NamedTuple):
-    """Repositories that may still come to a workspace, by the names of their folders: mostly those of the packages in them."""
+    """Repositories that may be added to a workspace, by folder name, which is mostly also a package name."""
 
     uncloned: frozenset[str] = frozenset()
-    """Submodules whose folders are empty. What they have is missing by no mistake: packages, Python modules, libraries."""
+    """Submodules whose folders are empty: packages, modules and libraries in them count as not missing."""
     listed: frozenset[str] = frozenset()
-    """Those that ``*.repos`` and ``*.rosinstall`` have fetched, which whoever builds the workspace may have done or not."""
+    """Repositories in ``*.repos`` and ``*.rosinstall`` files, which may or may not have been fetched."""
 
 
 NOTHING_AWAITED = ExpectedRepositories()

@@ -1,4 +1,4 @@
-"""What ``setup.py`` and ``setup.cfg`` name, and where a fix can change them."""
+"""Facts about ``setup.py`` and ``setup.cfg``: names in them, and places that a fix can edit."""
 
 from __future__ import annotations
 
@@ -13,58 +13,72 @@ class EntryPoint(NamedTuple):
     group: str
     name: str
     target: str
-    """``module:attribute``."""
+    """The target as ``module:attribute``."""
     span: Span
 
     @property
     def module(self) -> str:
-        """The dotted name of the module."""
+        """Dotted name of the module."""
         return self.target.partition(":")[0].strip()
 
 
 class PythonModule(NamedTuple):
-    """A module of the package's own that an entry point names."""
+    """A module of this package that an entry point names."""
 
     name: str
-    """Dotted."""
+    """Dotted name."""
     path: str
-    """Relative to the package."""
+    """Path relative to the package."""
     names: tuple[str, ...]
-    """What it defines or imports at its top level, sorted."""
+    """Names defined or imported at the top level of the module, sorted."""
     open: bool
-    """Whether it may have further names."""
+    """True if the module may define names that are not listed."""
 
 
 class EditableList(NamedTuple):
     """A list in ``setup.py`` that a fix can add an element to."""
 
     option: str
-    """``data_files``, ``packages`` or ``console_scripts``."""
+    """Name of the option: ``data_files``, ``packages`` or ``console_scripts``."""
     end: Span
-    """The empty span after the last element, and after the comma behind it and its comment if there is a comma."""
+    """The empty span after the last element.
+
+    If a comma follows the element, the span is after the comma and its comment.
+    """
     comma: bool
-    """Whether there is one."""
+    """True if a comma follows the last element."""
     indent: str | None
-    """The white space before the last element where it stands on a line of its own, else None."""
+    """White space before the last element if the element has a line of its own, else None."""
     size: int
-    """How many elements there are."""
+    """Number of elements."""
     variable: str = ""
-    """A variable that holds the name of the package, if setup.py has one."""
+    """Variable that holds the name of the package, "" if there is none."""
     glob: str = ""
-    """By which name setup.py calls glob.glob, "" if it does not import it."""
+    """Name by which setup.py calls glob.glob, "" if it does not import it."""
     quote: str = "'"
-    """What stands around most texts in the list."""
+    """Quote character of most texts in the list."""
     joins: str = ""
-    """How folders are put together there: by this function, by f-strings ("f") or by ``+`` ("")."""
+    """How setup.py joins paths: the name of a function, "f" for f-strings, or "" for ``+``."""
 
 
 class WrittenText(NamedTuple):
-    """A place in ``setup.py`` or ``setup.cfg`` that a fix can change a text at."""
+    """A place in ``setup.py`` or ``setup.cfg`` where a fix can change a text."""
 
     kind: Literal["glob", "gap", "section", "option"]
-    """The pattern of a glob, or what it ends with; where a comma between two texts is missing, most likely; a section of
-    ``setup.cfg``, or its last line; or an option."""
+    """Kind of the place.
+
+    * "glob": the pattern of a glob, or its end.
+    * "gap": a place between two texts where a comma is probably missing.
+    * "section": a section of ``setup.cfg``, or its last line.
+    * "option": an option of ``setup.cfg``.
+    """
     text: str
-    """The name of a section, "" for the last line; ``section.name`` of an option."""
+    """Text at the place.
+
+    For a section its name ("" for the last line), for an option ``section.name``.
+    """
     span: Span
-    """Of the text without its quotes; of the value of an option; of others, empty, and at the end of the line."""
+    """Span of the text without quotes, or of the value of an option.
+
+    For the other kinds it is empty and at the end of the line.
+    """

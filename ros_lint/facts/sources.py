@@ -1,4 +1,4 @@
-"""What source files say about other packages."""
+"""Facts about source files: the names of other packages' contents, and where they are used."""
 
 from __future__ import annotations
 
@@ -10,125 +10,147 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.visibility import Opaque
 
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
-"""In which of the name spaces a mention is to be looked up; they differ (reference, section D6 and E3.8)."""
+"""Name space in which a mention is resolved: each kind of name has its own.
+
+Example: the rosdep key ``eigen`` is ``Eigen3`` to find_package() and ``Eigen/`` in an include.
+"""
 
 Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool"]
-"""What CMake takes a package for: to hand it on to those who find this one, to generate the code of interfaces, because it
-loads the plugins of this one, because a command that another package of the workspace gives has it in itself, or to run a
-program of it in the build. Most is for code, and nothing says so."""
+"""Purpose for which CMake uses a package; "" is the usual case: code.
+
+* "export": to pass the package on to dependents.
+* "interfaces": to generate the code of interfaces.
+* "plugins": the package loads the plugins of this one.
+* "helper": a command of another package of the workspace calls the package.
+* "tool": to run a program of the package in the build.
+"""
 
 
 class Mention(NamedTuple):
-    """A place that names something which may belong to another package."""
+    """A place with a name that may belong to another package."""
 
     name: str
-    """As written: a header path, a dotted module, the argument of find_package, a package name, ``pkg/Type``."""
+    """Name as written: a header, a dotted module, an argument of find_package, a package, ``pkg/Type``."""
     via: Via
     span: Span
     what: str = ""
-    """How to quote it in a message, when the name alone does not do."""
+    """Quotation of the place for a message, if the name alone is not enough."""
     optional: bool = False
-    """Guarded, so that the package does without: QUIET and X_FOUND, try/except ImportError, __has_include."""
+    """True if the code works without the package:
+
+    QUIET and X_FOUND, try/except ImportError, __has_include.
+    """
     test: bool = False
-    """Known to serve tests only."""
+    """True if the place is known to serve tests only."""
     purpose: Purpose = ""
 
 
 class Use(NamedTuple):
-    """A place that needs another package: a mention whose name has been resolved. Dependency rules read only these."""
+    """A place that needs another package: a mention with a resolved name. Dependency rules read only uses."""
 
     package: str
-    """The package or rosdep key to declare for it: the best of the providers."""
+    """The package or rosdep key to declare: the best provider."""
     providers: tuple[str, ...]
-    """Every name that satisfies the use when it is declared, ``package`` first."""
+    """Each name whose declaration satisfies the use, ``package`` first."""
     role: Role
-    """All that it is needed for here."""
+    """All purposes for which this place needs the package."""
     what: str
-    """How a message quotes it: "#include <std_msgs/msg/string.hpp>"."""
+    """Quotation of the place for a message: "#include <std_msgs/msg/string.hpp>"."""
     via: Via
     optional: bool
     span: Span
     certain: bool = True
-    """False where the file may be dead: in no target, not installed, no test."""
+    """False if the file may be unused: it is not in a target, not installed and not a test."""
     name: str = ""
-    """What is named there, as ``via`` says: the path of a header, a module, a name of find_package."""
+    """Name at the place, in the name space ``via``: a header path, a module, a name of find_package."""
 
 
 class LookUp(NamedTuple):
-    """A file that is looked up in the share directory of a package."""
+    """A file that code looks up in the share directory of a package."""
 
     package: str
     path: str
-    """Below share/<package>."""
+    """Path below share/<package>."""
     span: Span
 
 
 class MachinePath(NamedTuple):
-    """A path below the home directory of somebody, into the sources from the folder above them, or into ``/opt/ros``."""
+    """An absolute or workspace-relative path that other machines do not have.
+
+    It is below a home directory, leads into the sources from the folder above them, or is below ``/opt/ros``.
+    """
 
     path: str
-    """As ``/home/jay/ros2_ws/src/robot/config/robot.yaml`` or ``src/robot/config/robot.yaml``, without a slash at the end."""
+    """Path without a slash at the end.
+
+    Examples: ``/home/jay/ros2_ws/src/robot/config/robot.yaml``, ``src/robot/config/robot.yaml``.
+    """
     span: Span
     is_written: bool = False
-    """Whether a program opens it to write to it, or what is made goes there by the name of the variable."""
+    """True if the path is an output: a program opens it for writing, or the variable's name says so."""
     relative_to_file: bool = False
-    """Whether whoever reads it would seek a relative one from the folder of the file."""
+    """True if the reader of the path would resolve a relative path from the folder of the file."""
     parameter_default: bool = False
-    """Whether it is the default of a parameter that a program declares."""
+    """True if the path is the default of a parameter that a program declares."""
 
     @property
     def distribution(self) -> str:
-        """The distribution that a path into ``/opt/ros`` is of, "" for others."""
+        """The distribution of a path below ``/opt/ros``, "" for other paths."""
         return self.path.split("/")[3] if self.path.startswith("/opt/ros/") else ""
 
 
 class ImportedType(NamedTuple):
-    """A message, service or action by its name in an import of Python: ``from robot.msg import State``."""
+    """A message, service or action imported by name in Python: ``from robot.msg import State``."""
 
     name: str
-    """As ``robot/msg/State``."""
+    """Name as ``robot/msg/State``."""
     span: Span
     module: Span
-    """Of the module as written, where the package has a use of the other one."""
+    """Span of the module as written.
+
+    A fix replaces it if the package uses the other module.
+    """
 
 
 class ParameterFile(NamedTuple):
-    """A YAML file, as far as it is one of parameters (rcl_yaml_param_parser)."""
+    """A YAML file, as far as it contains parameters of nodes (rcl_yaml_param_parser)."""
 
     path: str
     nodes: tuple[tuple[str, Span], ...]
-    """Full names of the nodes that it has parameters for, with a leading slash; ``*`` and ``**`` stand for any part. Empty:
-    it has no ``ros__parameters`` at all."""
+    """Full names of nodes with parameters, with a leading slash; ``*`` and ``**`` are wildcards.
+
+    Empty if the file has no ``ros__parameters``.
+    """
     first: Span
-    """Of its first key."""
+    """Span of the first key."""
     configurations_read: tuple[str, ...] = ()
-    """Launch configurations that are filled in, if whoever gives it to a node allows that (``allow_substs``)."""
+    """Launch configurations that are substituted if the node's ParameterFile has ``allow_substs``."""
 
 
 class Registration(NamedTuple):
-    """A macro in C++ that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
+    """A C++ macro that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
 
     kind: Literal["component", "plugin"]
     name: str
-    """The class as written, without a leading ``::``."""
+    """Class as written, without a leading ``::``."""
     span: Span
     base: str = ""
-    """Of a plugin: the class that it is loaded as, likewise."""
+    """Base class of a plugin, without a leading ``::``; "" for a component."""
 
 
 class PluginLoader(NamedTuple):
-    """A loader of plugins in C++ that says in words what it loads (``pluginlib::ClassLoader``)."""
+    """A loader of plugins in C++ with literal arguments (``pluginlib::ClassLoader``)."""
 
     package: str
-    """For which plugins are exported."""
+    """Package to which plugins are exported."""
     base: str
-    """The class that they are loaded as, with its namespaces."""
+    """Base class of the plugins, with its namespaces."""
     span: Span
-    """Of the package."""
+    """Span of the package."""
 
 
 class FileFacts(NamedTuple):
-    """What one source file says about other packages."""
+    """The facts of one source file about other packages."""
 
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
@@ -136,15 +158,18 @@ class FileFacts(NamedTuple):
     lookups: tuple[LookUp, ...] = ()
     parameters: ParameterFile | None = None
     optional_modules: tuple[str, ...] = ()
-    """Python modules that may be missing: ``try: import a`` with ``except ImportError``. Relative ones begin with their dots."""
+    """Python modules that may be missing: ``try: import a`` with ``except ImportError``.
+
+    Relative modules begin with dots.
+    """
     path_additions: tuple[Span, ...] = ()
-    """Imports of modules after whose names the file adds a folder to those in which modules are sought."""
+    """Imports whose module's name the file then uses to extend ``sys.path``."""
     programs: tuple[str, ...] = ()
-    """Names of Python files that its literals end with: a test starts some of them by path."""
+    """Names of Python files at the end of string literals: a test may start such a file by path."""
     sets_path: bool = False
-    """Whether it speaks of ``sys.path``, so that modules may be sought in more folders."""
+    """True if the file mentions ``sys.path``, so that modules may be found in more folders."""
     loaders: tuple[PluginLoader, ...] = ()
     types: tuple[ImportedType, ...] = ()
-    """Messages, services and actions that it imports by name."""
+    """Messages, services and actions imported by name."""
     interface: InterfaceFile | None = None
-    """What a definition of an interface says, but for one in IDL."""
+    """Contents of an interface definition, except for IDL."""

@@ -13,34 +13,34 @@ if TYPE_CHECKING:
 
 
 MARKER = "ros-lint:"
-"""Only files that hold this can suppress anything."""
+"""The text that each suppression contains; files without it suppress nothing."""
 
 
 class Name(NamedTuple):
-    """A rule as a suppression names it, by name or code."""
+    """A reference to a rule in a suppression, by name or code."""
 
     text: str
     span: Span
 
 
 class Suppression(NamedTuple):
-    """A comment that suppresses findings of some rules, or a ``problem`` that keeps it from doing so."""
+    """A comment that suppresses findings of some rules, or has a ``problem`` and suppresses nothing."""
 
     names: tuple[Name, ...]
     reason: str
     lines: tuple[int, int] | None
-    """First and last line that it speaks for, its own included; None stands for the whole file."""
+    """First and last line that the suppression covers, its own included; None for the whole file."""
     span: Span
-    """From ``ros-lint:`` to the closing bracket."""
+    """Span from ``ros-lint:`` to the closing bracket."""
     inside: Span
-    """Between the brackets."""
+    """Span between the brackets."""
     removal: Edit
-    """Takes it out of the file, with the comment when there is nothing else in it."""
+    """Edit that removes the suppression, and the comment if it contains nothing else."""
     problem: str = ""
-    """Why it suppresses nothing, as a message."""
+    """Message that explains why the comment suppresses nothing, "" if it is valid."""
 
     def covers(self, span: Span) -> bool:
-        """Return whether it applies to a span of its file: one common line is enough."""
+        """Return whether the suppression applies to a span of its file: one common line is enough."""
         if self.problem or span.path != self.span.path:
             return False
         if self.lines is None:
@@ -49,21 +49,21 @@ class Suppression(NamedTuple):
         return first <= self.lines[1] and self.lines[0] <= last
 
     def without(self, names: Iterable[Name]) -> Edit:
-        """Return the edit that takes some of the names out, and the whole suppression when none would be left."""
-        gone = set(names)
-        left = [name.text for name in self.names if name not in gone]
-        return Edit(self.inside, ", ".join(left)) if left else self.removal
+        """Return the edit that removes ``names``, or the whole suppression if no name remains."""
+        removed = set(names)
+        remaining = [name.text for name in self.names if name not in removed]
+        return Edit(self.inside, ", ".join(remaining)) if remaining else self.removal
 
 
 class Unused(NamedTuple):
-    """Names in a suppression for which their rules found nothing to suppress."""
+    """Names in a suppression whose rules reported nothing there."""
 
     suppression: Suppression
     names: tuple[Name, ...]
 
 
 class Unknown(NamedTuple):
-    """A name in a suppression that no rule has."""
+    """A name in a suppression that is not the name of a rule."""
 
     suppression: Suppression
     name: Name
@@ -72,14 +72,17 @@ class Unknown(NamedTuple):
 
 
 def lines_of(span: Span) -> tuple[int, int]:
-    """Return the first and the last line of a place: one that ends before the first column has nothing of its last line."""
+    """Return the first and the last line of a span.
+
+    A span that ends before the first column of a line does not include that line.
+    """
     return span.line, span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
 
 
 class SuppressionUse(NamedTuple):
-    """Which suppressions had no effect, and why."""
+    """Suppressions without effect, by reason."""
 
     unused: tuple[Unused, ...]
     unknown: tuple[Unknown, ...]
     malformed: tuple[Suppression, ...]
-    """Those with a ``problem``."""
+    """Suppressions with a ``problem``."""

@@ -1,4 +1,4 @@
-"""What of a file cannot be seen through, and what is wrong with it."""
+"""Limits of the analysis of a file (``Opaque``) and errors in it (``Problem``)."""
 
 from __future__ import annotations
 
@@ -10,67 +10,72 @@ from ros_lint.base.text import Span
 
 
 class Facet(Sealed, Flag):
-    """A side of a package that something opaque can hide."""
+    """A part of a package that something unresolved can hide."""
 
     USES = auto()
-    """Which packages it needs."""
+    """Packages that this package uses."""
     EXECUTABLES = auto()
-    """What lands in lib/<package> and in bin."""
+    """Files installed to lib/<package> and to bin."""
     SHARE = auto()
-    """What lands in share/<package>: launch files, parameters, models."""
+    """Files installed to share/<package>: launch files, parameters, models."""
     PYTHON = auto()
-    """Which Python modules it offers."""
+    """Python modules that the package provides."""
     LIBRARIES = auto()
-    """Libraries, headers, CMake packages and targets."""
+    """Libraries, headers, CMake packages and targets that the package provides."""
     INTERFACES = auto()
-    """Messages, services, actions."""
+    """Messages, services and actions of the package."""
     COMPONENTS = auto()
-    """Component and plugin classes."""
+    """Component and plugin classes of the package."""
 
 
 ALL_FACETS = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
 
 
 class Opaque(NamedTuple):
-    """A place that could not be seen through. A rule that claims absence keeps silent about what it hides."""
+    """A place that could not be evaluated. A rule that claims absence reports nothing about what it hides."""
 
     hides: Facet
     reason: str
-    """A clause without subject, such as "include() of ${name} cannot be followed"."""
+    """Reason as a clause without subject, such as "include() of ${name} cannot be followed"."""
     span: Span
     undefined: str = ""
-    """The name of a target that is installed and that nothing in sight defines, where that is what hides something."""
+    """Name of an installed target without a visible definition, if that is the reason."""
     below: str = ""
-    """The folder of the prefix that what is hidden lies below, "" if that may be any."""
+    """Folder of the install prefix that contains the hidden files, "" for any folder."""
     inside: str = ""
-    """The folder with a build of its own that is what is not seen, in the package or beside it, "" if it may be any part of
-    the build."""
+    """Folder with a separate build that was not analysed, "" for any part of the build.
+
+    It is in the package or next to it.
+    """
     unchecked: bool = False
-    """Whether the place exceeds a bound of ros-lint, so that the file counts as not checked."""
+    """True if the place exceeds a limit of ros-lint, so that the file counts as not checked."""
 
     def reaches(self, path: str) -> bool:
-        """Return whether what is hidden may be at a path in the prefix, or in a folder there."""
+        """Return whether the hidden files may include ``path`` in the install prefix, or a file below it."""
         return not self.below or f"{path}/".startswith(f"{self.below}/") or self.below.startswith(f"{path}/")
 
 
 class NewerSyntax(NamedTuple):
-    """A construct of Python that versions before the one named refuse."""
+    """A construct of Python that versions before ``version`` reject."""
 
     construct: str
-    """A noun in the plural."""
+    """Name of the construct, in the plural."""
     version: tuple[int, int]
     span: Span
 
 
 class Problem(NamedTuple):
-    """Something that makes a file wrong for the tools that read it."""
+    """An error of a file for the tools that read it."""
 
     kind: str
-    """A short stable name, such as "unknown-tag"."""
+    """Short stable name, such as "unknown-tag"."""
     message: str
     span: Span
     instead: str = ""
-    """What has taken the place of something that was right in ROS 1."""
+    """Replacement of something that was valid in ROS 1."""
     subject: str = ""
-    """What it is about, where a rule asks for it: a path relative to the package, the pattern of a glob, a key, the format of
-    manifests that has the tag or attribute which the one that is used lacks, what a keyword is called now."""
+    """Subject of the problem, if a rule needs it.
+
+    A path relative to the package, the pattern of a glob, a key, the manifest format that has a tag or attribute,
+    or the new name of a keyword.
+    """
