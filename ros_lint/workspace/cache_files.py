@@ -1,8 +1,8 @@
-"""Files of the cache folder: values of our own classes, written so that they can be read again without any other code.
+"""Read and write files of the cache folder, which contain only facts and reports.
 
-A pickle calls what it names. Here a name means a class of facts or nothing, and a pickle gets something that makes objects of
-this class and not the class itself, because the attributes of a class can be set. A file or a folder that another user can
-write is neither read nor written.
+A pickle can call whatever it names. Here, a name resolves to a class of facts or to nothing, and the unpickler gets
+a function that creates objects of the class, not the class itself, because attributes of a class can be set. A file
+or folder that another user can write is neither read nor written.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ MODULES = (
     "ros_lint.facts.setup_py", "ros_lint.facts.sources", "ros_lint.facts.suppressions", "ros_lint.facts.visibility",
     "ros_lint.workspace.collect", "ros_lint.workspace.target",
 )  # fmt: skip
-"""The modules with classes of facts and reports."""
+"""Modules with classes of facts and reports."""
 
 _MOST_BYTES = 64 << 20
-"""Of a file. One of autoware.universe, with 500 packages, has 1 MB."""
+"""Maximum size of a file in bytes. The file of autoware.universe, with 500 packages, has 1 MB."""
 
 
 class _Members(Sealed):
-    """Makes members of an enumeration. A method of the enumeration would do, but its attributes could be set."""
+    """Creates members of an enumeration; unlike a method of the enumeration, it has no attributes to set."""
 
     __slots__ = ("_of",)
 
@@ -44,9 +44,9 @@ class _Members(Sealed):
 
 @lru_cache(maxsize=len(MODULES))
 def classes(module: str) -> Mapping[str, type]:
-    """Return the classes of facts that a module defines, by their names: named tuples and sealed enumerations.
+    """Return the classes of facts defined in a module, by name: named tuples and sealed enumerations.
 
-    There are none in a module that is not listed. What a module imports is none of its classes.
+    The result is empty for a module that is not in ``MODULES``. Imported classes are left out.
     """
     if module not in MODULES:
         return {}
@@ -62,23 +62,26 @@ def classes(module: str) -> Mapping[str, type]:
 
 
 def maker(module: str, name: str) -> Callable[..., Any]:
-    """Return what makes objects of a class of facts. Raises LookupError for every other name."""
+    """Return a function that creates objects of a class of facts. Raises LookupError for other names."""
     made = classes(module).get(name)
     if made is None:
         raise LookupError(f"{module}.{name} is no class of facts")
     if issubclass(made, Sealed):
         return _Members(made)
-    call: Callable[..., Any] = type.__call__.__get__(made)  # has no attributes that could be set
+    call: Callable[..., Any] = type.__call__.__get__(made)  # # a method wrapper: its attributes cannot be set
     return call
 
 
 def load(path: str, state: str) -> Any:
-    """Return the value that a file keeps, None when it is damaged, of another state, or can be written by another user."""
+    """Return the value in a file, or None.
+
+    None if the file is damaged, belongs to another state, or another user can write it.
+    """
     import io  # noqa: PLC0415
     import pickle  # noqa: PLC0415  (a run that keeps nothing needs none of it)
 
     class Facts(pickle.Unpickler):
-        """Makes objects of our own classes of facts, and refuses all other names."""
+        """Creates objects of the classes of facts, and rejects all other names."""
 
         def find_class(self, module: str, name: str) -> Any:
             return maker(module, name)
@@ -88,12 +91,15 @@ def load(path: str, state: str) -> Any:
             return None
         head, _, body = files.read(path, _MOST_BYTES, links=False, own=True).partition(b"\n")
         return Facts(io.BytesIO(body)).load() if head == _head(state, body) else None
-    except Exception:  # what a damaged pickle raises is not limited: MemoryError, RecursionError, OverflowError and others
+    except Exception:  # # the errors of a damaged pickle are not limited: MemoryError, RecursionError, OverflowError and others
         return None
 
 
 def save(path: str, state: str, value: Any) -> bool:
-    """Write a file in one step, and return whether it is written. A folder that another user can write stays as it is."""
+    """Write a file atomically, and return whether it was written.
+
+    Nothing is written to a folder that another user can write.
+    """
     import io  # noqa: PLC0415
     import pickle  # noqa: PLC0415
     import tempfile  # noqa: PLC0415  (a run that finds all that it needs writes nothing)
@@ -114,7 +120,7 @@ def save(path: str, state: str, value: Any) -> bool:
             file.write(_head(state, body.getbuffer()) + b"\n")
             file.write(body.getbuffer())
         os.replace(temporary, path)
-    except Exception:  # a run does not fail because nothing can be kept: the disk is full, a fact is nested too deep
+    except Exception:  # # a run does not fail because the cache cannot be written: the disk is full, a fact is nested too deeply
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
         return False
@@ -122,14 +128,15 @@ def save(path: str, state: str, value: Any) -> bool:
 
 
 def _head(state: str, body: bytes | memoryview) -> bytes:
-    """Return the first line of a file. With its checksum a file that is damaged is not read."""
+    """Return the first line of a file. Its checksum reveals damage."""
     return f"{state} {zlib.crc32(body):08x}".encode()
 
 
 def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
-    """Return how to take facts apart, which takes the pickler twice as long by itself.
+    """Return reducers for facts: the default reducers of pickle take twice as long.
 
-    Of enumerations as well: Python 3.11.2, that of Debian 12, writes them down as a call of getattr(), which is none of ours.
+    Enumerations need a reducer, too: Python 3.11.2, the version of Debian 12, pickles their members as a call of
+    getattr(), which :func:`load` rejects.
     """
     found = [value for module in MODULES if module in sys.modules for value in classes(module).values()]
     return {each: _member if issubclass(each, Sealed) else _parts for each in found}

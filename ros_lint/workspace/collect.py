@@ -1,6 +1,7 @@
-"""Collect the facts of files: each file once, in several processes when there are many, from the cache when unchanged.
+"""Collect the facts of files: each file once, in several processes if there are many.
 
-Which collector reads which file is said here and nowhere else. Collectors themselves see one text and no other file.
+Unchanged files are taken from the cache. Only this module decides which collector reads which file. A collector
+sees one text and no other file.
 """
 
 from __future__ import annotations
@@ -27,10 +28,10 @@ from ros_lint.workspace.fact_cache import FactCache
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
 _FILES_A_PROCESS = 500
-"""Below this many files a further process costs more than it saves."""
+"""Number of files for each further process: with fewer files, a process costs more than it saves."""
 
 _MOST_PROCESSES = 61
-"""Windows cannot wait for more."""
+"""Maximum number of processes: Windows cannot wait for more."""
 
 _SUFFIXES.update((suffix[1:], "cpp") for suffix in (*HEADERS, *SOURCES))
 _SUFFIXES.update((suffix[1:], "interface") for suffix in INTERFACES)
@@ -40,22 +41,22 @@ _SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resou
 
 
 _OF_PYTHON = re.compile(rb"#![^\n]*python")
-"""How a program begins that Python runs, whatever it is called."""
+"""First line of a Python program, whatever the file name."""
 
 _HIDES: dict[Kind, Facet] = {
-    "manifest": Facet(0),  # without it there is no package
-    "program": Facet(0),  # mostly no program
-    "config": Facet(0),  # only beside setup.py, where its evaluation tells of it
+    "manifest": Facet(0),  # # without a manifest there is no package
+    "program": Facet(0),  # # usually not a script
+    "config": Facet(0),  # # matters only next to setup.py, whose evaluation reports it
     "cpp": Facet.USES | Facet.COMPONENTS,
     "cmake": ALL_FACETS,
     "interface": Facet.USES | Facet.INTERFACES,
     "xml": Facet.USES | Facet.COMPONENTS,
 }
-"""What a file that cannot be read hides of its package, if it is more than uses."""
+"""Facets that an unreadable file hides, by kind of file; the default is ``Facet.USES``."""
 
 
 class Collected(NamedTuple):
-    """What one file gave."""
+    """The facts of one file."""
 
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
@@ -63,12 +64,12 @@ class Collected(NamedTuple):
     suppressions: tuple[Suppression, ...] = ()
     machine_paths: tuple[MachinePath, ...] = ()
     unreadable: str = ""
-    """Why the file was not read, or ""."""
+    """Reason why the file was not read, or ""."""
 
 
 def collect(text: Text, kind: Kind) -> Collected:
-    """Return the facts of a file. Never raises for what the file holds."""
-    # Imported here, so that a workspace without launch files does not wait for the tools to read them.
+    """Return the facts of a file. The contents of the file never cause an exception."""
+    # Collectors are imported here so that a workspace without launch files does not load theirs.
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
     commands: Parsed | None = None
@@ -106,7 +107,7 @@ def collect(text: Text, kind: Kind) -> Collected:
         from ros_lint.collectors.resources import collect as resources  # noqa: PLC0415
 
         facts = resources.collect(text)
-    # Comments of MATLAB are not told from its code.
+    # Comments of MATLAB cannot be distinguished from code.
     paths = machine_paths.collect(text) if kind != "matlab" else ()
     return Collected(facts, launch, commands, _suppressions(text), paths)
 
@@ -122,9 +123,10 @@ def _suppressions(text: Text) -> tuple[Suppression, ...]:
 def collect_all(
     tree: Tree, paths: Sequence[str], jobs: int, cache: FactCache, tick: Callable[[int], None]
 ) -> dict[str, Collected]:
-    """Return what every file gave, by path.
+    """Return the facts of each file, by path.
 
-    ``jobs`` is the number of processes, 0 decides by the number of files; ``tick`` hears how many files are done.
+    ``jobs`` is the number of processes, 0 chooses it by the number of files; ``tick`` is called with the number of
+    finished files.
     """
     wanted = [(path, kind) for path in paths if (kind := kind_of(path))]
     found = cache.fetch(tree, [path for path, _ in wanted], Collected)
@@ -139,7 +141,7 @@ def collect_all(
     else:
         chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
     enabled = gc.isenabled()
-    gc.disable()  # facts hold no cycles, and the collector would walk through all of them again and again
+    gc.disable()  # # facts have no cycles, and the garbage collector would traverse all of them repeatedly
     try:
         for chunk in chunks:
             fresh.update(chunk)
@@ -153,7 +155,7 @@ def collect_all(
 
 
 def _processes(jobs: int, files: int) -> int:
-    """Return how many processes read some files. However many are asked for, there is no more than one a core."""
+    """Return the number of processes for some files: at most one for each core."""
     cores = min(os.cpu_count() or 1, _MOST_PROCESSES)
     return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_A_PROCESS)
 
@@ -176,7 +178,7 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
         data = tree.read(path)
     except OSError as error:
         if kind == "program" and error.errno == errno.EFBIG:
-            return Collected()  # no script has as much: it is compiled
+            return Collected()  # # too large for a script: it is a compiled program
         return _unreadable(path, kind, error.strerror or str(error))
     if kind == "program":
         if not _OF_PYTHON.match(data):
@@ -186,7 +188,7 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
         return _unreadable(path, kind, "binary data")
     try:
         return collect(read(path, data), kind)
-    except Exception as error:  # a mistake of ours in one file must not cost the user all the others
+    except Exception as error:  # # a bug in ros-lint for one file must not cost the user the other files
         return _unreadable(path, kind, FAILED.format(f"{type(error).__name__}: {error}"))
 
 

@@ -1,8 +1,8 @@
-"""Keep the facts of files and the last reports between runs, in the user's cache folder and never in the workspace.
+"""Keep the facts of files and the last reports between runs, in the user's cache folder.
 
-The folder is the user's own, and what is read from it makes no object but facts (:mod:`ros_lint.workspace.cache_files`).
-A file counts as unchanged when its :class:`~ros_lint.base.tree.Stamp` is; facts depend on nothing but its text, and a report on
-nothing but what the tree said to everything that it was asked, the settings, the code, and the data of the released world.
+The folder belongs to the user, and reading it creates only facts (:mod:`ros_lint.workspace.cache_files`). A file
+counts as unchanged if its :class:`~ros_lint.base.tree.Stamp` is. Facts depend only on the text of the file. A
+report depends only on the answers of the tree, the settings, the code and the data about released packages.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 Facts = TypeVar("Facts")
 
 SOURCES = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-"""The folder of the package ``ros_lint``."""
+"""Folder of the Python package ``ros_lint``."""
 
 _PARTS = 16
-"""How many files keep the facts of a workspace."""
+"""Number of files that store the facts of a workspace."""
 
 
 class FactCache:
-    """Facts by path and stamp. An empty ``folder`` keeps nothing. Nothing here raises: a cache that fails is empty.
+    """Facts by path and stamp. An empty ``folder`` stores nothing; errors are treated as an empty cache.
 
-    They are kept in several files, so that a run after a small change writes little.
+    The facts are stored in several files so that a run after a small change writes little.
     """
 
     def __init__(self, folder: str, base: str) -> None:
@@ -42,19 +42,22 @@ class FactCache:
         self._stamps: dict[str, tuple[int, ...]] = {}
 
     def fetch(self, tree: Tree, paths: Sequence[str], kind: type[Facts]) -> dict[str, Facts]:
-        """Return what is kept of those files that have not changed. ``kind`` is the class of what is kept of a file."""
+        """Return the stored facts of files that have not changed.
+
+        ``kind`` is the class of the facts of a file.
+        """
         if not self._files:
             return {}
         state = state_of(_collectors())
         loaded = [kept_files.load(file, state) for file in self._files]
         self._parts = [found if _is_part(found, kind) else {} for found in loaded]
-        # Before anything is read, so that what changes meanwhile counts as changed.
+        # The stamps are taken before files are read: a file that changes meanwhile counts as changed.
         self._stamps = {path: stamp for path in paths if (stamp := _stamp(tree, path)) is not None}
         kept = {path: known for part in self._parts for path, known in part.items()}
         return {path: kept[path][1] for path, stamp in self._stamps.items() if path in kept and kept[path][0] == stamp}
 
     def store(self, tree: Tree, fresh: Mapping[str, Any]) -> None:
-        """Keep what was read now, besides what was kept of files that are still there."""
+        """Store the facts of files that were read now, and keep those of other existing files."""
         if not self._files or not fresh:
             return
         changed = set()
@@ -73,14 +76,14 @@ class FactCache:
 
 
 def folder(environment: Mapping[str, str]) -> str:
-    """Return the user's cache folder for ros-lint, or "" when the system has none (XDG base directories)."""
+    """Return the user's cache folder for ros-lint, or "" if the system has none (XDG base directories)."""
     home = environment.get("HOME") or environment.get("USERPROFILE") or ""
     above = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if home else "")
     return os.path.join(above, "ros-lint") if os.path.isabs(above) else ""
 
 
 def _is_part(loaded: Any, kind: type) -> bool:
-    """Return whether a value that was loaded maps paths to stamps and facts."""
+    """Return whether a loaded value maps paths to stamps and facts."""
     return isinstance(loaded, dict) and all(
         isinstance(path, str)
         and isinstance(entry, tuple)
@@ -92,26 +95,26 @@ def _is_part(loaded: Any, kind: type) -> bool:
 
 
 def _part(path: str) -> int:
-    """Return which part keeps the facts of a file: that of its folder."""
+    """Return the number of the part that stores the facts of a file; the files of a folder share a part."""
     return zlib.crc32(to_bytes(path.rpartition("/")[0])) % _PARTS
 
 
 def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
     try:
         return tuple(tree.stamp(path))
-    except (OSError, ValueError):  # a NUL in a path that was loaded
+    except (OSError, ValueError):  # # a NUL in a path that was loaded
         return None
 
 
 def digest(text: str) -> str:
-    """Return a short name for a text."""
+    """Return a short digest of a text."""
     import hashlib  # noqa: PLC0415
 
     return hashlib.sha256(to_bytes(text)).hexdigest()[:24]
 
 
 def state_of(files: Iterable[str]) -> str:
-    """Return what tells one interpreter and one state of some files from another."""
+    """Return a text that differs between interpreters and between versions of some files."""
     stamps = []
     for file in sorted(files):
         try:
@@ -123,14 +126,14 @@ def state_of(files: Iterable[str]) -> str:
 
 
 def _collectors() -> Iterator[str]:
-    """Yield the files that the facts of a file depend on."""
+    """Yield the files of ros-lint that determine the facts of a file."""
     for room in ("base", "facts", "collectors"):
         yield from files_below(os.path.join(SOURCES, room))
     yield from (os.path.abspath(__file__), os.path.join(SOURCES, "workspace", "collect.py"))
 
 
 def files_below(place: str) -> Iterator[str]:
-    """Yield all files below a folder, those left out that Python makes of others."""
+    """Yield all files below a folder, without ``__pycache__``."""
     for folder, folders, files in os.walk(place):
         folders[:] = [name for name in folders if name != "__pycache__"]
         yield from [os.path.join(folder, file) for file in files]

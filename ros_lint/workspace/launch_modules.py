@@ -1,7 +1,7 @@
-"""Python launch files that read more than themselves: helper modules and files of the workspace.
+"""Interpret Python launch files again with the modules and files that they read.
 
-Each launch file is followed by itself first, and notes what it wants. Where that leaves something open and the workspace
-has what is wanted, it is followed again with this at hand.
+Each launch file is first interpreted alone and lists its missing inputs. If something stays unresolved and the
+workspace has these inputs, the file is interpreted again with them.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ _MOST_BYTES = 1 << 18
 
 
 class LaunchPackage(NamedTuple):
-    """A package with what its launch files may read."""
+    """A package with the inputs that its launch files may read."""
 
     name: str
     path: str
     files: Collection[str]
-    """Relative to the package."""
+    """Paths relative to the package."""
     script: BuildScript | None
     launch: tuple[LaunchFile, ...]
 
 
 def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage], distro: str) -> list[tuple[LaunchFile, ...]]:
-    """Return the launch files of each package, those followed again that want something which is there and may help.
+    """Return the launch files of each package, interpreted again if the workspace has helpful inputs.
 
-    They refer to what they do in a distribution, if it is maintained.
+    If ``distro`` is a maintained distribution, references that it does not reach are removed.
     """
     if not any(_is_open(file) for package in packages for file in package.launch):
         return [tuple([_under(distro, file) for file in package.launch]) for package in packages]
@@ -63,7 +63,7 @@ class _Places:
         self._provides: dict[str, dict[str, str]] = {}
         self._trees: dict[str, Module | None] = {}
         self._on_path: set[str] = set()
-        """Modules that were found where Python was told to look: what lies beside them is found as well."""
+        """Modules found in folders that a file adds to ``sys.path``: their neighbours can be imported, too."""
         for package in packages:
             self._by_name.setdefault(package.name, []).append(package)
             script = package.script
@@ -71,7 +71,7 @@ class _Places:
                 self._modules.setdefault(top, []).append(package)
 
     def completed(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
-        """Return a launch file followed with what it wants, as it is where nothing of that is there."""
+        """Return a launch file interpreted with its missing inputs, or unchanged if none is available."""
         text = self._text(file.path) if _is_open(file) else None
         if text is None or not any(self._module(want, text) or self._file(want, file, package) for want in file.missing_inputs):
             return file
@@ -89,7 +89,7 @@ class _Places:
         again = launch_py.collect(text, modules, files)
         if len(again.opaque) > len(file.opaque):
             return file
-        # What the module of another package starts is the need of that package.
+        # Actions in a module of another package are dependencies of that package.
         own = [one for one in again.references if self._package_of(one.package_span.path) is package]
         return again._replace(references=tuple(own))
 
@@ -101,7 +101,7 @@ class _Places:
         return read(path, data) if len(data) <= _MOST_BYTES else None
 
     def _parsed(self, path: str) -> Module | None:
-        """Return a module, None for what is no Python. Many launch files import the same ones."""
+        """Return a module, None if it is not Python. Cached because many launch files import the same module."""
         if path not in self._trees:
             text = self._text(path)
             self._trees[path] = _module_of(text) if text else None
@@ -110,7 +110,7 @@ class _Places:
     # --- modules --------------------------------------------------------------------------------------------------
 
     def _module(self, name: str, importer: Text) -> str:
-        """Return the path of a module, as another one imports it, "" if it is not clear which file that is."""
+        """Return the path of a module that ``importer`` imports, "" if the file is ambiguous or missing."""
         package = self._package_of(importer.path)
         if package is None:
             return ""
@@ -134,7 +134,7 @@ class _Places:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
     def _elsewhere(self, module: str, importer: Text) -> str:
-        """Return the path of a module in the folder of another package that is named: where Python was told to look, too."""
+        """Return the path of a module in another package that ``importer`` names: sys.path may contain it."""
         named = [one for one in self._by_path.values() if _is_quoted(one.name, importer.text)]
         found = [path for one in named if (path := _shortest(one, module))]
         return found[0] if len(found) == 1 else ""
@@ -153,7 +153,7 @@ class _Places:
     # --- files ----------------------------------------------------------------------------------------------------
 
     def _file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the source of an installed file, "" if it is not clear which one that is."""
+        """Return the source of an installed file, "" if it is ambiguous or missing."""
         if path.startswith(f"{OWN_FOLDER}/"):
             return self._beside(path[len(OWN_FOLDER) + 1 :], file, package)
         place = installed_place(path)
@@ -163,7 +163,7 @@ class _Places:
         return self._provided(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
     def _beside(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the source of a file that is named from the folder of a launch file, where that is installed."""
+        """Return the source of a file that is named relative to the installed folder of a launch file."""
         provided = self._provided(package)
         own = next((place for place, source in provided.items() if source == file.path), "")
         if own:
@@ -172,7 +172,7 @@ class _Places:
         return source if strip_folder(package.path, source) in package.files else ""
 
     def _provided(self, package: LaunchPackage) -> dict[str, str]:
-        """Return the sources of what a package installs, by install path."""
+        """Return the sources of the installed files of a package, by install path."""
         found = self._provides.get(package.path)
         if found is None:
             provides = package.script.installs if package.script else ()
@@ -182,7 +182,7 @@ class _Places:
 
 
 def _is_open(file: LaunchFile) -> bool:
-    """Return whether there is something in a launch file that what it wants can make clear."""
+    """Return whether the missing inputs of a launch file can resolve something in it."""
     if not file.missing_inputs or file.helper:
         return False
     if file.opaque or not HELPERS.keys().isdisjoint(file.missing_inputs):
@@ -191,7 +191,7 @@ def _is_open(file: LaunchFile) -> bool:
 
 
 def _named_by(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield what an action names: a package, what is started, files of parameters."""
+    """Yield the values that name packages, executables and parameter files."""
     yield from (value for value in (action.package, action.target) if value is not None)
     yield from (value for name, value in action.parameters if not name)
 
@@ -217,7 +217,7 @@ def _is_quoted(name: str, text: str) -> bool:
 
 
 def _shortest(package: LaunchPackage, module: str) -> str:
-    """Return the source of a module in a package: the one that lies least deep."""
+    """Return the source of a module in a package: the least nested file of that name."""
     for name in _sources(module):
         found = [file for file in package.files if file == name or file.endswith(f"/{name}")]
         if found:

@@ -1,7 +1,7 @@
-"""From files to the model: discover, collect every file once, evaluate the build scripts, join.
+"""From files to the model: discover, collect each file once, evaluate the build scripts, join.
 
-The only module that knows the whole way. A loader remembers the facts of files, so that a workspace with a few files
-changed (a fix on trial) is joined again without reading the rest.
+Only this module knows all steps. A loader keeps the facts of files, so that a workspace with a few changed files
+(the trial of a fix) is joined again without reading the others.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from ros_lint.workspace.usage import unqualified_types as type_names
 from ros_lint.workspace.usage.package_files import Source, opaque_of
 
 Progress = Callable[[str, int, int], None]
-"""Hears what is being done, how much of it is done, and how much there is."""
+"""Called with the current step, the number of finished items and the number of all items."""
 
 _NO_ROLE = Role(0)
 
@@ -76,7 +76,7 @@ class Loader:
     ) -> None:
         self.tree = tree
         self.held: dict[str, bytes] = {}
-        """What files have had since :meth:`hold` was called for them."""
+        """Contents of files as read by :meth:`hold`."""
         self._unheld = tree
         self.target = target
         self._context = target.context
@@ -90,10 +90,10 @@ class Loader:
         self._collected: dict[str, Collected] = {}
 
     def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
-        """Return the workspace, with the content of some files replaced.
+        """Return the workspace, with the contents of some files replaced.
 
-        Without ``sources`` only manifests are read, which is enough for questions about the graph: scripts, launch files
-        and uses are then missing, and no rule must run.
+        Without ``sources`` only manifests are read, which suffices for questions about the graph. Scripts, launch
+        files and uses are then missing, so rules must not run.
         """
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
@@ -118,9 +118,9 @@ class Loader:
         return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
 
     def hold(self, paths: Iterable[str]) -> None:
-        """Read some files once more and hold what they have: whatever becomes of them, each further load sees just that.
+        """Read some files again and fix their contents for all further loads, even if they change on disk.
 
-        A file that cannot be read is not held.
+        A file that cannot be read is left out.
         """
         for path in paths:
             with suppress(OSError):
@@ -133,7 +133,7 @@ class Loader:
         return text_of(self.tree, path)
 
     def suppressions(self, changed: Mapping[str, bytes] | None = None) -> Iterator[Suppression]:
-        """Yield every comment that suppresses something, in any file of the packages loaded."""
+        """Yield the suppressions in all files of the loaded packages."""
         collected = self._changed(changed or {})
         for path in sorted(collected):
             yield from collected[path].suppressions
@@ -256,7 +256,10 @@ class Loader:
             yield package
 
     def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
-        """Return every dependency element whose condition is not false, groups, conflicts and replaces included."""
+        """Return each dependency element whose condition is not false.
+
+        Groups, conflicts and replaces are included.
+        """
         found = []
         for depend in manifest.depends if manifest else ():
             truth = conditions.truth(depend.condition, self._context) if depend.condition else True
@@ -287,7 +290,7 @@ class Loader:
 
 
 def _without_submodules(founds: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
-    """Return the packages with submodules that are not cloned among what was not looked into."""
+    """Return the packages, with submodules that are not cloned added to the unvisited folders."""
     result = []
     for found in founds:
         inside = [folder for folder in folders if folder.startswith(f"{found.path}/" if found.path else "")]
@@ -326,5 +329,5 @@ def _failed(reads: Sequence[_Read]) -> Iterator[UnreadFile]:
 
 
 def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
-    """Yield the places that exceed a bound."""
+    """Yield the places that exceed a limit of ros-lint."""
     yield from (UnreadFile(one.span.path, one.reason, one.span) for one in opaque if one.unchecked)

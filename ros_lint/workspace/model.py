@@ -1,4 +1,4 @@
-"""The model that rules look at: facts, joined. It answers questions, and reads nothing."""
+"""The model that rules read: the joined facts of packages. It reads no file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Declared(NamedTuple):
     depend: Depend
     role: Role
     certain: bool
-    """False when the condition has a variable that nobody knows here."""
+    """False if the condition reads a variable whose value is unknown."""
 
     @property
     def name(self) -> str:
@@ -39,75 +39,85 @@ class Declared(NamedTuple):
 
     @property
     def always(self) -> bool:
-        """Whether it counts whatever the distribution: without a condition, or with one that any environment of ROS 2 meets."""
+        """True if the tag applies in every distribution.
+
+        The tag has no condition, or one that is true in every environment of ROS 2.
+        """
         return conditions.always(self.depend.condition)
 
 
 class Package(NamedTuple):
-    """A package of the workspace, as colcon sees it."""
+    """A package of the workspace as colcon identifies it."""
 
     name: str
-    """The name in ``package.xml``, by which other manifests, rosdep and the ament index know the package. Where no manifest
-    gives one it is the name that colcon uses."""
+    """Name in ``package.xml``, by which other manifests, rosdep and the ament index refer to the package.
+
+    Without a name in a manifest it is the name that colcon uses.
+    """
     path: str
-    """Its folder, relative to the base; "" is the base."""
+    """Folder of the package, relative to the base; "" is the base."""
     type: str
-    """As ``colcon list`` prints it: ros.ament_cmake, ros.ament_python, cmake, python ..."""
+    """Type as printed by ``colcon list``: ros.ament_cmake, ros.ament_python, cmake, python ..."""
     manifest: Manifest | None
-    """Also there, with its problems, when colcon cannot use it."""
+    """The package.xml, with its problems, even if colcon cannot use it."""
     declared: tuple[Declared, ...]
     groups: tuple[str, ...]
-    """That it is a member of."""
+    """Dependency groups that the package is a member of."""
     group_depends: tuple[Declared, ...]
     colcon_depends: tuple[ColconDepend, ...]
     files: tuple[str, ...]
-    """Every file below the folder, relative to it and sorted; nested packages and skipped folders left out."""
+    """Files below the folder, sorted and relative to it, without nested packages and skipped folders."""
     unvisited_folders: tuple[str, ...]
-    """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
+    """Folders, relative to the package, that were not visited: their files are unknown."""
     nested: tuple[Manifest, ...]
-    """Manifests further down, which colcon does not see."""
+    """Manifests in subfolders, which colcon does not find."""
     script: BuildScript | None
     launch: tuple[LaunchFile, ...]
     uses: tuple[Use, ...]
     textual_mentions: Mapping[str, Span]
-    """For declared names that nothing uses: a place where the name stands in some text all the same."""
+    """For declared names without a use: a place where a text of the package contains the name."""
     opaque: tuple[Opaque, ...]
     possibly_used: frozenset[str] = frozenset()
-    """Names that CMake finds and no code is seen to use, while something else says that they are used."""
+    """Names that CMake finds and no code certainly uses, although other evidence suggests a use."""
     registrations: tuple[Registration, ...] = ()
-    """Classes that its C++ sources make loadable."""
+    """Classes that the C++ sources make loadable."""
     unwritten_classes: frozenset[str] = frozenset()
-    """Classes that its plugin descriptions name and none of its sources does."""
+    """Classes that plugin descriptions name and no source does."""
     lookups: tuple[LookUp, ...] = ()
-    """Files that its models, displays and parameters look up in packages."""
+    """Files that models, RViz configurations and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()
-    """Its YAML files."""
+    """YAML files of the package."""
     machine_paths: tuple[MachinePath, ...] = ()
-    """Paths below somebody's home directory that its files have."""
+    """Paths in files of the package that exist on one machine only."""
     unusable_headers: tuple[str, ...] = ()
-    """Those installed headers, relative to it, that do not compile anywhere else: what they include is not installed."""
+    """Installed headers that dependents cannot compile: they include files that are not installed."""
     compiled_headers: Mapping[str, frozenset[str]] = MappingProxyType({})
-    """For each source that every build compiles, tests left out: the headers of the package that it certainly includes."""
+    """For each source compiled in every build: the headers of the package that it certainly includes.
+
+    Sources of tests are left out.
+    """
     loaders: tuple[PluginLoader, ...] = ()
-    """What its C++ sources load plugins by."""
+    """Plugin loaders in the C++ sources."""
     uninstalled_imports: tuple[UninstalledImport, ...] = ()
-    """What its programs in Python import and that is not installed beside them."""
+    """Imports, in Python programs, of modules that are not installed next to the program."""
     imported_types: tuple[ImportedType, ...] = ()
-    """Messages, services and actions that its Python files import by name."""
+    """Messages, services and actions that Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()
-    """Its definitions of interfaces, but for those in IDL."""
+    """Interface definitions, except for IDL files."""
     renamed: str = ""
-    """The name that colcon uses instead, from ``colcon.pkg``, ``colcon.meta`` or the script of a plain package; "" where both
-    names are the same."""
+    """Name that colcon uses instead of ``name``, "" if both are equal.
+
+    It comes from ``colcon.pkg``, ``colcon.meta`` or the build script of a plain package.
+    """
 
     @property
     def colcon_name(self) -> str:
-        """Return the name by which colcon orders and selects the package, and refuses a second one."""
+        """The name by which colcon orders and selects the package; colcon rejects duplicates of it."""
         return self.renamed or self.name
 
     @property
     def span(self) -> Span:
-        """Where to point when the whole package is meant: always into a file."""
+        """Span for findings about the whole package, always in an existing file."""
         if self.manifest is not None:
             return self.manifest.name_span
         if self.script is not None:
@@ -117,36 +127,39 @@ class Package(NamedTuple):
 
     @property
     def built(self) -> BuildScript:
-        """Return the build script, one that builds and installs nothing where there is none."""
+        """The build script, or one that builds and installs nothing if there is none."""
         return self.script or NOTHING_BUILT
 
     @property
     def builds_with(self) -> str:
-        """Return the build type: ament_cmake, ament_python, cmake ..."""
+        """Build type: ament_cmake, ament_python, cmake ..."""
         return self.type.removeprefix("ros.")
 
     def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:
-        """Return what hides a facet of the package, or of it what may be at a ``place`` in the prefix. Empty: all can be seen."""
+        """Return the places that hide ``facet`` of the package; empty if everything is visible.
+
+        ``place``, a path in the install prefix, limits the answer to what may hide that path.
+        """
         return tuple(opaque for opaque in self.opaque if opaque.hides & facet and (not place or opaque.reaches(place)))
 
     def declares(self, name: str) -> Role:
-        """Return everything that the package declares a name for, conditions that may be false included."""
+        """Return all roles that the package declares for a name, including tags with an uncertain condition."""
         role = Role(0)
         for declared in self.tags(name):
             role |= declared.role
         return role
 
     def tags(self, name: str) -> list[Declared]:
-        """Return the tags that declare a name, conditions that may be false included."""
+        """Return the tags that declare a name, including tags with an uncertain condition."""
         return [declared for declared in self.declared if declared.depend.name == name]
 
     @property
     def cmake_lists(self) -> str:
-        """The path of the package's own CMakeLists.txt, relative to the base."""
+        """Path of the CMakeLists.txt in the package folder, relative to the base."""
         return join(self.path, "CMakeLists.txt")
 
     def calls(self, *names: str, anywhere: bool = False) -> Iterator[Call]:
-        """Yield the calls of CMake commands in the package's own CMakeLists.txt, or ``anywhere`` in its CMake files."""
+        """Yield calls of CMake commands in the package's CMakeLists.txt, or ``anywhere`` in its CMake files."""
         if self.script is None:
             return
         calls = [call for call in self.script.calls if call.name in names]
@@ -157,21 +170,21 @@ class Package(NamedTuple):
         return strip_folder(self.path, path)
 
     def base_path(self, path: str) -> str:
-        """Return a path of the package relative to the base, as spans have it: the reverse of :meth:`relative`."""
+        """Return a path of the package relative to the base, as in spans: the inverse of :meth:`relative`."""
         return join(self.path, path)
 
     def start_of(self, path: str) -> Span:
-        """Return the empty span at the start of a file of the package: for findings about the file as a whole."""
+        """Return the empty span at the start of a file of the package, for findings about the whole file."""
         return file_start(join(self.path, path))
 
 
 class Workspace:
-    """All packages, and the world they live in.
+    """All packages of a run, with the knowledge and the target distribution.
 
-    ``packages`` are those that colcon sees, sorted by path; a name may be there twice. ``unusable`` are folders with a
-    ``package.xml`` for which colcon sees no package at all, under the name that the manifest gives, if any.
-    ``source_lists`` are files that name repositories which belong to the workspace and need not be there: ``*.repos``,
-    ``*.rosinstall``, ``.gitmodules``. ``ignores`` says what git leaves out.
+    ``packages`` are the packages that colcon finds, sorted by path; two may have the same name. ``unusable`` are
+    folders with a ``package.xml`` in which colcon finds no package, named as in the manifest. ``source_lists`` are
+    files that list repositories of the workspace, which need not be cloned: ``*.repos``, ``*.rosinstall``,
+    ``.gitmodules``. ``ignores`` are the patterns of ``.gitignore`` files.
     """
 
     def __init__(
@@ -192,7 +205,7 @@ class Workspace:
         self.source_lists = source_lists
         self._ignores = ignores
         self.memo: dict[object, Any] = {}
-        """What functions that remember have said: :func:`per_workspace`, :func:`per_package`."""
+        """Results of functions with a cache: :func:`per_workspace`, :func:`per_package`."""
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
@@ -202,30 +215,33 @@ class Workspace:
         return found
 
     def called(self, name: str) -> tuple[Package, ...]:
-        """Return the packages that a user means by a name: by that of ``package.xml``, else by the one that colcon uses."""
+        """Return the packages with a name: the name in ``package.xml``, else the name that colcon uses."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
     def surely_lacks(self, owner: str, offer: Offer, wanted: str) -> bool:
-        """Whether it is beyond doubt that a package does not offer what was not found in it.
+        """Return whether a package certainly does not provide what was not found in it.
 
-        Packages of the workspace were looked through. A released one must be known to lack it: in every distribution, where
-        nobody said which one is meant.
+        Packages of the workspace have been searched. A released package must be known to lack it: in every
+        distribution, unless the user chose one.
         """
         return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
-        """Whether a file of a package, or any at all, could not be read: what nobody says in sight may stand there."""
+        """Return whether a file of the package, or of the workspace if None, could not be read.
+
+        Such a file may contain uses and declarations that are not known.
+        """
         folder = f"{package.path}/" if package is not None and package.path else ""
         return any(entry.span is not None and entry.span.path.startswith(folder) for entry in self.not_checked)
 
     def is_made(self, package: Package, path: str) -> bool:
-        """Whether a path in a package, which need not exist, is one that git ignores: then it is made or fetched."""
+        """Return whether git ignores a path in a package: such a path is generated or downloaded."""
         return bool(self._ignores) and ignored.is_ignored(self._ignores, join(package.path, path))
 
     @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:
-        """The component classes that launch files load, by package."""
+        """Component classes that launch files load, by package."""
         found: dict[str, frozenset[str]] = {}
         for package in self.packages:
             for launch in package.launch:

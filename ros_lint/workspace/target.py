@@ -18,9 +18,9 @@ class TargetDistro(NamedTuple):
 
     distro: str
     source: str
-    """Where the choice comes from, such as "--distro" or "newest long-term release known"."""
+    """Origin of the choice, such as "--distro" or "newest long-term release known"."""
     explicit: bool = True
-    """False when nobody chose it: then what only another distribution has is no mistake."""
+    """False if the distribution is assumed: then names of other active distributions count as existing."""
 
     @property
     def chosen(self) -> str:
@@ -29,12 +29,12 @@ class TargetDistro(NamedTuple):
 
     @property
     def context(self) -> Mapping[str, str]:
-        """Return the variables of package.xml conditions that are known (REP 149; reference, section A3)."""
+        """Known variables of conditions in package.xml (REP 149)."""
         return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
 class UnreadFile(NamedTuple):
-    """Something that the run could not look at: a file, or a whole class of questions."""
+    """An input that the run could not check: a file, or a whole class of questions."""
 
     what: str
     reason: str

@@ -1,4 +1,4 @@
-"""Which files of a workspace fixes may write."""
+"""The files of a workspace that fixes may write."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from ros_lint.base.tree import Entry, Tree
 
 
 class Writable:
-    """The files that really lie below the folders that were asked for, and have no second name among the files of packages.
+    """Files that are really below the requested folders and have only one path in the packages.
 
-    ``roots`` and ``paths``, the files of all packages, are relative to the base of the tree.
+    ``roots`` and ``paths`` (the files of all packages) are relative to the base of the tree.
     """
 
     def __init__(self, tree: Tree, roots: Iterable[str], paths: Iterable[str]) -> None:
@@ -20,7 +20,7 @@ class Writable:
         self._names = names_of_files(tree, dict.fromkeys(paths))
 
     def refusal(self, path: str) -> str:
-        """Return why a file must not be written, or "" if it may be."""
+        """Return why a file must not be written, "" if it may be written."""
         identity = self._tree.identity(path)
         if not any(is_below(identity, root) for root in self._roots):
             return f"{path} is outside of the given folders"
@@ -29,7 +29,7 @@ class Writable:
 
 
 def names_of_files(tree: Tree, paths: Iterable[str]) -> dict[str, list[str]]:
-    """Return files by the identity of each, with several paths for a file that links give several names."""
+    """Return paths by the identity of the file; a file has several paths if links lead to it."""
     found: dict[str, list[str]] = {}
     folders: dict[str, tuple[str, frozenset[str]]] = {}
     for path in paths:

@@ -1,4 +1,4 @@
-"""Evaluate the build scripts of all packages, those first whose CMake code runs in others."""
+"""Evaluate the build scripts of all packages: packages whose CMake code runs in others come first."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
 def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildScript | None]:
-    """Return the evaluated script of each package, in the order given, None where there is none to evaluate."""
+    """Return the evaluated script of each package in the given order, None if it has no script."""
     result: list[BuildScript | None] = [None] * len(packages)
     helpers: dict[str, Helper] = {}
     around = Surroundings(tree)
@@ -40,7 +40,7 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
                 result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, around))
             elif script := _python(tree, parts.found):
                 result[number] = with_files(tree, parts.found, parts.commands, script)
-        except Exception as error:  # a mistake of ours in one script must not cost the user all the others
+        except Exception as error:  # # a bug in ros-lint for one script must not cost the user the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
 
@@ -97,7 +97,7 @@ def _modules(tree: Tree, found: DiscoveredPackage, script: BuildScript) -> Itera
 
 
 def _helps(parts: Parts) -> bool:
-    """Whether a package gives CMake code to those that find it (ament_package(CONFIG_EXTRAS ...))."""
+    """Return whether CMake code of a package runs in its dependents (ament_package(CONFIG_EXTRAS ...))."""
     return any(
         argument[0].startswith("CONFIG_EXTRAS")
         for parsed in parts.commands.values()
@@ -108,11 +108,11 @@ def _helps(parts: Parts) -> bool:
 
 
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
-    """Yield the numbers of the packages that help others, each after those that it depends on itself."""
+    """Yield the indices of packages whose code runs in others, each after its own dependencies."""
     left = {parts.found.name: number for number, parts in enumerate(packages) if _helps(parts)}
     while left:
         ready = [name for name, number in left.items() if not _needed(packages[number]) & (left.keys() - {name})]
-        for name in ready or list(left):  # in a cycle any order is as good
+        for name in ready or list(left):  # # a cycle has no correct order
             yield left.pop(name)
 
 

@@ -1,4 +1,4 @@
-"""What is known of files beside a build script: plugin descriptions, programs and how they are started, resources."""
+"""Collect files related to a build script: plugin descriptions, programs, resources."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from ros_lint.workspace.discovery.discover import DiscoveredPackage
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _MOST_RESOURCES = 40
-"""Of a folder: a tree of models has thousands of files, and one that is named is enough."""
+"""Maximum number of resources of a folder: a tree of models has thousands, and one reference suffices."""
 _PAGES = (".md", ".rst", ".txt", ".sh", ".bash")
 _TELLS = (*_PAGES, ".py", ".yaml", ".yml")
-"""Texts that may say how a program is started."""
+"""Suffixes of texts that may contain ``ros2 run`` commands."""
 
 _Texts = Sequence[tuple[str, bytes]]
-"""Files of a package that can name resources, by their path in the tree, with what they hold."""
+"""Files of a package that can refer to resources: paths in the tree and contents."""
 
 
 def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
-    """Return a script with what is known of other files of its package: plugin descriptions, scripts, resources.
+    """Return a script with facts of related files: plugin descriptions, scripts, resources.
 
     ``commands`` are its CMake files, by path relative to the package.
     """
@@ -43,7 +43,7 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
     sources = dict.fromkeys([p.source for p in script.installs if p.source and p.path.startswith(started)])
     folders = {file.rpartition("/")[0] for file in sources}
     if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.installs):
-        folders.add(found.name)  # a Python package that CMake does not install
+        folders.add(found.name)  # # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = Executables(tree, found)
     texts = {file: text for file in sources if (text := text_in(tree, found, file))}
@@ -72,7 +72,7 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
 
 
 def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]], programs: Sequence[str]) -> Iterator[str]:
-    """Yield what a command of a CMake file has among its arguments, install() left out: resources, their folders, programs."""
+    """Yield resources, their folders and programs that are arguments of CMake commands except install()."""
     if not missing and not programs:
         return
     subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
@@ -88,7 +88,7 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]],
 
 
 def _source_folders(scripts: Mapping[str, Parsed]) -> re.Pattern[bytes] | None:
-    """Return what finds the macros in code that hold the folder of the sources, None if CMake defines none."""
+    """Return a pattern for macros in code whose value is the source folder, None if CMake defines none."""
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name in _DEFINE)
     found = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}
     return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(to_bytes, found)))) if found else None
@@ -99,9 +99,9 @@ _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
 def _read_in_sources(found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
-    """Yield the folders of resources that a text names where they lie in sources, as ``/home/me/src/robot/maps/hall``.
+    """Yield resource folders that a text names in the sources, as in ``/home/me/src/robot/maps/hall``.
 
-    Not what is in such a folder itself: xacro writes into a model from what file it has made it.
+    Texts in the folder itself do not count: xacro writes the path of its input into the generated model.
     """
     if not missing:
         return
@@ -111,7 +111,7 @@ def _read_in_sources(found: DiscoveredPackage, missing: Mapping[str, Sequence[st
     part = re.compile(rb"(?<=[\"'])(%s)(?=[\"'])" % folders)
     below = b"/%s/" % to_bytes(top)
     for path, data in naming:
-        if below in data:  # the pattern takes a hundred times as long
+        if below in data:  # # the pattern takes a hundred times as long
             named = {from_bytes(hit[1]) for hit in place.finditer(data)}
             yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(found.path, folder)}/"))
         if _OF_SOURCES.search(data) and not path.endswith(".md"):
@@ -123,12 +123,15 @@ _BELOW_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"'](?:[\w.-]+[\"']\s*,\s*[\
 
 
 def _is_below_sources(data: bytes, start: int) -> bool:
-    """Whether the parts of a path that stand before one of them, each in quotes, have the ``src`` of a workspace among them."""
+    """Return whether a quoted path component follows other components with the ``src`` of a workspace."""
     return _BELOW_SOURCES.search(data, max(start - 200, 0), start) is not None
 
 
 def _may_be_read(path: str, entered: Sequence[str]) -> bool:
-    """Whether a CMake file can be part of the build: not if it is the CMakeLists.txt of a folder that nobody enters."""
+    """Return whether a CMake file can be part of the build.
+
+    A CMakeLists.txt in a folder without add_subdirectory() cannot.
+    """
     folder, _, name = path.rpartition("/")
     inner = folder.rpartition("/")[2]
     return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(inner) for text in entered)
@@ -137,12 +140,12 @@ def _may_be_read(path: str, entered: Sequence[str]) -> bool:
 def _named(
     tree: Tree, found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts
 ) -> Iterator[tuple[str, Span]]:
-    """Yield the resources that are not installed and that a text of the package names, with the first place."""
+    """Yield the resources that are not installed and that a text refers to, with the first place."""
     left: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = to_bytes(file).rpartition(b"/")
         left[file] = folder.rpartition(b"/")[2], name
-    if any(map(_is_picture, left)):  # most pictures are there for the documentation
+    if any(map(_is_picture, left)):  # # most images are there for the documentation
         for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
             left = {file: inner for file, inner in left.items() if not (_is_picture(file) and inner[1] in page)}
     for path, data in naming if left else ():
@@ -161,15 +164,15 @@ def _named(
 
 _WORKING_FOLDER = re.compile(rb"\b(?:current_path|getcwd|cwd)\s*\(")
 _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
-"""The part of a path that stands before another one, each in quotes."""
+"""The quoted path component before another one."""
 
 
 def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bool:
-    """Whether a text that names a resource may look it up where it would be installed."""
+    """Return whether a text that names a resource may look it up where it would be installed."""
     if _is_remark(path, data, hit.start(1)):
         return False
     if b"share" not in data and _WORKING_FOLDER.search(data):
-        return False  # it is sought where the program is started
+        return False  # # it is looked up in the working directory
     if _is_below_sources(data, hit.start()):
         return False
     above = to_bytes(parent(parent(resource)).rpartition("/")[2])
@@ -178,9 +181,10 @@ def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bo
 
 
 def _with_runs(tree: Tree, found: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
-    """Return the scripts of a package with where they are started, and with modules that are, if they are not installed.
+    """Return the scripts with the places that start them, and with started modules that are not installed.
 
-    CMake installs what lies among scripts; setup.py also makes programs of the modules that its entry points name.
+    In a CMake package, only the files among the scripts are candidates. In a Python package, modules are
+    candidates, too, because entry points make programs of them.
     """
     if script.of_cmake:
         kept = script.installed
@@ -205,15 +209,16 @@ def _with_runs(tree: Tree, found: DiscoveredPackage, script: BuildScript, files:
 
 
 def _called(program: str) -> tuple[str, str]:
-    """Return how a program may be called: with its ending and without."""
+    """Return the names by which a program may be started: with and without suffix."""
     name = program.rpartition("/")[2]
     return name, name.removesuffix(".py")
 
 
 def _run(tree: Tree, found: DiscoveredPackage, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
-    """Return where a text of the package starts programs with ``ros2 run``, by their paths: a script, or a page that tells how.
+    """Return the places with ``ros2 run`` for programs, by path: in scripts and documentation pages.
 
-    With or without their ending, for who installs a program may rename it. The pages of the folders above count, too.
+    The suffix is optional because install() can rename a program. The README files of the folders above are
+    searched, too.
     """
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
@@ -229,7 +234,7 @@ def _run(tree: Tree, found: DiscoveredPackage, programs: Sequence[str], endings:
 
 
 def _is_remark(file: str, data: bytes, start: int) -> bool:
-    """Whether a place in a text lies in a line that is a comment as a whole."""
+    """Return whether a place is in a line that is a comment as a whole."""
     mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
     return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
 
@@ -239,7 +244,10 @@ def _is_picture(file: str) -> bool:
 
 
 def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
-    """Yield the files that may be programs: by their place, beside others or in a folder for them, and by their name."""
+    """Yield files that may be programs, by folder and name.
+
+    The folder has other programs or is usual for scripts.
+    """
     for file in files:
         if file.endswith((".py", ".sh")) or file.rfind(".") < file.rfind("/"):
             folder = file.rpartition("/")[0]
@@ -248,7 +256,7 @@ def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
 
 
 def _is_helper(file: ScriptFile, texts: Mapping[str, Text]) -> bool:
-    """Whether a script that has no interpreter line is imported by one beside it."""
+    """Return whether a neighbour imports a script that has no interpreter line."""
     if file.shebang or not (file.main and file.path.endswith(".py")):
         return False
     folder, _, name = file.path.removesuffix(".py").rpartition("/")
@@ -265,12 +273,12 @@ def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
 
 
 def text_in(tree: Tree, found: DiscoveredPackage, file: str) -> Text | None:
-    """Return the text of a file of a package, None if it has none, or it cannot be read."""
+    """Return the text of a file of a package, None if it is missing or unreadable."""
     return text_of(tree, join(found.path, file)) if file in found.files else None
 
 
 class Executables(Set[str]):
-    """The files of a package, and those around it, that have the executable bit. The system is asked when a script is."""
+    """Files of a package, and around it, with the executable bit. Each look-up asks the file system."""
 
     def __init__(self, tree: Tree, found: DiscoveredPackage) -> None:
         self._tree = tree

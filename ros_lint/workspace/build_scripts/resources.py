@@ -1,4 +1,4 @@
-"""Files that are looked up at run time, by the folders in which they are kept: parameters, models, maps, displays."""
+"""Resources of a package: files looked up at run time, such as parameters, models and maps."""
 
 from __future__ import annotations
 
@@ -23,15 +23,18 @@ _FILES = re.compile(
 
 
 _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
-"""What the exporter of SolidWorks writes beside a URDF, for controllers of ROS 1: nothing of ROS 2 reads it."""
+"""Files for ROS 1 controllers that the SolidWorks exporter writes next to a URDF:
+
+ROS 2 never reads them.
+"""
 
 
 def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
     """Return the topmost folders of a package of which nothing is installed, with their resources.
 
-    ``files`` are those of the package, ``sources`` those that it installs; both relative to it.
+    ``files`` are the files of the package, ``sources`` the installed ones; both are relative to it.
     """
-    # Few folders have many files: each is looked at once.
+    # Few folders have many files, so each folder is examined once.
     used = {parent(source) for source in sources}
     occupied = used.union(*[folders_of(folder) for folder in used])
     found: dict[str, list[str]] = {}
@@ -42,7 +45,7 @@ def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_auxiliary(file):
             continue
-        if "/." in file or _OF_EXPORTER.search(file):  # hidden: kept by an editor or a tool for itself
+        if "/." in file or _OF_EXPORTER.search(file):  # # hidden: private files of an editor or a tool
             continue
         free = [folder for folder in folders_of(file) if folder not in occupied]
         if free:
@@ -57,15 +60,16 @@ _MAY_NAME = (
 
 
 def may_name(file: str) -> bool:
-    """Return whether a text can be one that looks up files: a program, a launch file, a model, parameters."""
+    """Return whether a text may look up files: a program, a launch file, a model, parameters."""
     name = file.rpartition("/")[2]
     return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_auxiliary(file)
 
 
 def pattern_of(file: str) -> re.Pattern[bytes]:
-    """Return what finds a file where it is looked up: its name after that of its folder, as ``config/a`` or ``"config", "a"``.
+    """Return a pattern that finds a look-up of a file: ``config/a`` or ``"config", "a"``.
 
-    Not where further folders stand before: a path such as ``/home/me/config/a`` needs no installation.
+    A path with further folders before, such as ``/home/me/config/a``, does not match because it needs no
+    installation.
     """
     folder, _, name = file.rpartition("/")
     inner = folder.rpartition("/")[2]

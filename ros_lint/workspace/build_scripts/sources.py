@@ -1,4 +1,7 @@
-"""What the evaluation of CMake scripts is given of a tree: the files of a package, and those around it that a script names."""
+"""The view of the tree for the evaluation of CMake scripts.
+
+It contains the files of a package, and the files around it that a script names.
+"""
 
 from __future__ import annotations
 
@@ -15,24 +18,27 @@ from ros_lint.workspace.build_scripts.files import Executables, text_in
 from ros_lint.workspace.discovery.discover import NEVER, DiscoveredPackage
 
 _MOST_ENTRIES: Final = 10_000
-"""Below a folder outside of the files of a package. Nobody installs more, but he may install all that is there."""
+"""Maximum number of entries below a folder outside the package.
+
+Scripts rarely install more, but such a folder may be anything.
+"""
 
 
 class Parts(NamedTuple):
-    """What the scripts of a package can see of it."""
+    """A package with the inputs of the evaluation of its scripts."""
 
     found: DiscoveredPackage
     commands: Mapping[str, Parsed]
-    """Its CMake files, by path relative to the package."""
+    """CMake files by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
-    """What it declares, by kind letters as in the index."""
+    """Declared names by kind letter, as in the index."""
 
 
 class Surroundings:
-    """A tree as the scripts of its packages see it; the methods are described where :class:`Around` is.
+    """A tree as the scripts of its packages see it; :class:`Around` documents the methods.
 
-    What lies behind a link that leads out of the tree is not in sight, nor what lies around a package that is reached by a
-    link: what ``..`` means there depends on who asks.
+    Targets of links that lead out of the tree are not visible. For a package that is reached by a link nothing
+    around it is visible, because ``..`` then depends on the path.
     """
 
     def __init__(self, tree: Tree) -> None:
@@ -43,7 +49,7 @@ class Surroundings:
         self._scripts: dict[str, Parsed | None] = {}
 
     def of(self, package: str) -> Around:
-        """Return what the scripts of a package see, given its path."""
+        """Return the view for the scripts of the package at a path."""
         plain = not package or self._tree.identity(package) == join(self._base, package)
         return Around(self.kind, self.below, self.script) if plain else Around()
 
@@ -67,7 +73,7 @@ class Surroundings:
         return self._scripts[path]
 
     def _listed(self, folder: str) -> Mapping[str, Entry]:
-        """Return the entries of a folder by name, none where it cannot be read or is no part of the tree."""
+        """Return the entries of a folder by name; empty if it is unreadable or not part of the tree."""
         if folder not in self._entries:
             self._entries[folder] = {}
             if NEVER.isdisjoint(folder.split("/")) and is_below(self._tree.identity(folder), self._base):
@@ -76,7 +82,7 @@ class Surroundings:
         return self._entries[folder]
 
     def _gathered(self, folder: str) -> list[str]:
-        """Return the files below a folder as CMake copies and globs them: it follows no link to a folder."""
+        """Return the files below a folder as CMake copies and globs them: without following links to folders."""
         found: list[str] = []
         todo = [folder]
         seen = 0
@@ -92,7 +98,7 @@ class Surroundings:
 
 
 def sources(tree: Tree, parts: Parts, around: Surroundings) -> Sources:
-    """Return what the scripts of a package can see, given the tree that it lies in, which is the same for all packages."""
+    """Return the inputs for the scripts of a package; ``around`` is shared by all packages of the tree."""
     found, depends = parts.found, parts.depends
     built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
     version = found.manifest.version if found.manifest else ""
@@ -117,7 +123,7 @@ def sources(tree: Tree, parts: Parts, around: Surroundings) -> Sources:
 
 
 class _Scripts(Mapping[str, Parsed]):
-    """The CMake files of a package. Others are read when they are asked for: a script may have any name."""
+    """The CMake files of a package. Files without a CMake name are parsed when they are requested."""
 
     def __init__(self, tree: Tree, found: DiscoveredPackage, parsed: Mapping[str, Parsed]) -> None:
         self._tree = tree
@@ -143,7 +149,7 @@ class _Scripts(Mapping[str, Parsed]):
 
 
 def _look(found: DiscoveredPackage, around: Surroundings, folder: str) -> list[str]:
-    """Return the files below a folder of a package that was not looked into, nothing where not all are in sight."""
+    """Return the files below a skipped folder of a package; empty if not all are visible."""
     if any(skipped.path == folder and skipped.link for skipped in found.unseen):
         return []
     return [strip_folder(found.path, file) for file in around.below(join(found.path, folder))]

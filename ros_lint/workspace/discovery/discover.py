@@ -1,7 +1,7 @@
-"""Find the packages of a workspace and the files of each in one walk.
+"""Find the packages of a workspace and their files in one walk.
 
-Which folders are packages is what ``colcon list`` says: the crawl of colcon-recursive-crawl, the identification of
-:mod:`ros_lint.workspace.discovery.identify`. Beyond colcon, build products without a marker are skipped.
+The packages are those of ``colcon list``: the crawl of colcon-recursive-crawl and the identification of
+:mod:`ros_lint.workspace.discovery.identify`. Unlike colcon, build products without a marker are skipped.
 """
 
 from __future__ import annotations
@@ -32,69 +32,77 @@ if TYPE_CHECKING:
     from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Manifest
 
 NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
-"""Folders that no one looks for sources in."""
+"""Folders that never contain sources."""
 
 _TELLING = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
-"""Without one of these names a folder is nothing to colcon."""
+"""Names of which a folder that matters to colcon has at least one."""
 
 _APART = frozenset((*SIGNS, "package.xml"))
-"""Without one of these names a folder below a package belongs to it."""
+"""Names of which a subfolder that is not part of the package has at least one."""
 
 _BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
-"""Without one of these beside it, a manifest is data."""
+"""Names of which the folder of a manifest has at least one; a manifest without them is data."""
 
 _CONTEXT = {**ROS_2, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
 class Skipped(NamedTuple):
-    """A folder that was not looked into."""
+    """A folder that was not visited."""
 
     path: str
     reason: str
     link: bool = False
-    """Whether it is a link that is not followed, for what is behind it is met elsewhere or does not belong here."""
+    """True for a link that is not followed: its target is visited elsewhere or is outside the workspace."""
 
 
 class DiscoveredPackage(NamedTuple):
-    """A package of the workspace, before anything but its manifest has been read."""
+    """A package of the workspace, before files other than its manifest are read."""
 
     path: str
-    """Its folder, relative to the base; "" is the base."""
+    """Folder of the package, relative to the base; "" is the base."""
     name: str
-    """The name in ``package.xml``, by which other manifests, rosdep and the ament index know the package. Where no manifest
-    gives one it is the name that colcon uses."""
+    """Name in ``package.xml``, by which other manifests, rosdep and the ament index refer to the package.
+
+    Without a name in a manifest it is the name that colcon uses.
+    """
     colcon_name: str
-    """The name that ``colcon list`` prints: ``colcon.pkg``, ``colcon.meta`` or the script of a plain package may set another."""
+    """Name printed by ``colcon list``.
+
+    ``colcon.pkg``, ``colcon.meta`` or the script of a plain package may set a name of its own.
+    """
     type: str
-    """As ``colcon list`` prints it: ros.ament_cmake, ros.ament_python, cmake, python ..."""
+    """Type as printed by ``colcon list``: ros.ament_cmake, ros.ament_python, cmake, python ..."""
     manifest: Manifest | None
-    """Also there, with its problems, when colcon cannot use it."""
+    """The package.xml, with its problems, even if colcon cannot use it."""
     colcon_depends: tuple[ColconDepend, ...]
     files: tuple[str, ...]
-    """Every file below the folder, relative to it and sorted. Nested packages and skipped folders are left out."""
+    """Files below the folder, sorted and relative to it, without nested packages and skipped folders."""
     nested: tuple[Manifest, ...]
-    """Manifests of packages further down, by path. Folders that are marked to be ignored do not count, nor do those without
-    a build script or which the CMake build of this package takes in."""
+    """Manifests of packages in subfolders, by path.
+
+    Left out are folders with an ignore marker, folders without a build script, and folders that the CMake build of
+    this package adds.
+    """
     unseen: tuple[Skipped, ...]
-    """Folders, relative to the package, that were not looked into: whether a file exists there is unknown."""
+    """Folders, relative to the package, that were not visited: their files are unknown."""
 
 
 class Discovery(NamedTuple):
-    """What a walk found. Everything is sorted by path."""
+    """The result of a walk, sorted by path."""
 
     packages: tuple[DiscoveredPackage, ...]
     rejected: tuple[Manifest, ...]
-    """Manifests that colcon cannot use, in folders that are no package in another way."""
+    """Manifests that colcon cannot use, in folders that are not a package for another reason."""
     skipped: tuple[Skipped, ...]
     not_checked: tuple[UnreadFile, ...]
 
 
 def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
-    """Return the packages below some directories of a tree, as ``colcon list --base-paths`` run in its base.
+    """Return the packages below some folders of a tree, like ``colcon list --base-paths`` in its base.
 
-    ``roots`` are relative to the base of the tree, "" is the base; a ``colcon.meta`` is read in the base and in each of
-    them. ``context`` has the known variables of package.xml conditions, which may choose a build type. Never raises for
-    what it finds: places that cannot be read end up in ``not_checked``.
+    ``roots`` are relative to the base of the tree, "" is the base; a ``colcon.meta`` is read in the base and in
+    each root. ``context`` has the known variables of conditions in package.xml, which may choose a build type.
+    Unreadable places are added to ``not_checked``; the contents of the tree never cause an exception.
     """
     return _Walk(tree, context).run(roots)
 
@@ -127,7 +135,7 @@ class _Walk:
         while todo:
             path, identity = todo.pop()
             if identity in visited:
-                continue  # by another way, as colcon does: the first in the order of names counts
+                continue  # # already visited on another path; as in colcon, the first path in name order counts
             visited.add(identity)
             entries = self._list(path)
             if entries is None or self._is_package(path, identity, entries):
@@ -137,13 +145,13 @@ class _Walk:
                     child = join(path, name)
                     target = self._tree.identity(child) if link else join(identity, name)
                     if link and target != self._base and is_below(self._base, target):
-                        # colcon would go through everything around the workspace, and be it the whole disk.
+                        # colcon would crawl everything around the workspace, up to the whole disk.
                         self._skipped.append(Skipped(child, "a link to a folder that contains the workspace", link=True))
                     else:
                         todo.append((child, target))
 
     def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
-        """Take a folder in, and return whether colcon looks no further down."""
+        """Add the package in a folder, and return whether colcon skips its subfolders."""
         names = {name: kind for name, kind, _ in entries}
         if _TELLING.isdisjoint(names) and identity not in self._settings.by_identity:
             return False
@@ -199,7 +207,7 @@ class _Walk:
         try:
             kinds = {name: kind for name, kind, _ in self._tree.list(place)}
         except OSError:
-            return None  # noted by the crawl
+            return None  # # recorded by the crawl
         if kinds.get("colcon.meta") == "directory":
             path = join(path, "colcon.meta")
         elif kinds.get("colcon.meta") != "file":
@@ -209,7 +217,7 @@ class _Walk:
         try:
             return colcon_yaml.meta(read(path, self._tree.read(path)))
         except FileNotFoundError:
-            return None  # in the folder of that name
+            return None  # # colcon.meta is a folder without such a file
         except OSError as error:
             self._not_checked.append(UnreadFile.of(path, error))
         except colcon_yaml.ColconYamlError as error:
@@ -232,7 +240,10 @@ class _Files:
         self.not_checked: list[UnreadFile] = []
 
     def gather(self, entries: Sequence[Entry], identity: str) -> None:
-        """Collect what lies below the folder of the package. ``crossed`` are the folders with the links on the way."""
+        """Collect the files below the package folder.
+
+        ``crossed`` are the folders that contain a followed link.
+        """
         todo: list[tuple[str, Sequence[Entry], str, tuple[str, ...]]] = [("", entries, identity, ())]
         while todo:
             folder, entries, identity, crossed = todo.pop()
@@ -262,7 +273,7 @@ class _Files:
         names = {name: kind for name, kind, _ in entries}
         reason = ignored_everywhere(names) or product(names)
         if not reason and (mark := ignored_by_ros(names)):
-            # The mark is for those who look for packages, and for linters: the build of this package takes no notice of it.
+            # The marker concerns package discovery and linters; the build of this package ignores it.
             reason = mark if "package.xml" in names else ""
             self._marked.append(child)
         if not reason and self._is_nested(child, names):
@@ -275,7 +286,7 @@ class _Files:
         return None
 
     def _is_nested(self, child: str, names: Mapping[str, Kind]) -> bool:
-        """Whether a folder is a package that the build of this one takes no notice of, rather than a part of it."""
+        """Return whether a folder is a package of its own, rather than a part of the build of this package."""
         if names.get("package.xml") != "file" or _BUILD_SCRIPTS.isdisjoint(names):
             return False
         from ros_lint.collectors.colcon import cmake_lists as colcon_cmake  # noqa: PLC0415  (few packages have another one inside)
@@ -286,7 +297,7 @@ class _Files:
             try:
                 added = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
             except OSError:
-                continue  # there mostly is none
+                continue  # # usually there is none
             if "/".join(parts[depth:]) in added:
                 return False
         return True
@@ -298,7 +309,10 @@ class _Files:
             self.not_checked.append(UnreadFile.of(path, error))
 
     def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
-        """Return why a link is not followed, or "". ``crossed`` are the folders with it and the links on the way."""
+        """Return why a link is not followed, or "".
+
+        ``crossed`` are the folders that contain it or a link on the path to it.
+        """
         if any(is_below(place, target) for place in crossed):
             return "a link to a folder that contains it"
         if not any(is_below(target, place) for place in self._inside):

@@ -1,7 +1,7 @@
-"""What colcon takes a folder for: a package of some name and type, something to skip, or nothing.
+"""Identify a folder as colcon does: a package with name and type, a folder to skip, or neither.
 
 Source: the identification extensions of colcon-core, colcon-metadata, colcon-ros, colcon-cmake and
-colcon-python-setup-py, in the order of their priorities (reference, section A6).
+colcon-python-setup-py, in the order of their priorities.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Identity(NamedTuple):
-    """A package, as colcon calls it."""
+    """Name, type and dependencies of a package for colcon."""
 
     name: str
     type: str
@@ -31,13 +31,13 @@ class Identity(NamedTuple):
 
 
 class Ignored(NamedTuple):
-    """A folder that is skipped with everything below it."""
+    """A folder that is skipped with its subfolders."""
 
     reason: str
 
 
 class Settings(NamedTuple):
-    """What ``colcon.meta`` files set: by the name of a package, and by the identity of its folder."""
+    """Settings in ``colcon.meta`` files, by the name of a package and by the identity of its folder."""
 
     by_name: Mapping[str, ColconSettings]
     by_identity: Mapping[str, ColconSettings]
@@ -53,7 +53,7 @@ _EVERYWHERE = ("COLCON_IGNORE", "_order_isolated_packages.py", "_setup_util.py")
 _ROS_ONLY = ("CATKIN_IGNORE", "AMENT_IGNORE")
 _PREFIX_SCRIPTS = ("bash", "sh", "zsh", "ps1")
 _HOOKS = ("local_setup.dsv", "package.dsv")
-"""What ament and colcon put beside the manifest of an installed package."""
+"""Files that ament and colcon install next to the manifest of a package."""
 SIGNS = frozenset(
     (
         *_EVERYWHERE,
@@ -67,25 +67,25 @@ SIGNS = frozenset(
         *(f"local_setup.{shell}" for shell in _PREFIX_SCRIPTS),
     )
 )
-"""Without one of these names a folder is neither ignored nor a product."""
+"""Names of which an ignored folder or a build product has at least one."""
 
 
 def ignored_everywhere(names: Mapping[str, Kind]) -> str:
-    """Return the name for which colcon skips a folder with all that is below it, whatever else is in there, or ""."""
-    if "COLCON_IGNORE" in names:  # a dangling link will do
+    """Return the file name that makes colcon skip a folder with its subfolders in any case, or ""."""
+    if "COLCON_IGNORE" in names:  # # even a dangling link
         return "COLCON_IGNORE"
     return next((name for name in _EVERYWHERE if _exists(names, name)), "")
 
 
 def ignored_by_ros(names: Mapping[str, Kind]) -> str:
-    """Return the name for which colcon-ros skips a folder with all that is below it, or ""."""
+    """Return the file name that makes colcon-ros skip a folder and its subfolders, or ""."""
     return next((name for name in _ROS_ONLY if _exists(names, name)), "")
 
 
 def product(names: Collection[str]) -> str:
-    """Return why a folder is a product and no source, or "".
+    """Return why a folder is a build product, or "" for a source folder.
 
-    colcon marks what it writes with COLCON_IGNORE. Copies, and what other tools write, lack that.
+    colcon marks its products with COLCON_IGNORE. Copies and products of other tools have no such marker.
     """
     if ".colcon_install_layout" in names:
         return "an install folder: it has .colcon_install_layout"
@@ -112,7 +112,7 @@ def _exists(names: Mapping[str, Kind], name: str) -> bool:
 
 
 class Folder:
-    """A directory that may be a package. What cannot be read in it is noted in ``not_checked``."""
+    """A directory that may be a package. Files that cannot be read are added to ``not_checked``."""
 
     def __init__(self, tree: Tree, path: str, identity: str, names: Mapping[str, Kind]) -> None:
         self.tree = tree
@@ -123,13 +123,13 @@ class Folder:
         self._texts: dict[str, Text | None] = {}
 
     def text(self, name: str) -> Text | None:
-        """Return a file of the folder, or None when there is none that can be read."""
+        """Return the text of a file in the folder, or None if it is missing or unreadable."""
         if name not in self._texts:
             self._texts[name] = self.read(join(self.path, name)) if self.names.get(name) == "file" else None
         return self._texts[name]
 
     def read(self, path: str) -> Text | None:
-        """Return any file, or None when it cannot be read."""
+        """Return the text of a file, or None if it cannot be read."""
         try:
             return read(path, self.tree.read(path))
         except OSError as error:
@@ -137,15 +137,15 @@ class Folder:
             return None
 
     def cannot(self, path: str, reason: str, span: Span | None = None) -> None:
-        """Note a file that could not be looked at."""
+        """Record a file that could not be read."""
         self.not_checked.append(UnreadFile(path, reason, span or file_start(path)))
 
 
 def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
-    """Return the build type that colcon gives a package, or "" when it cannot use the manifest.
+    """Return the build type that colcon gives a package, or "" if colcon cannot use the manifest.
 
-    It cannot when the manifest has problems, when a condition does not parse, or when there are two build types or an
-    empty one (reference, sections A3.5 and A5.4). Where the context does not say which one counts, it is the first.
+    Reasons are problems of the manifest, a condition that does not parse, and two or empty build types. If the
+    context does not decide between build types, the first one counts.
     """
     if manifest.problems or conditions.problems(manifest):
         return ""
@@ -157,7 +157,7 @@ def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
 
 
 def identify(folder: Folder, manifest: Manifest | None, settings: Settings, context: Mapping[str, str]) -> Verdict:
-    """Return what colcon takes a folder for. ``context`` has the variables of conditions that are known."""
+    """Return what colcon identifies a folder as. ``context`` has the known variables of conditions."""
     if reason := ignored_everywhere(folder.names) or product(folder.names):
         return Ignored(reason)
     own = _colcon_pkg(folder)
@@ -198,8 +198,8 @@ def _as_ros(folder: Folder, name: str, manifest: Manifest | None, context: Mappi
     if manifest and (kind := build_type(manifest, context)):
         return Identity(name or manifest.name, f"ros.{kind}", ())
     if manifest and not manifest.problems and conditions.problems(manifest):
-        return None  # colcon fails before it looks for the other file
-    # A package of rosbuild must not be taken for one of CMake.
+        return None  # # colcon fails before it looks at CMakeLists.txt or setup.py
+    # A rosbuild package must not be identified as a plain CMake package.
     return Ignored("manifest.xml") if _exists(folder.names, "manifest.xml") else None
 
 
@@ -236,14 +236,14 @@ def _as_cmake(folder: Folder, name: str) -> Identity | None:
 
 
 def _cmake_files(folder: Folder) -> Iterator[Text]:
-    """Yield every CMake file, those of nested packages and ignored folders included: colcon looks into all."""
+    """Yield each CMake file, also of nested packages and ignored folders: colcon-cmake reads all."""
     todo = [folder.path]
     while todo:
         path = todo.pop()
         try:
             entries = folder.tree.list(path)
         except OSError:
-            continue  # noted by the walk
+            continue  # # recorded by the walk
         for name, kind, link in entries:
             if kind == "file" and (name == "CMakeLists.txt" or name.endswith(".cmake")):
                 if text := folder.read(join(path, name)):
@@ -253,7 +253,7 @@ def _cmake_files(folder: Folder) -> Iterator[Text]:
 
 
 def _setup_cfg(folder: Folder) -> PythonProject | None:
-    """Return what setup.cfg says, if colcon is content with it."""
+    """Return the project in setup.cfg, if colcon can use it."""
     setup_py, setup_cfg = folder.text("setup.py"), folder.text("setup.cfg")
     if setup_py is None or setup_cfg is None:
         return None

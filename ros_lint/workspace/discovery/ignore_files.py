@@ -1,4 +1,4 @@
-"""The ``.gitignore`` files around the packages of a workspace."""
+"""The ``.gitignore`` files of a workspace and its packages."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ros_lint.workspace.target import UnreadFile
 
 
 class Ignores(NamedTuple):
-    """What the ``.gitignore`` files of a workspace say, and those that cannot be read."""
+    """Patterns of the ``.gitignore`` files of a workspace, and the files that cannot be read."""
 
     patterns: tuple[Pattern, ...]
-    """Later patterns win."""
+    """Patterns in order: later patterns override earlier ones."""
     not_checked: tuple[UnreadFile, ...]
 
 
 def find_ignores(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
-    """Return the patterns for packages, given by folder with the files in it."""
+    """Return the patterns for ``packages``, which are pairs of a folder and its files."""
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])

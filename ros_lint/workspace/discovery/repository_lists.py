@@ -1,4 +1,4 @@
-"""Files that name sources which belong to a workspace and need not be there."""
+"""Files that list repositories of a workspace, which need not be cloned."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _ENDINGS = (".repos", ".rosinstall", ".gitmodules")
 
 
 def find(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:
-    """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` of a workspace, sorted.
+    """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` files, sorted.
 
-    Looked for are the base of the tree, the roots and the folders directly in either, and ``files``, which are those of
-    packages. What cannot be read has none.
+    Searched are the base of the tree, the roots, the direct subfolders of both, and ``files``, the files of
+    packages. Folders that cannot be read count as empty.
     """
     found = {path for path in files if path.endswith(_ENDINGS)}
     for top in {"", *roots}:
@@ -41,7 +41,7 @@ def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[UnreadFile]:
         try:
             tree.read(path)
         except FileNotFoundError:
-            continue  # a link to nothing
+            continue  # # a dangling link
         except OSError as error:
             yield UnreadFile.of(path, error)
 
@@ -50,7 +50,7 @@ _SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)
 
 
 def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
-    """Return the folders that the ``.gitmodules`` among the lists name and that are empty, or not there: not cloned yet."""
+    """Return the folders of submodules that are not cloned: empty or missing."""
     found = []
     for path in lists:
         if path.rpartition("/")[2] != ".gitmodules":
@@ -65,7 +65,7 @@ _REPOSITORY = re.compile(r"^[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t\r]*$|\bloc
 
 
 def awaited(tree: Tree, lists: Iterable[str], submodules: Iterable[str]) -> ExpectedRepositories:
-    """Return what the lists of a workspace name, and the submodules that are not cloned yet."""
+    """Return the repositories in the lists of a workspace, and the submodules that are not cloned."""
     texts = [text.text for path in lists if not path.endswith(".gitmodules") and (text := text_of(tree, path))]
     found = (match[1] or match[2] for text in texts for match in _REPOSITORY.finditer(text))
     return ExpectedRepositories(_names(submodules), _names(folder.rstrip("/") for folder in found))

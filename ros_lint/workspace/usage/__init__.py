@@ -1,1 +1,1 @@
-"""What the files of a package use, and how certain that is."""
+"""The uses of other packages in the files of a package, and how certain each use is."""

@@ -1,4 +1,4 @@
-"""The files of a package as the resolution of names sees them."""
+"""The inputs of name resolution for one package."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from ros_lint.facts.visibility import Opaque
 
 
 class Source(NamedTuple):
-    """What evidence needs to know of one package."""
+    """A package with its files, as the resolution of names needs it."""
 
     name: str
     path: str
     files: tuple[str, ...]
-    """Relative to the package."""
+    """Paths relative to the package."""
     script: BuildScript | None
     facts: Mapping[str, FileFacts]
-    """By path relative to the package."""
+    """Facts by path relative to the package."""
     launch: tuple[LaunchFile, ...]
     builds_with: str
 
     @property
     def built(self) -> BuildScript:
-        """Return the build script, one that builds and installs nothing where there is none."""
+        """The build script, or one that builds and installs nothing if there is none."""
         return self.script or NOTHING_BUILT
 
 
 def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
-    """Return, for every header below an ``include`` folder of the workspace, the packages that have it, by include path."""
+    """Return the packages that have each header below an ``include`` folder, by include path."""
     found: dict[str, tuple[str, ...]] = {}
     for source in sources:
         for file in source.files:
@@ -41,7 +41,7 @@ def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
             _, marker, header = f"/{file}".partition("/include/")
             if not marker:
                 continue
-            # include/<package>/<package>/x.hpp and include/<package>/x.hpp are both written <package>/x.hpp.
+            # include/<package>/<package>/x.hpp and include/<package>/x.hpp are both included as <package>/x.hpp.
             for spelling in {header, header.removeprefix(f"{source.name}/") if header.count("/") > 1 else header}:
                 have = found.get(spelling, ())
                 if source.name not in have:
@@ -50,7 +50,7 @@ def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
 
 
 def opaque_of(source: Source) -> tuple[Opaque, ...]:
-    """Return everything that hides a side of the package."""
+    """Return all places that hide a facet of the package."""
     found: list[Opaque] = list(source.built.opaque)
     for facts in source.facts.values():
         found += facts.opaque

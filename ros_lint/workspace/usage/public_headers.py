@@ -1,4 +1,4 @@
-"""Which installed headers others can include: what they include themselves must be installed, too."""
+"""Find installed headers that dependents cannot include."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from ros_lint.facts.sources import FileFacts
 
 
 def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the installed headers that do not compile anywhere else, sorted.
+    """Return the installed headers that do not compile outside the package, sorted.
 
-    They include a file of the package that is not installed, or one that Qt makes of a form (``ui_*.h``), or another such
-    header. ``facts`` are by path relative to the package, as are ``files`` and what is returned.
+    Such a header includes a file of the package that is not installed, a header that Qt generates from a form
+    (``ui_*.h``), or another such header. ``facts``, ``files`` and the result have paths relative to the package.
     """
     provided = [each for each in script.installs if each.path.startswith("include/")]
     headers = sorted({each.source for each in provided if each.source in facts})
@@ -42,7 +42,7 @@ def _endings(facts: FileFacts) -> Iterator[str]:
 
 
 def _includes(facts: FileFacts) -> Iterator[str]:
-    """Yield the headers that a file cannot do without, less what leads to another folder."""
+    """Yield the headers that a file requires; a path through ``..`` loses all parts up to it."""
     for mention in facts.mentions:
         if mention.via == "include" and not mention.optional:
             yield mention.name.rpartition("../")[2].removeprefix("./")

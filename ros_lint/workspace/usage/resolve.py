@@ -1,7 +1,7 @@
-"""From mentions to uses: resolve each named header, module or package to the package to declare, with its role.
+"""From mentions to uses: resolve each name to the package to declare, with its role.
 
-Names are not packages: a header path, a Python module, the argument of find_package and a package name live in four name
-spaces (reference, sections C2b, D6, E3.8). This module is the only one that goes from one to the other.
+Names are not packages: a header path, a Python module, the argument of find_package and a package name are in four
+name spaces. Only this module translates between them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class Names(Protocol):
-    """The look-ups of the world that evidence needs."""
+    """The look-ups that resolution needs; :class:`ros_lint.knowledge.world.World` implements them."""
 
     def by_cmake(self, name: str) -> Providers: ...
     def by_macro(self, package: str) -> Providers: ...
@@ -42,40 +42,40 @@ class Names(Protocol):
 
 
 _make = tuple.__new__
-"""Makes a named tuple in half the time that its class takes."""
+"""Creates a named tuple in half the time of a call of its class."""
 
 
 _WORD = re.compile("[A-Za-z0-9]+")
 
 _BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
-"""Whoever builds a Python package has these (reference, section D1.9)."""
+"""Modules that are always available when a Python package is built."""
 
 _TEST = Role.TEST
 _LOOKED_UP = Role.EXEC
-"""A package whose files are looked up at run time is not compiled against (reference, section E2, rows 17 and 24)."""
+"""Role of a package whose files are looked up at run time: nothing is compiled against it."""
 
 
 class Answer(NamedTuple):
-    """Whose name a mention is."""
+    """The owners of a mentioned name."""
 
     providers: tuple[str, ...]
-    """Every name that satisfies it when it is declared, the best first: empty when it is nobody's."""
+    """Each name whose declaration satisfies the mention, the best first; empty if none is known."""
     sure: bool = True
     what: str = ""
-    """How a message quotes it."""
+    """Quotation of the mention for a message."""
 
 
 _NOBODY = Answer(())
 _INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
-"""Headers and modules of messages: only packages of ROS have them, whoever has the package."""
+"""Headers and modules of interfaces: only ROS packages have them, even if the package is unknown."""
 _OF_ROS_1 = re.compile(r"[a-z][a-z0-9_]*_(?:msgs|srvs)/[A-Z]\w*\.h")
-"""Headers of messages as ROS 1 makes them; ROS 2 makes others, in a folder ``msg``, for those with the same name."""
+"""Headers of messages as ROS 1 generates them; headers of ROS 2 are in a folder ``msg``."""
 _OF_TESTS = ("gtest/", "gmock/")
-"""Headers that a header without a source of its own can include for nobody but tests."""
+"""Include prefixes that only tests use when they are in a header without a source."""
 
 
 class Resolver:
-    """Says whose a name is, once for all packages of a workspace."""
+    """Resolves names to packages, once for all packages of a workspace."""
 
     def __init__(self, sources: Sequence[Source], names: Names) -> None:
         self.names = names
@@ -97,7 +97,7 @@ class Resolver:
         self._said: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
 
     def answer(self, via: Via, name: str) -> Answer:
-        """Return whose a name is, if not the package's own that mentions it."""
+        """Return the owner of a name, under the assumption that it is not the package that mentions it."""
         said = self._said[via]
         found = said.get(name)
         if found is None:
@@ -109,32 +109,32 @@ class Resolver:
         first, slash, _ = header.partition("/")
         if not found:
             if (slash and first in self._empty) or _OF_ROS_1.fullmatch(header):
-                return _NOBODY  # the headers of a library that is called like a metapackage, and those of ROS 1
+                return _NOBODY  # # a library named like a metapackage, or headers of ROS 1
             return self._told(self.names.by_include(header), first if slash else "", header)
         if slash and first not in found:
             known = self.names.by_include(header)
-            if known.known and not set(found).intersection(known.names):  # then this is a copy of what is known elsewhere
+            if known.known and not set(found).intersection(known.names):  # # a vendored copy of a known header
                 return Answer((*known.names, *found), known.sure)
         return Answer(tuple(sorted(found, key=lambda package: package != first)))
 
     def _imported(self, module: str) -> Answer:
         first = module.partition(".")[0]
         found = self._told(self.names.by_import(module), first, module)
-        # Even a package without such a module is the one that is meant: interfaces have no other name.
+        # An interface module refers to the package of its name even if the module is unknown.
         meant = not found.providers and first in self._sources and _INTERFACES.match(module)
         return Answer((first,)) if meant else found
 
     def _package(self, name: str) -> Answer:
-        # Definitions that tests parse are full of names that nobody has, and so are look-ups in templates.
+        # Definitions in test data and look-ups in templates contain many names that do not exist.
         return Answer((name,)) if self.names.is_package(name) else self._strange(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> Answer:
-        """Return whose files are sure to be looked up by a name that says nothing: a package, wherever that comes from."""
+        """Return an owner of an unknown name that is certainly looked up: the package of that name."""
         return Answer((name,), False, name) if self.names.standing(name) == "unknown" and may_be_package(name) else _NOBODY
 
     def _found(self, name: str) -> Answer:
         known = self.names.by_cmake(name)
-        # A library may have any name, but not by chance that of a dependency of another package.
+        # A library may have any name, but hardly the name of a dependency of another package by chance.
         return self._told(known, name) if known.known or not may_be_package(name) else self._package(name)
 
     def _told(self, providers: Providers, name: str, whole: str = "") -> Answer:
@@ -143,16 +143,16 @@ class Resolver:
         return self._strange(name, bool(whole) and _INTERFACES.match(whole) is not None)
 
     def _strange(self, name: str, interfaces: bool = False) -> Answer:
-        """Return what is to be made of a name that nobody here has.
+        """Return the owner of a name that no package here provides.
 
-        It is a package that other distributions have, or had, or one whose ``interfaces`` are used. That one is no left-over if
-        the workspace declares it.
+        The owner is a package of another or a former distribution, or the package of used ``interfaces``. The use
+        of the latter is certain only if the workspace declares the package.
         """
         standing = self.names.standing(name) if name else "unknowable"
         if standing == "elsewhere":
             return Answer((name,))
         declared = interfaces and self.names.is_declared(name)
-        # A submodule that is not cloned may be a library. What another package declares is none, wherever it comes from.
+        # A submodule that is not cloned may be a library; a name that another package declares is not.
         if standing == "end-of-life" or (standing == "unknown" and interfaces) or (standing == "unknowable" and declared):
             return Answer((name,), declared)
         return _NOBODY
@@ -173,7 +173,10 @@ _WHAT: Mapping[Via, str] = {
 
 
 def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...]:
-    """Return every use of another package, sorted by place, given what names mean files of the package itself."""
+    """Return each use of another package, sorted by place.
+
+    ``own`` resolves names of the package's own files.
+    """
     launched = frozenset(strip_folder(source.path, launch.path) for launch in source.launch)
     tests = frozenset(strip_folder(source.path, launch.path) for launch in source.launch if launch.test)
     alive = FileRoles(own, launched)
@@ -188,7 +191,7 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
         mentions = list(facts.mentions)
         if alive.is_optional(path) or (path in forgone and not alive.is_started(path)):
             mentions = [mention._replace(optional=True) for mention in mentions]
-        if path in launched:  # the launch collector has the packages, too, but for those of plugins
+        if path in launched:  # # the launch collector yields the packages, except for those of plugins
             mentions = [mention for mention in mentions if mention.via != "package" or mention.purpose == "plugins"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
@@ -201,12 +204,12 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
 
 
 def _add_script(source: Source, uses: _Uses) -> None:
-    """Add what the build script names, and what it is said to search on behalf of others."""
+    """Add the names in the build script, and the packages that it finds on behalf of dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
     untaken = frozenset(source.built.unused_optional_finds)
     for mention in source.built.mentions:
         if mention.purpose == "plugins":
-            continue  # who loads them need not be there, and the base class is in headers
+            continue  # # the loader of the plugins is optional, and headers name the package of the base class
         role = _TEST if mention.test else _script_role(source, mention)
         only_named = mention.via == "cmake" and mention.span in untaken
         ours = by_role.setdefault((mention.span.path, role), [])
@@ -219,7 +222,10 @@ def _add_script(source: Source, uses: _Uses) -> None:
 
 
 class _Uses:
-    """The uses found in a package so far. Of two of one package in one place by one way the last counts."""
+    """The uses collected in a package.
+
+    The last of several uses with equal place, package and name space counts.
+    """
 
     def __init__(self, source: Source, own: OwnFiles, alive: FileRoles, resolver: Resolver) -> None:
         self.package = source.name
@@ -244,7 +250,10 @@ class _Uses:
         return tuple([use for _, use in sorted(self._found.items())])
 
     def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, sure: bool) -> None:
-        """Add what the mentions in a file come to. ``looked_up`` is what packages are for whose files are looked up."""
+        """Add the uses that result from the mentions in a file.
+
+        ``looked_up`` is the role of packages whose files are looked up at run time.
+        """
         package, answer, found = self.package, self.resolver.answer, self._found
         own = self._own.included(path)
         for name, via, span, what, optional, test, purpose in mentions:
@@ -267,30 +276,30 @@ class _Uses:
                 spared = spared or self._is_spared(name, span, providers[0])
                 known = known and name.partition(".")[0] not in self._absent
             elif known and self._reaches_out and via == "include" and "/" not in name:
-                known = False  # any folder may have it
+                known = False  # # any include directory may have it
             elif self._absent and known:
                 known = self._is_here(name, providers[0])
             if not known and providers[0] in self._found_always and _INTERFACES.match(name):
-                known = True  # no left-over: without it nothing is built
+                known = True  # # certainly in use: the build fails without it
             by: Via = "macro" if purpose == "helper" else via
             found[span, providers[0], by] = _make(
                 Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)
             )
 
     def _is_here(self, name: str, best: str) -> bool:
-        """Whether no submodule that is not cloned may bring a header or a library."""
+        """Return whether no submodule that is not cloned can provide a header or a library."""
         if REPOSITORIES.get(name.partition("/")[0]) in self._absent:
             return False
         return self.resolver.names.is_package(best) or self._absent.isdisjoint(_WORD.findall(name))
 
     def _is_spared(self, name: str, span: Span, best: str) -> bool:
-        """Whether a module can be missing, or be what nobody knows: elsewhere in the package its absence is allowed for."""
+        """Return whether a module may be missing or unknown: the package imports it elsewhere as optional."""
         if span in self._added:
             return not self.resolver.names.is_package(best)
         return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
 
     def _is_bundled(self, header: str) -> bool:
-        """Whether a header is of a project that is built along with the package: in its folder, or owner/name.hpp."""
+        """Return whether a header is of a bundled project: in the project's folder, or ``owner/name.hpp``."""
         if not self._bundled:
             return False
         path = header.lower()
@@ -303,12 +312,12 @@ class _Uses:
 
 
 def _lenient(source: Source, alive: FileRoles) -> list[str]:
-    """Return the files of the package that import something and go on without, tests aside."""
+    """Return the files of the package with optional imports, tests aside."""
     return [path for path, facts in source.facts.items() if facts.optional_modules and alive.place(path)[0] is not _TEST]
 
 
 def _unspoken(source: Source, uses: _Uses) -> None:
-    """Add what generated code needs without being told: actions are made of it (reference, section C4.4)."""
+    """Add the implicit use of action_msgs: rosidl generates actions with its types."""
     if source.name == _ACTIONS or not any(each.startswith("action/") for each in source.built.interfaces):
         return
     for mention in source.built.mentions:
@@ -340,12 +349,12 @@ def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> Non
 
 
 def satisfying(uses: Iterable[Use]) -> frozenset[str]:
-    """Return every name that satisfies some use when it is declared."""
+    """Return each name whose declaration satisfies a use."""
     return frozenset([name for answer in {use.providers for use in uses} for name in answer])
 
 
 def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
-    """Return the names that satisfy a use. Of several that would do, the best that is declared does it."""
+    """Return the declared names that satisfy a use: for each use, only the best declared provider."""
     names = frozenset(declared)
     answers = {use.providers for use in uses}
     return frozenset([name for answer in answers for name in [each for each in answer if each in names][:1]])

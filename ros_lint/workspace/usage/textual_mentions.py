@@ -1,4 +1,7 @@
-"""Where the texts of a package name others that nothing in it seems to use (reference, section F3, condition 7)."""
+"""Find mentions, in texts of a package, of names that its code does not seem to use.
+
+Such a mention speaks against reporting the name as unused.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +33,7 @@ _NO_TRACE = ("changelog", "readme", "license", "licence", "contributing", "quali
 
 
 def of_package(tree: Tree, package: Package, source: Source, world: World, types: Types) -> Mapping[str, Span]:
-    """Return a place for every declared name that stands in a text of the package though nothing in it is seen to use it."""
+    """Return a place for each declared name that a text of the package contains and no code uses."""
     if not is_build_visible(package):
         return {}
     built = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and d.always]
@@ -54,9 +57,9 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
 
 
 def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
-    """Return a place for those names that the pages of a package tell people to start something of.
+    """Return a place for each name that a documentation page starts with ``ros2 run`` or ``ros2 launch``.
 
-    A page that cannot be read may do so for each of them.
+    A page that cannot be read may do so for each name.
     """
     found: dict[str, Span] = {}
     for path in (join(package.path, file) for file in package.files if file.lower().endswith(_PAGES)):
@@ -73,14 +76,18 @@ def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Sp
 
 _PAGES = (".md", ".rst")
 _START = re.compile(rb"ros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
-"""A command line, as people are told to type it."""
+"""A command line in a documentation page."""
 
 
 def possibly_used(tree: Tree, package: Package, source: Source, world: World, types: Types) -> frozenset[str]:
-    """Return the packages that CMake finds and that are used all the same, it seems, though no code is seen to use them.
+    """Return the packages that CMake finds and that may be used although no code certainly uses them.
 
-    Their name stands in a text, build scripts aside, for namespaces are often known by way of a header of another package;
-    or the script takes more of them than what is linked; or they may have a header that nobody is known to have.
+    Each of these suffices:
+
+    * A text other than a build script contains the name: a namespace is often available through a header of another
+      package.
+    * The script uses a variable of the package for more than linking.
+    * A header of an unknown package may be one of its headers.
     """
     wanted = [each.name for each in unused_in_sight(package) if not is_traceless_by_name(world, each.name)]
     if not wanted:
@@ -96,9 +103,9 @@ def possibly_used(tree: Tree, package: Package, source: Source, world: World, ty
 
 
 def unwritten(tree: Tree, package: Package) -> frozenset[str]:
-    """Return the classes in plugin descriptions of a package whose name stands in no source of it.
+    """Return the classes in plugin descriptions whose name is not in a source of the package.
 
-    None where names are put together, so that they need not stand there.
+    Empty if a macro may compose names, because the full name need not be in a source.
     """
     made = {registration.name for registration in package.registrations}
     plugins = package.built.plugin_files
@@ -116,16 +123,17 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
 
 
 _PUT_TOGETHER = re.compile(rb"#[ \t]*define\b(?:[^\n]|\\\n)*(?:PLUGINLIB_EXPORT_|CLASS_LOADER_REGISTER_)CLASS")
-"""A macro that makes classes loadable: it may make their names, too."""
+"""A definition of a macro that exports classes: it may also compose their names."""
 
 _OF_CODE = (".c", ".cc", ".cpp", ".cu", ".cxx", ".em", ".h", ".hh", ".hpp", ".hxx", ".in", ".inl", ".ipp", ".jinja", ".py")
-"""Sources, and what sources are made of."""
+"""Suffixes of sources and of templates of sources."""
 
 
 def _unknown_folders(package: Package, source: Source) -> frozenset[str]:
-    """Return the folders of headers that are included and nobody is known to have.
+    """Return the first folders of included headers that no known package has.
 
-    Packages share their beginnings with these, as ``moveit_core`` does with ``moveit/planning_scene.h``.
+    The names of packages begin with such a folder, as ``moveit_core`` with the folder of
+    ``moveit/planning_scene.h``.
     """
     used = {use.span for use in package.uses if use.via == "include"}
     found = {
@@ -139,13 +147,13 @@ def _unknown_folders(package: Package, source: Source) -> frozenset[str]:
 
 
 _VARIABLE = rb"\$\{%s_(?!(?:TARGETS|LIBRAR|INCLUDE_DIR|DEFINITIONS|FOUND|VERSION)\w*\})"
-"""A variable that a package gives for more than to be linked: the files that it has, for example."""
+"""A variable of a found package that is used for more than linking, for example its list of files."""
 
 _OF_BUILD = ("CMakeLists.txt", ".cmake")
 
 
 def _contents(tree: Tree, package: Package, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-    """Yield those files of a package that may say that it uses something: no prose, and not the manifest itself."""
+    """Yield the files of a package that may be evidence of a use: no documentation and no package.xml."""
     for path, data in contents(tree, package.path, filter(_may_trace, files)):
         if b"\0" not in data[:1024]:
             yield path, data
@@ -163,11 +171,11 @@ def find_mentions(
     *,
     whole: bool = False,
 ) -> dict[str, Span]:
-    """Return a place for every name that stands as a word in one of the files, dashes and underscores taken as equal.
+    """Return a place for each name that is a word in one of the files; dashes equal underscores.
 
-    ``files`` are paths with contents. Many are searched at once and as they are: few of them have a name in question.
-    ``words`` are sought for some of the names instead, anywhere and whatever their capitals. With ``whole`` the part of a
-    longer name does not count: ``tf2`` is not in ``tf2_ros``.
+    ``files`` are paths with contents. Several files are searched at once and undecoded, because few contain a name.
+    ``words`` replaces some of the names by other texts, which are searched for anywhere and case-insensitively.
+    With ``whole`` a part of a longer name does not count: ``tf2`` is not in ``tf2_ros``.
     """
     found: dict[str, Span] = {}
     for batch in _batches(files):
@@ -178,11 +186,11 @@ def find_mentions(
 
 
 _BATCH = 1 << 24
-"""Bytes of texts that are held in memory to be searched together. Few packages have more."""
+"""Bytes of texts that are searched together; most packages have less."""
 
 
 def _batches(files: Iterable[tuple[str, bytes]]) -> Iterator[list[tuple[str, bytes]]]:
-    """Yield the files in groups, each of which ends with the file that fills it."""
+    """Yield the files in batches, each of which ends with the file that reaches the size limit."""
     batch: list[tuple[str, bytes]] = []
     size = 0
     for path, data in files:
@@ -218,9 +226,9 @@ def _traces_in(
 def mentioned(
     names: Sequence[str], source: Source, words: Mapping[str, Sequence[str]], counts: Callable[[str], bool]
 ) -> dict[str, Span]:
-    """Return what :func:`traces` does for those names that stand in an include or an import, without the texts.
+    """Return the result of :func:`find_mentions` for names in includes and imports, without reading texts.
 
-    ``counts`` says which files may leave traces.
+    ``counts`` decides which files are searched.
     """
     mentions = [
         mention
@@ -234,11 +242,14 @@ def mentioned(
 
 
 _AS_WRITTEN: frozenset[Via] = frozenset({"include", "import", "symbol"})
-"""Mentions whose name stands in the source just so."""
+"""Name spaces of mentions whose name is literally in the source."""
 
 
 def _written(name: str, data: bytes) -> Iterator[bytes]:
-    """Yield those spellings of a name whose end stands somewhere: names begin alike, and what few have is found faster."""
+    """Yield the spellings of a name whose last part is in ``data``.
+
+    The last parts are searched first because they are rarer than the first parts.
+    """
     there: dict[bytes, bool] = {}
     for spelling in _spellings(name):
         written = to_bytes(spelling)
@@ -253,10 +264,10 @@ _SEPARATOR = re.compile(rb"[-_/]|::")
 
 
 def _spellings(name: str) -> tuple[str, ...]:
-    """Return how a package may be written: with dashes, as a nested namespace or include folder.
+    """Return the spellings of a package name: with dashes, as a nested namespace, as an include folder.
 
-    The outer namespace is left out by who is in it, and libraries leave out that they are such.
-    Conversions of tf2 are found by the types of their arguments, and bear no name but tf2.
+    Code in the outer namespace omits it, and libraries omit the prefix ``lib``. Conversions of tf2 are selected by
+    the types of their arguments, so only ``tf2`` is in the code.
     """
     found = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
     inner = name.partition("_")[2]
@@ -274,10 +285,10 @@ _JOINING = b"-_"
 
 
 def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
-    """Return the offset of a word, -1 when there is none. A search for letters is many times faster than for a pattern.
+    """Return the offset of a word, -1 if there is none. This is many times faster than a pattern.
 
-    ``joining`` are the bytes that are part of a word besides letters and digits. A word that ends with a mark is a whole one
-    whatever follows.
+    ``joining`` are the bytes that belong to a word besides letters and digits. A word that ends with another
+    character is complete whatever follows.
     """
     start = data.find(word)
     marked = not word[-1:].isalnum()

@@ -1,8 +1,12 @@
-"""Types of other packages that C++ code uses by their bare names, which some header in between makes possible.
+"""Find types of other packages that C++ code uses by unqualified names.
 
-Neither an include nor the name of a package stands there: `route_handler::RouteHandler` inside the namespace that both
-packages are in, a class by a using-declaration of a third package, a message by ``using pkg::msg::Type;`` in a header.
-So these are traces: they speak against "unused", and are no evidence of a need.
+Neither an include nor the name of the package is in the code. Examples:
+
+* `route_handler::RouteHandler` inside the outer namespace of both packages,
+* a class, through a using-declaration of a third package,
+* a message, through ``using pkg::msg::Type;`` in a header.
+
+Such a place speaks against "unused", but it is not evidence of a missing dependency.
 """
 
 from __future__ import annotations
@@ -27,21 +31,24 @@ _CODE = (*HEADERS, *SOURCES)
 
 
 class _Wanted(NamedTuple):
-    """What tells of a package."""
+    """The names that identify a use of a package."""
 
     types: frozenset[bytes]
     spaces: frozenset[bytes]
-    """The parts of its namespaces: its types may stand behind these, and behind no other."""
+    """Components of the package's namespaces; a qualified type counts only after one of them."""
 
 
 class Names(Protocol):
-    """A set of names, of which nothing is asked but what is in it."""
+    """A set of names that supports ``in`` only."""
 
     def __contains__(self, name: str, /) -> bool: ...
 
 
 class Types:
-    """Looks for bare names of types, in the packages of a workspace. ``along`` says what comes along with one."""
+    """Finds unqualified names of types in the packages of a workspace.
+
+    ``along`` returns the names that a package provides transitively.
+    """
 
     def __init__(self, sources: Sequence[Source], tree: Tree, along: Callable[[str], Names]) -> None:
         self._by_name = {source.name: source for source in sources}
@@ -51,10 +58,10 @@ class Types:
         self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
 
     def used(self, source: Source, names: Iterable[str]) -> Mapping[str, Span]:
-        """Return a place for each of some packages that a package uses a type of without saying whose it is.
+        """Return a place for each name of a package whose types ``source`` uses unqualified.
 
-        Packages of the workspace are asked for what their public headers declare, packages of messages for what public
-        headers of packages that come along make of their messages.
+        For a package of the workspace, the types are those that its public headers declare. For a package of
+        interfaces, they are the names that public headers of transitive dependencies give to its messages.
         """
         sought = {name: wanted for name in names if (wanted := self._wanted(source, name)).types or wanted.spaces}
         if not sought:
@@ -89,7 +96,7 @@ class Types:
         return self._public[source.name]
 
     def _of_messages(self, name: str, package: str, file: str) -> Set[bytes]:
-        """Return the names under which a header, which is read once, makes messages of a package known."""
+        """Return the names that a header gives to messages of a package. The header is read once."""
         source = self._by_name[package]
         key = join(source.path, file)
         if key not in self._introduced:
@@ -98,7 +105,7 @@ class Types:
 
     @cached_property
     def _naming(self) -> Mapping[str, Sequence[tuple[str, str]]]:
-        """Return the public headers that name a package, each with the package that it belongs to."""
+        """The public headers that mention each package, with the package that has the header."""
         found: dict[str, dict[tuple[str, str], None]] = {}
         for source in self._by_name.values():
             for file in filter(_is_public, source.files):

@@ -1,4 +1,4 @@
-"""Packages that CMake finds and that the package may use without an include or import."""
+"""Find find_package() calls whose package no code seems to use."""
 
 from __future__ import annotations
 
@@ -11,10 +11,14 @@ from ros_lint.workspace.model import Package
 
 
 def unused_in_sight(package: Package) -> Iterator[Mention]:
-    """Yield the first find_package() of each name that is needed, tests aside, and that no code is seen to use.
+    """Yield the first required find_package() of each name that no code uses, tests aside.
 
-    That targets are linked or exported is no use by code; plugins that macros are given by name are, and interfaces, unless
-    all those are read that code is generated from, and none has a field of theirs. None where what is used is not seen whole.
+    A target that is linked or exported is not a use by code. These count as uses:
+
+    * plugins that a macro gets by name,
+    * packages of interfaces, unless all interface files are read and no field has a type of the package.
+
+    Nothing is yielded if something hides uses of the package.
     """
     script = package.script
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
@@ -39,14 +43,17 @@ _BY_SCRIPT = ("cmake", "target")
 
 
 def _reads_interfaces(package: Package) -> bool:
-    """Whether all interface files are read that code is generated from, so that it is known what their fields are made of."""
+    """Return whether all generated interface files are read, so that the types of their fields are known."""
     given = generated_from(package)
     read = {package.relative(file.path) for file in package.interface_files if not file.problems}
     return len(given) == len(package.built.interfaces) and given <= read and not package.hidden(Facet.INTERFACES)
 
 
 def generated_from(package: Package) -> frozenset[str]:
-    """Return the interface files, relative to the package, that code is generated from in every build, and installed with it."""
+    """Return the interface files from which code is generated in each build and that are installed.
+
+    Paths are relative to the package.
+    """
     script = package.built
     if package.builds_with != "ament_cmake" or "rosidl_generate_interfaces" not in script.command_names:
         return frozenset()

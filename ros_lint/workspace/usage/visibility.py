@@ -1,4 +1,4 @@
-"""How far the build of a package and its use of dependencies can be seen."""
+"""Predicates about how completely the build of a package and its uses are visible."""
 
 from __future__ import annotations
 
@@ -12,23 +12,32 @@ if TYPE_CHECKING:
 
 
 def is_traceless_by_name(world: World, name: str) -> bool:
-    """Whether a name alone says that it may do its work unseen: it is no package that is known, or a linter, a generator ..."""
+    """Return whether a name alone suggests that its uses leave no trace.
+
+    The name is not a known package, is a rosdep key, or is a linter, a generator or similar.
+    """
     return not world.is_package(name) or world.is_key(name) or name_suggests_no_trace(world, name)
 
 
 def name_suggests_no_trace(world: World, name: str) -> bool:
-    """Whether a package is called like those that do their work unseen. Whether one of the workspace gives macros is seen."""
+    """Return whether a package is named like those whose uses leave no trace.
+
+    Macros of a package in the workspace are evaluated, so its use is visible.
+    """
     names = world.knowledge.names
     return names.works_unseen(name) and not (world.layer(name) == "workspace" and names.sounds_like_macros(name))
 
 
 def is_fully_visible(package: Package) -> bool:
-    """Whether so much is seen of a package that no more packages can be used in it than those that are found."""
+    """Return whether all uses of a package are visible, so that there cannot be others."""
     return is_build_visible(package) and not package.hidden(Facet.USES)
 
 
 def is_build_visible(package: Package) -> bool:
-    """Whether so much is seen of a package that no more libraries can be used in it: launch files need none."""
+    """Return whether all uses of libraries are visible, so that there cannot be others.
+
+    Launch files are ignored because they use no libraries.
+    """
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None or script.problems:
         return False
@@ -39,7 +48,7 @@ def is_build_visible(package: Package) -> bool:
 
 
 def makes_something(package: Package) -> bool:
-    """Whether a package builds or installs anything of its own, so that it does more than bring others along."""
+    """Return whether a package builds or installs something of its own, unlike a metapackage."""
     script = package.script
     if script is None or package.opaque or builds_something(package):
         return True
@@ -48,7 +57,10 @@ def makes_something(package: Package) -> bool:
 
 
 def builds_something(package: Package) -> bool:
-    """Whether a package has code: a package with launch files and data only may declare what these need in their own way."""
+    """Return whether a package has code.
+
+    A package with only launch files and data may declare the dependencies of these in its own way.
+    """
     script = package.script
     if script is None:
         return False
