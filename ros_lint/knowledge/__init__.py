@@ -1,7 +1,7 @@
-"""What is known of the released ROS 2 world: distributions, rosdep keys, name maps.
+"""Knowledge about released ROS 2 packages: distributions, rosdep keys, name maps.
 
-The data ship with the package and carry a date; what ``ros-lint index refresh`` wrote to the user's data folder goes
-before them. Everything is read when it is first asked for. Formats and fidelity: docs/knowledge.md.
+The data are shipped with ros-lint and dated. Data that ``ros-lint index refresh`` wrote to the user's data folder
+override them. Each file is read at its first use. Formats and accuracy: docs/knowledge.md.
 """
 
 from __future__ import annotations
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 
 class Distribution(NamedTuple):
-    """A distribution that there is an index of."""
+    """A distribution with an index."""
 
     name: str
     long_term: bool
 
 
 def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
-    """Return the distributions that there is an index of, oldest first, rolling last.
+    """Return the distributions with an index, oldest first, rolling last.
 
-    ``places`` are folders that go before the data shipped, such as :func:`ros_lint.knowledge.store.user_directory`.
+    ``places`` are folders that override the shipped data, e.g. :func:`ros_lint.knowledge.store.user_directory`.
     """
     found = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
     return tuple([Distribution(name, name != "rolling" and _is_long_term(name)) for name in found])
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:
-    """Return the newest long-term release that there is an index of. ``places`` as for :func:`distros`."""
+    """Return the newest long-term release with an index. ``places`` as for :func:`distros`."""
     return [distro.name for distro in distros(places) if distro.long_term][-1]
 
 
@@ -47,15 +47,15 @@ _LONG_TERM = frozenset({"foxy", "humble", "jazzy", "lyrical"})
 
 
 def _is_long_term(name: str) -> bool:
-    # Names go with the alphabet, one a year; every other one, in even years, is supported for five years (REP 2000).
+    # Names are alphabetic, one a year; every second release, in even years, has five years of support (REP 2000).
     return name in _LONG_TERM or (name[0] > "l" and (ord(name[0]) - ord("l")) % 2 == 0)
 
 
 class Knowledge:
-    """What is known, seen from one distribution. Any look-up may raise KnowledgeError when a data file is damaged.
+    """The data from the perspective of one distribution.
 
-    A distribution without an index has an empty one: :attr:`covered` is False, and nothing can be said to be unknown
-    in it.
+    Each look-up may raise KnowledgeError if a data file is damaged. A distribution without an index has an empty
+    one: :attr:`covered` is False, and no name counts as unknown.
     """
 
     def __init__(self, distro: str, places: Sequence[str] = ()) -> None:
@@ -68,12 +68,12 @@ class Knowledge:
 
     @property
     def covered(self) -> bool:
-        """Return whether there is an index of the distribution."""
+        """True if the distribution has an index."""
         return len(self.index) > 0
 
     @property
     def date(self) -> str:
-        """Return the date of the index, as in 2026-08-22, or "" without one. Messages about unknown names show it."""
+        """Date of the index, as in 2026-08-22, or "". Messages about unknown names show it."""
         date: str = self.index.date
         return date
 
@@ -82,12 +82,13 @@ class Knowledge:
         return index.load(self._store, self.distro)
 
     def provided(self, package: str, offer: Offer) -> Known:
-        """Return what is known of one side of a package: whole only where nothing else can be there.
+        """Return the known names of one kind that a package provides.
 
-        Where the sources of its release were not read, those of an earlier and of a later distribution tell, too: what none
-        has, and no other one that is known, is not there either. What any of them has may be there. (Of 995 executables, 304
-        components, 1,182 plugins, 772 launch files and 1,855 interfaces of packages whose sources were read for three
-        distributions, 0, 0, 0, 2 and 4 are in none but the one between.)
+        If the sources of the release were not read, earlier and later distributions are consulted. Names in any of
+        them may exist. A name that no distribution has is missing if one earlier and one later list are complete.
+        (Packages whose sources were read for three distributions have 995 executables, 304 components, 1,182
+        plugins, 772 launch files and 1,855 interfaces; 0, 0, 0, 2 and 4 of these exist only in the middle
+        distribution.)
         """
         return self._provided(self.distro, package, offer)
 
@@ -101,7 +102,7 @@ class Knowledge:
         return self._between[key]
 
     def _around(self, distro: str, package: str, offer: Offer) -> tuple[list[Known], list[Known]]:
-        """Return what is known of a package in the distributions before another one, and in those after it."""
+        """Return what is known of a package in the distributions before ``distro``, and in those after it."""
         at = self._order.index(distro)
         parts = self._order[:at], self._order[at + 1 :]
         before, after = ([self._provides(each).known(package, offer) for each in part] for part in parts)
@@ -122,19 +123,19 @@ class Knowledge:
 
     @cached_property
     def others(self) -> tuple[Index, ...]:
-        """Return the indexes of the other distributions, oldest first."""
+        """Indexes of the other distributions, oldest first."""
         return tuple(index.load(self._store, distro) for distro in self._order if distro != self.distro)
 
     @cached_property
     def _order(self) -> tuple[str, ...]:
-        """Return all distributions that there is an index of, oldest first."""
+        """All distributions with an index, oldest first."""
         return tuple(distro.name for distro in distros(self._store.places))
 
     def _index(self, distro: str) -> Index:
         return self.index if distro == self.distro else next(other for other in self.others if other.distro == distro)
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
-        """Return the other distributions that have a package, oldest first."""
+        """Return the other distributions that contain a package, oldest first."""
         return tuple(other.distro for other in self._where(name))
 
     def _where(self, name: str) -> tuple[Index, ...]:
@@ -144,17 +145,17 @@ class Knowledge:
         return having
 
     def offered_elsewhere(self, package: str, offer: Offer, name: str) -> bool:
-        """Return whether a package may offer a name in one of the other distributions that have it."""
+        """Return whether a package may provide a name in one of the other distributions that contain it."""
         return any(known.ask(name) != "missing" for known in self.known_elsewhere(package, offer))
 
     def known_elsewhere(self, package: str, offer: Offer) -> tuple[Known, ...]:
-        """Return what is known of one side of a package in each of the other distributions that have it."""
+        """Return the names that a package provides in each of the other distributions that contain it."""
         return tuple([self._provided(other.distro, package, offer) for other in self._where(package)])
 
     def brings_elsewhere(self, package: str, name: str) -> bool | None:
-        """Return whether a name comes along with a package in any of the other distributions that have it.
+        """Return whether a package provides a dependency transitively in another distribution.
 
-        None when none has it, or when the name means nothing there.
+        None if no other distribution contains the package, or if the name is unknown there.
         """
         having = self._where(package)
         if not having or not (name in self.rosdep or any(other in having for other in self._where(name))):
@@ -162,7 +163,7 @@ class Knowledge:
         if package not in self._elsewhere:
             found = set().union(*(other.brought((package,)).names for other in having))
             queue = list(found)
-            for each in queue:  # a key brings keys
+            for each in queue:  # # a key provides keys
                 new = [key for key in self.names.brought(each) if key not in found]
                 found.update(new)
                 queue += new
@@ -170,18 +171,19 @@ class Knowledge:
         return name in self._elsewhere[package]
 
     def comes_elsewhere(self, packages: Collection[str], name: str) -> bool:
-        """Return whether a package comes along with any of others in one of the other distributions that have it."""
+        """Return whether another distribution has ``name`` in the closure of any of ``packages``."""
         return any(name in other.brought(packages) for other in self._where(name))
 
     @property
     def active(self) -> tuple[str, ...]:
-        """Return the active distributions, those that there is an index of, oldest first."""
+        """Active distributions with an index, oldest first."""
         return self._order
 
     def rosdep_resolves(self, name: str, distro: str) -> bool:
-        """Return whether ``rosdep install`` resolves a name for a distribution: as a released package, or as a key.
+        """Return whether ``rosdep install`` resolves a name, as a released package or as a key.
 
-        ``distro`` is an active distribution or this one. A key counts where nothing is known of the platforms.
+        ``distro`` is an active distribution or this one. A key counts if the platforms of the distribution are
+        unknown.
         """
         if self._index(distro).releases(name):
             return True
@@ -189,7 +191,7 @@ class Knowledge:
 
     @property
     def platform(self) -> str:
-        """Return the first platform of the distribution, such as "ubuntu:noble", or "" when it is not known."""
+        """First platform of the distribution, such as "ubuntu:noble", or "" if unknown."""
         return next(iter(PLATFORMS.get(self.distro, ())), "")
 
     def resolving(self, key: str) -> tuple[str, ...]:
@@ -198,5 +200,5 @@ class Knowledge:
         return tuple(distro.name for distro in known if self.rosdep.resolves(key, distro.name))
 
     def resolves(self, key: str) -> bool | None:
-        """Return whether a rosdep key has a rule for a platform of the distribution: None when that is not known."""
+        """Return whether a rosdep key has a rule for a platform of the distribution; None if unknown."""
         return self.rosdep.resolves(key, self.distro)

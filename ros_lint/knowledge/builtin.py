@@ -1,13 +1,13 @@
-"""Names that come with the language or the build tool, so that no package has to be declared for them."""
+"""Names provided by the language or the build tool, for which no package has to be declared."""
 
 from __future__ import annotations
 
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
 
 _APART = frozenset({"tkinter"})
-"""Modules that Debian and Ubuntu leave out of Python, for who wants them to install."""
+"""Modules that Debian and Ubuntu ship in separate packages."""
 PYTHON_MODULES = STANDARD_LIBRARY - _APART
-"""Top-level modules of Python's standard library, of any version from 3.10 to 3.14, as far as they come with it."""
+"""Top-level modules of Python's standard library in any version from 3.10 to 3.14, without ``_APART``."""
 
 _CMAKE_MODULES = """
 ALSA ASPELL AVIFile Armadillo BISON BLAS BZip2 Backtrace Boost Bullet CABLE CUDA CUDAToolkit CURL CVS Coin3D Cups
@@ -23,7 +23,7 @@ osgDB osgFX osgGA osgIntrospection osgManipulator osgParticle osgPresentation os
 osgTerrain osgText osgUtil osgViewer osgVolume osgWidget osg_functions
 """
 CMAKE_MODULES = frozenset(_CMAKE_MODULES.split())
-"""Find modules of CMake (3.25 and 4.4; reference, section C2a). Many look for a library that is a rosdep key."""
+"""Find modules of CMake 3.25 and 4.4. Many of them search for a library that is a rosdep key."""
 
 _CXX_HEADERS = """
 algorithm any array atomic barrier bit bitset cassert ccomplex cctype cerrno cfenv cfloat charconv chrono cinttypes
@@ -47,8 +47,8 @@ unistd.h unwind.h utime.h utmp.h utmpx.h values.h wait.h wordexp.h windows.h Win
 ws2tcpip.h io.h direct.h process.h tchar.h intrin.h conio.h psapi.h shlwapi.h
 """
 CXX_HEADERS = frozenset(_CXX_HEADERS.split())
-"""Headers of the C and C++ standard libraries, of POSIX, the C library of GNU, compilers and Windows."""
+"""Headers of the C and C++ standard libraries, POSIX, glibc, compilers and Windows."""
 
 _FOLDERS = "sys linux net netinet netpacket arpa asm asm-generic bits gnu rpc scsi experimental ext parallel tr1 mach"
 SYSTEM_HEADER_FOLDERS = frozenset(_FOLDERS.split())
-"""First segments of headers that come with a C or C++ tool chain."""
+"""First folders of headers that a C or C++ tool chain provides."""

@@ -1,7 +1,7 @@
-"""What comes along with what: transitive closures over the names of packages, each computed once.
+"""Transitive closures over the names of packages, each computed once.
 
-Sets are bits of one integer. A workspace of 850 packages asks for 850 closures of some hundred names each, which as
-sets of strings would take as long as reading every file of it.
+A set is an integer with a bit for each name. A workspace of 850 packages needs 850 closures of some hundred names;
+as sets of strings they would take as long as reading all its files.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Closure:
-    """Names that come along with some names, these included. ``x in closure`` costs no more than in a set."""
+    """Names with all names that they provide transitively. ``x in closure`` is as fast as in a set."""
 
     __slots__ = ("_bits", "_reach")
 
@@ -36,24 +36,24 @@ class Closure:
         return frozenset(self._reach.expand(self._bits))
 
     def less(self, other: Closure) -> Iterator[str]:
-        """Yield the names that another closure of the same graph does not have."""
+        """Yield the names that another closure of the same graph lacks."""
         return self._reach.expand(self._bits & ~other._bits)
 
     @property
     def complete(self) -> bool:
-        """Return whether no other name can come along: what each of them brings is known."""
+        """True if the dependencies of each name are known, so that no name is missing."""
         return not self._bits & self._reach.unknown
 
     @property
     def unknown(self) -> tuple[str, ...]:
-        """Return the names of which nobody knows what they bring, sorted."""
+        """Names whose dependencies are unknown, sorted."""
         return tuple(sorted(self._reach.expand(self._bits & self._reach.unknown)))
 
 
 class Reach:
-    """The graph of what brings what.
+    """The graph of names and the names that they provide.
 
-    ``brings`` returns the names that come along with a name: None when nobody knows.
+    ``brings`` returns the names that a name provides directly, None if unknown.
     """
 
     def __init__(self, brings: Callable[[str], tuple[str, ...] | None]) -> None:
@@ -65,7 +65,7 @@ class Reach:
         self.unknown = 0
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return all names that come along with any of these, and these."""
+        """Return the given names with all names that they provide transitively."""
         bits = 0
         for name in names:
             found = self._bits.get(name)
@@ -73,9 +73,9 @@ class Reach:
         return Closure(self, bits)
 
     def closure_without(self, names: Iterable[str], changed: str, gone: Container[str]) -> Closure:
-        """Return the closure of names as it would be if one name did not bring some of the others itself.
+        """Return the closure of names as if ``changed`` did not itself provide the names in ``gone``.
 
-        What does not lead to that one brings what it always does.
+        Names that do not lead to ``changed`` keep their closure.
         """
         waiting = list(names)
         whole = self.closure(waiting)
@@ -95,16 +95,16 @@ class Reach:
         return Closure(self, bits)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
-        """Return a shortest way from one of the names to another, both ends included: empty when there is none.
+        """Return a shortest path from one of ``starts`` to ``goal``, both ends included, or ().
 
-        Of several the one whose names were given first, as starts or by ``brings``.
+        Of several paths, the order of ``starts`` and of ``brings`` decides.
         """
         begin = tuple(dict.fromkeys(starts))
         if goal in begin:
             return (goal,)
         if goal not in self.closure(begin):
             return ()
-        # Only what leads to the goal is on a way to it, which its closure tells.
+        # Only names whose closure contains the goal are on a path to it.
         number = self.numbers[goal]
         came = {name: "" for name in begin if self._bits[name] >> number & 1}
         queue = list(came)
@@ -122,7 +122,7 @@ class Reach:
         return ()
 
     def expand(self, bits: int) -> Iterator[str]:
-        """Yield the names that the bits stand for."""
+        """Yield the names of the set bits."""
         while bits:
             lowest = bits & -bits
             yield self._names[lowest.bit_length() - 1]
@@ -140,7 +140,7 @@ class Reach:
         return found
 
     def _explore(self, root: str) -> int:
-        """Find the closures of everything below a name. Names in a circle share one (Tarjan, without recursion)."""
+        """Compute the closures of everything below a name. Names in a cycle share one (Tarjan, iterative)."""
         done = self._bits
         low: dict[str, int] = {}
         order: dict[str, int] = {}

@@ -1,4 +1,4 @@
-"""From a manifest to the line of a distribution."""
+"""From a manifest to a line of the index."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 def context(distro: str) -> Mapping[str, str]:
-    """Return the variables that are known when a package is released (bloom; reference, section A3.3)."""
+    """Return the variables of conditions that are known when bloom releases a package."""
     return {**ROS_2, "ROS_DISTRO": distro}
 
 
 def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released:
-    """Return what a manifest says of a package when other variables of conditions are empty, as all tools take them.
+    """Return the index entry of a manifest; unknown variables in conditions are empty, as in all tools.
 
-    The name may differ from that of the folder or of the release.
+    The name may differ from the name of the folder or of the release.
     """
     depends: dict[str, set[str]] = {}
     interfaces = False
@@ -46,7 +46,7 @@ def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released
 
 
 def holds(condition: str, variables_known: Mapping[str, str]) -> bool:
-    """Return whether a condition holds when every other variable is empty. One that does not parse holds."""
+    """Return whether a condition holds if unknown variables are empty. An invalid condition holds."""
     if not condition:
         return True
     try:

@@ -1,8 +1,8 @@
-"""The packages of a distribution: one line each, read and written here (``.idx``; docs/knowledge.md).
+"""The packages of a distribution, one line each, and their format (``.idx``; docs/knowledge.md).
 
-A line is ``name, version, flags, repository`` and then one field for every set of kinds that a dependency has::
+A line is ``name, version, flags, repository``, then a field for each set of kinds that a dependency has.
 
-    rclcpp_action<TAB>28.1.9<TAB>c<TAB>rclcpp<TAB>bex:action_msgs rclcpp<TAB>s:ament_lint_auto<TAB>t:ament_cmake_ros
+Example: ``rclcpp_action<TAB>28.1.9<TAB>c<TAB>rclcpp<TAB>bex:action_msgs rclcpp<TAB>t:ament_cmake_ros``
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 KINDS = "bteuxsd"
-"""Build, buildtool, build_export, buildtool_export, exec, test, doc: in the order in which they stand in a set."""
+"""Build, buildtool, build_export, buildtool_export, exec, test, doc: in their order in a set."""
 
 RUNTIME = frozenset("eux")
-"""Kinds that come along with a package to whoever depends on it (reference, section E3.3)."""
+"""Kinds of dependencies that a package passes on to its dependents."""
 
 BUILD_TYPES: Mapping[str, str] = {
     "c": "ament_cmake",
@@ -41,39 +41,42 @@ class Released(NamedTuple):
     name: str
     version: str
     flags: str
-    """After the letter of the build type: i interface package, m metapackage, D deprecated, E repository at its end
-    of life, U listed but not released, ``-`` nothing known but the name, ``~`` dependencies may be older."""
+    """Letter of the build type, followed by flags.
+
+    i interface package, m metapackage, D deprecated, E repository at its end of life, U listed but not released,
+    ``-`` only the name is known, ``~`` dependencies may be of an older version.
+    """
     repository: str
     depends: Mapping[str, tuple[str, ...]]
-    """Sorted names by letter: those of KINDS, ``M`` groups it is a member of, ``G`` groups it depends on."""
+    """Sorted names by letter: the letters of KINDS, ``M`` for its groups, ``G`` for groups it depends on."""
 
     @property
     def build_type(self) -> str:
-        """Return ament_cmake, ament_python, cmake ..., or "" when it is not known."""
+        """Build type: ament_cmake, ament_python, cmake ..., or "" if unknown."""
         return BUILD_TYPES.get(self.flags[:1], "")
 
     @property
     def described(self) -> bool:
-        """Return whether its dependencies are known."""
+        """True if the dependencies are known."""
         return not {"-", "U"} & set(self.flags)
 
     @property
     def interfaces(self) -> bool:
-        """Return whether it generates messages, services or actions."""
+        """True if the package generates messages, services or actions."""
         return "i" in self.flags[1:]
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Return the groups that it is a member of, that of interface packages included."""
+        """Groups that the package is a member of, including the group of interface packages."""
         return (*self.depends.get("M", ()), *((GROUP,) if self.interfaces else ()))
 
     def on(self, kinds: Iterable[str]) -> tuple[str, ...]:
-        """Return the names that it depends on by any of the kinds, sorted."""
+        """Return the dependencies of any of the kinds, sorted."""
         return tuple(sorted({name for kind in kinds for name in self.depends.get(kind, ())}))
 
 
 def parse(fields: list[str]) -> Released:
-    """Return the package of a line that has been split at its tabs. Raises ValueError when it is none."""
+    """Return the package in a line, given its tab-separated fields. Raises ValueError if they are invalid."""
     name, version, flags, *rest = fields
     repository, *sets = rest or [""]
     depends: dict[str, tuple[str, ...]] = {}
@@ -88,7 +91,7 @@ def parse(fields: list[str]) -> Released:
 
 
 def render(package: Released) -> str:
-    """Return the line of a package, without line end. The inverse of :func:`parse` but for the order of names."""
+    """Return the line of a package, without line end. The inverse of :func:`parse`, except for the order."""
     kinds_of: dict[str, str] = {}
     for kind in KINDS:
         for name in package.depends.get(kind, ()):
@@ -99,7 +102,7 @@ def render(package: Released) -> str:
     for group in "MG":
         if found := package.depends.get(group):
             names_of[group] = sorted(found)
-    # <depend> comes first, because it is what most look-ups are after.
+    # <depend> comes first because most look-ups need it.
     order = sorted(names_of, key=lambda kinds: (kinds != "bex", kinds))
     sets = [f"{kinds}:{' '.join(names_of[kinds])}" for kinds in order]
     repository = "" if package.repository == package.name else package.repository
@@ -107,7 +110,7 @@ def render(package: Released) -> str:
 
 
 def render_file(distro: str, commit: str, date: str, packages: Iterable[Released]) -> str:
-    """Return a whole ``.idx`` file. ``date`` is that of the data, as in 2026-08-22."""
+    """Return the contents of an ``.idx`` file. ``date`` is the date of the data, as in 2026-08-22."""
     lines = sorted(render(package) for package in packages)
     head = f"#ros-index 1 distro={distro} rosdistro={commit or 'unknown'} date={date} packages={len(lines)}"
     return "\n".join([head, *lines, ""])
@@ -125,14 +128,14 @@ class Index(Entries[Released]):
         self._reach = Reach(self.runtime)
 
     def releases(self, name: str) -> bool:
-        """Return whether a package has a release, and is not merely listed with its repository."""
+        """Return whether a package has a release, rather than only an entry in its repository."""
         row = self._table.row(name)
         return row is not None and (len(row) < 3 or "U" not in row[2])
 
     def members(self, group: str) -> Iterator[str]:
         """Yield the members of a group, sorted."""
-        # Few lines name a group, and taking all of them apart would take long.
-        # Membership of interface packages is the flag i and no group, since a sixth of all packages has it.
+        # Few lines name a group, and parsing all of them takes long. Membership in the group of interface packages is
+        # the flag i, because a sixth of all packages has it.
         lines = self._table.lines() if group == GROUP else self._grouped
         for line in lines:
             if group == GROUP or group in line:
@@ -142,11 +145,11 @@ class Index(Entries[Released]):
 
     @cached_property
     def _grouped(self) -> list[str]:
-        """The lines of packages that say that they are members of groups."""
+        """Lines of packages that are members of groups."""
         return [line for line in self._table.lines() if "\tM:" in line]
 
     def declared_as(self, name: str) -> Mapping[str, int]:
-        """Return by how many packages a name is declared with each set of kinds, such as {"t": 12, "bex": 1}."""
+        """Return the number of packages that declare a name with each set of kinds: {"t": 12, "bex": 1}."""
         found: dict[str, int] = {}
         for kinds in self._declared.get(name, ()):
             found[kinds] = found.get(kinds, 0) + 1
@@ -154,7 +157,7 @@ class Index(Entries[Released]):
 
     @cached_property
     def _declared(self) -> Mapping[str, list[str]]:
-        """The sets of kinds by name, one for each package that declares it: 7 ms for all, 0.3 ms for one alone."""
+        """Sets of kinds by name, one for each package that declares it: 7 ms for all names, 0.3 ms for one."""
         found: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
             for field in line.split("\t")[4:]:
@@ -165,7 +168,10 @@ class Index(Entries[Released]):
         return found
 
     def bringing(self, name: str, most: int) -> int:
-        """Return how many packages bring a name along, at any distance; any number above ``most`` stands for more."""
+        """Return the number of packages that provide a name transitively.
+
+        Counting stops above ``most``.
+        """
         found = {name}
         queue = [name]
         for each in queue:
@@ -186,20 +192,20 @@ class Index(Entries[Released]):
         return found
 
     def brought(self, names: Iterable[str]) -> Closure:
-        """Return all that comes along with packages, at any distance, and these."""
+        """Return packages with all names that they provide transitively."""
         return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:
-        """Return what comes along with a package, without names of groups: None when that is not known.
+        """Return the names that a package provides directly, without groups; None if unknown.
 
-        Much faster than :meth:`get`, for it takes no other field apart.
+        This is much faster than :meth:`get`, because it parses no other field.
         """
         row = self._table.row(name)
         return None if row is None else _runtime(row)
 
 
 def _runtime(row: list[str]) -> tuple[str, ...] | None:
-    """Return what comes along with the package of a line that has been split at its tabs: None when that is not known."""
+    """Return the names that a package provides directly, given its fields; None if unknown."""
     if len(row) < 3 or "-" in row[2] or "U" in row[2]:
         return None
     found: list[str] = []
@@ -214,9 +220,9 @@ _HEAD = re.compile(r"(\w+)=(\S+)")
 
 
 def load(store: Store, distro: str) -> Index:
-    """Return the index of a distribution: empty, and without date, when there is none.
+    """Return the index of a distribution: empty and without date if there is none.
 
-    Raises KnowledgeError when the file is damaged.
+    Raises KnowledgeError if the file is damaged.
     """
     if not re.fullmatch(r"[a-z][a-z0-9_]*", distro):
         return Index(distro, "", Table([]))

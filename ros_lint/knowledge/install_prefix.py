@@ -1,6 +1,6 @@
-"""One install prefix, as ament, colcon and setuptools leave it (reference, sections B4.8 and C5).
+"""Read one install prefix, with the layouts of ament, colcon and setuptools.
 
-Nothing raises for what is missing or unreadable: a prefix is other people's, and half of one is still worth reading.
+Missing and unreadable files never raise, because an incomplete prefix is still useful.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ _LAUNCH_CONTENT = {
 }
 _LAUNCH_CONTENT[".yml"] = _LAUNCH_CONTENT[".yaml"]
 _CONFIGURATION = re.compile(r"(.+)(?:Config|-config)\.cmake")
-"""The file by which find_package() finds a CMake package in configuration mode."""
+"""The file with which find_package() finds a CMake package in config mode."""
 _NO_MODULES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
 class InstallPrefix:
-    """An install prefix: a folder of a tree. ``single`` tells that all of it belongs to its one package."""
+    """An install prefix: a folder of a tree. ``single`` is True if all of it belongs to its only package."""
 
     def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
         self._tree = tree
@@ -42,7 +42,7 @@ class InstallPrefix:
         self.single = single
 
     def alone(self) -> InstallPrefix:
-        """Return the same prefix as that of one package, if it has one."""
+        """Return the same prefix, marked as the prefix of a single package if it contains only one."""
         return InstallPrefix(self._tree, self.root, single=len(self.packages) == 1)
 
     def read(self, path: str) -> bytes | None:
@@ -54,24 +54,27 @@ class InstallPrefix:
 
     @property
     def layout(self) -> str:
-        """Return "isolated" or "merged" as colcon marks it, else ""."""
+        """Layout of the prefix as marked by colcon, "isolated" or "merged", else ""."""
         return (self.read(".colcon_install_layout") or b"").decode("ascii", "replace").strip()
 
     @property
     def indexed(self) -> bool:
-        """Return whether there is an ament index, even an empty one."""
+        """True if there is an ament index, even an empty one."""
         return self._is_there("share/ament_index")
 
     @cached_property
     def packages(self) -> tuple[str, ...]:
-        """Return the packages, sorted: those with a manifest, and those that only ament's or colcon's index knows."""
+        """Packages with a manifest or an entry in the index of ament or colcon, sorted."""
         found = {name for name, _ in self._list("share") if self._is_there(f"share/{name}/package.xml")}
         found.update(name for name, _ in self._list(f"{_INDEX}/packages"))
         found.update(name for name, _ in self._list("share/colcon-core/packages"))
         return tuple(sorted(found))
 
     def recorded_dependencies(self, package: str) -> tuple[str, ...] | None:
-        """Return the run dependencies recorded at build time, sorted, or None. Ament's include those for tests."""
+        """Return the run dependencies recorded at build time, sorted, or None.
+
+        Those recorded by ament include test dependencies.
+        """
         by_ament = f"{_INDEX}/package_run_dependencies/{package}"
         by_colcon = f"share/colcon-core/packages/{package}"
         for path, separator in ((by_ament, ";"), (by_colcon, ":")):
@@ -81,9 +84,9 @@ class InstallPrefix:
         return None
 
     def executables(self, package: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the names in lib/<package> that can be run, and those that lead nowhere, each sorted.
+        """Return the executables in lib/<package>, and the broken links there, each sorted.
 
-        Only what lies directly there: launch does not look deeper (reference, section D5.2).
+        Subfolders are left out because launch_ros does not search them.
         """
         found, broken = [], []
         for name, kind in self._list(f"lib/{package}"):
@@ -97,7 +100,7 @@ class InstallPrefix:
 
     @property
     def programs(self) -> tuple[str, ...]:
-        """Return the names in bin, sorted."""
+        """Names of programs in bin, sorted."""
         return tuple(name for name, kind in self._list("bin") if kind == "file")
 
     def share_files(self, package: str) -> tuple[str, ...]:
@@ -107,7 +110,7 @@ class InstallPrefix:
     def launch_files(self, package: str) -> tuple[str, ...]:
         """Return the launch files below share/<package>, relative to it, sorted.
 
-        By the names that ``ros2 launch`` offers, or by what they begin with (reference, section G1.3).
+        A launch file has a name that ``ros2 launch`` completes, or the contents of a launch file.
         """
         return tuple(path for path in self.share_files(package) if self._is_launch(package, path))
 
@@ -121,13 +124,13 @@ class InstallPrefix:
         found = set()
         for line in self._resource("rosidl_interfaces", package):
             name, _, suffix = line.strip().rpartition(".")
-            # srv/Name_Request.msg is made from srv/Name.srv.
+            # srv/Name_Request.msg is generated from srv/Name.srv.
             if suffix in (name.partition("/")[0], "idl"):
                 found.add(name)
         return tuple(sorted(found))
 
     def plugins(self, package: str) -> tuple[str, ...]:
-        """Return the pluginlib plugins as base=class, where class is the name that a loader is given, sorted."""
+        """Return the pluginlib plugins as base=class, sorted; class is the look-up name of the plugin."""
         found: set[str] = set()
         for resource, _ in self._list(_INDEX):
             if resource.endswith(_PLUGINS):
@@ -138,7 +141,7 @@ class InstallPrefix:
 
     @cached_property
     def modules(self) -> Mapping[str, tuple[str, ...]]:
-        """Return the top-level Python modules, each with the packages that it belongs to as far as that can be told."""
+        """Top-level Python modules, with the packages that they belong to, as far as known."""
         found: dict[str, tuple[str, ...]] = {}
         for folder in self._python_folders():
             entries = self._list(folder)
@@ -158,18 +161,18 @@ class InstallPrefix:
         return found
 
     def header_owners(self, path: str) -> tuple[str, ...]:
-        """Return the packages that install a header, in include/ or include/<package>/ (reference, section E3.8)."""
+        """Return the packages that install a header in include/ or include/<package>/."""
         first = path.partition("/")[0]
         if self.single:
             (package,) = self.packages
             return (package,) if any(self._is_there(f"include/{at}{path}") for at in ("", f"{package}/")) else ()
-        # Most packages are called as their headers; the others are looked for in the folders of all.
+        # Most packages are named like the folder of their headers; other headers are searched for in all folders.
         if first in self.packages and any(self._is_there(f"include/{at}{path}") for at in (f"{first}/", "")):
             return (first,)
         return tuple(name for name in self._include_folders.get(first, ()) if self._is_there(f"include/{name}/{path}"))
 
     def cmake_names(self) -> Iterator[tuple[str, str]]:
-        """Yield the name of every CMake package and the package that installs it."""
+        """Yield the name of each CMake package with the package that installs it."""
         for package in self.packages:
             places = [f"share/{package}/cmake"]
             if self.single:
@@ -179,7 +182,7 @@ class InstallPrefix:
 
     @cached_property
     def _include_folders(self) -> Mapping[str, tuple[str, ...]]:
-        """First segments of header paths in include/<package>/, with the packages."""
+        """First folders of header paths in include/<package>/, with the packages."""
         found: dict[str, tuple[str, ...]] = {}
         for package, kind in self._list("include"):
             if kind == "directory" and package in self.packages:
@@ -231,7 +234,7 @@ class InstallPrefix:
     def _walk(self, folder: str, inside: str, above: frozenset[object] = frozenset()) -> Iterator[str]:
         identity = self._tree.identity(join(self.root, folder))
         if identity in above:
-            return  # a link that leads back up
+            return  # # a link to a parent folder
         for name, kind in self._list(folder):
             if kind == "directory":
                 yield from self._walk(f"{folder}/{name}", f"{inside}{name}/", above | {identity})
@@ -239,7 +242,7 @@ class InstallPrefix:
                 yield f"{inside}{name}"
 
     def _list(self, path: str) -> list[tuple[str, Kind]]:
-        """Return names and kinds of what lies in a folder, sorted: nothing for a folder that is not there."""
+        """Return the names and kinds of the entries of a folder, sorted; empty if the folder is missing."""
         try:
             return [(name, kind) for name, kind, _ in self._tree.list(join(self.root, path))]
         except OSError:

@@ -1,7 +1,7 @@
-"""Names that differ from space to space: Python modules, headers and CMake packages to ROS packages and rosdep keys.
+"""Map names of Python modules, headers and CMake packages to ROS packages and rosdep keys.
 
-Every look-up gives the names of what provides it, best first. Whether those exist in the distribution at hand, and
-whether they are packages or keys, is for the caller to find out: the maps serve all distributions (docs/knowledge.md).
+Each look-up returns the names of providers, best first. The caller checks whether these exist in a distribution and
+whether they are packages or keys, because the maps serve all distributions (docs/knowledge.md).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.store import Store, Table
 
 NOTHING_NEEDED = "-"
-"""Stands in a map for a name that comes with the tool chain."""
+"""Value in a map for a name that the tool chain provides."""
 
 END_OF_LIFE: Mapping[str, str] = {
     "i": "ROS 2 Iron",
@@ -33,29 +33,31 @@ END_OF_LIFE: Mapping[str, str] = {
     "M": "ROS 1 Melodic",
     "K": "ROS 1 Kinetic",
 }
-"""Distributions at their end of life, as the letters of the data stand for them: those of ROS 2 first, each newest first."""
+"""Distributions at their end of life by letter in the data: ROS 2 first, each newest first."""
 
 
 def has_ended(distro: str) -> bool:
-    """Whether a distribution is at its end of life: "foxy"."""
+    """Return whether a distribution, such as "foxy", is at its end of life."""
     return any(name.endswith(f" {distro.capitalize()}") for name in END_OF_LIFE.values())
 
 
 _NO_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
-"""Parts of the names of rosdep keys that say nothing."""
+"""Parts of the names of rosdep keys that are not significant."""
 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
-"""Each of these is one package's top-level module and a word that any folder of anybody may be called."""
+"""Top-level modules of one package that are also common names of folders."""
 
 _SAME_MACROS: Mapping[str, tuple[str, ...]] = {
     "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators", "rosidl_cmake"),
 }
-"""Packages whose macros others have, too: the second of these is what the messages use that the first depends on, the third
-what the tests of single generators use."""
+"""Packages whose macros other packages provide, too.
+
+The second is what messages use that the first depends on; the third is used in tests of single generators.
+"""
 
 
 class Names:
-    """The maps. Raises KnowledgeError from any look-up when a data file is damaged."""
+    """The name maps. Each look-up raises KnowledgeError if a data file is damaged."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
@@ -63,27 +65,30 @@ class Names:
         self._unseen: dict[str, bool] = {}
 
     def cmake(self, name: str) -> tuple[str, ...]:
-        """Return what provides a name of find_package, where names differ: ROS packages and keys, any of which will do.
+        """Return the providers of a name in find_package() that have another name: ROS packages and keys.
 
-        ``("-",)`` is a module that needs nothing.
+        Any of them suffices. ``("-",)`` is a module of CMake that needs no package.
         """
         found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
         return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
 
     def alternatives(self, package: str) -> tuple[str, ...]:
-        """Return what provides the same to CMake as a package does, this included: a vendor package and the key it stands for."""
+        """Return the packages that provide the same for CMake, including ``package``.
+
+        Example: a vendor package and the key of its library.
+        """
         return self._alternatives.get(package, (package,))
 
     def exports_targets(self, package: str) -> bool:
-        """Return whether a released package with libraries is known to export them as targets, in ``<package>_TARGETS``."""
+        """Return whether a released package is known to export its libraries in ``<package>_TARGETS``."""
         return package in self._targets
 
     def cmake_sure(self, name: str) -> bool:
-        """Return whether those that find a name also declare what :meth:`cmake` gives, as a rule."""
+        """Return whether packages that find a name usually declare a result of :meth:`cmake`."""
         return name not in self._doubted("cmake_system.tsv")
 
     def header_sure(self, path: str) -> bool:
-        """Return whether those that include a header also declare what :meth:`header` gives, as a rule."""
+        """Return whether packages that include a header usually declare a result of :meth:`header`."""
         ros, doubted = self._include_ros, self._doubted("include_system.tsv")
         for prefix in _prefixes(path):
             if prefix in ros or prefix in self._include_system:
@@ -91,13 +96,13 @@ class Names:
         return False
 
     def cmake_any_case(self, name: str) -> tuple[str, ...]:
-        """Return what provides a name of find_package whose capitals are not known, such as opencv."""
+        """Return the providers of a name in find_package(), case-insensitively, such as opencv."""
         return self._cmake_lower.get(name.lower(), ())
 
     def header(self, path: str) -> tuple[str, ...]:
-        """Return what provides a header by the longest prefix known: ROS packages and keys, any of which will do.
+        """Return the providers of a header by its longest known prefix: ROS packages and keys.
 
-        ``path`` is as written between the brackets. ``("-",)`` is a header of the tool chain.
+        Any of them suffices. ``path`` is as written between the brackets. ``("-",)`` is a header of the tool chain.
         """
         if path in CXX_HEADERS or path.partition("/")[0] in SYSTEM_HEADER_FOLDERS:
             return (NOTHING_NEEDED,)
@@ -113,26 +118,26 @@ class Names:
         return ()
 
     def folder(self, name: str) -> tuple[str, ...]:
-        """Return what libraries that are no packages of ROS are called by whose headers lie in a folder, as opencv2, best first.
+        """Return the rosdep keys of the library with headers in a folder, such as opencv2, best first.
 
-        None of those that :meth:`header_sure` has doubts of.
+        Uncertain ones, see :meth:`header_sure`, are left out.
         """
         prefix = f"{name}/"
         return () if prefix in self._doubted("include_system.tsv") else self._include_system.get(prefix, ())
 
     def maps(self, folder: str) -> bool:
-        """Return whether anything but the folder's own name may tell whose the headers below it are."""
+        """Return whether the owner of headers below a folder may differ from the folder's name."""
         return folder in self._mapped_folders or folder in SYSTEM_HEADER_FOLDERS or folder in self._shared_folders
 
     def shares(self, folder: str) -> bool:
-        """Return whether several packages install headers below a folder, so that its name tells no package."""
+        """Return whether several packages install headers below a folder, so that its name is ambiguous."""
         return folder in self._shared_folders
 
     def module(self, module: str) -> tuple[str, ...]:
         """Return the rosdep keys that provide a Python module, best first. ``("-",)`` is the standard library.
 
-        ``module`` may be dotted. A key counts when the name of what it installs speaks for it, or its declaration
-        together with the import, or a hand; names seen in another distribution's files alone do not.
+        ``module`` may be dotted. The evidence for a key is the name of its system package, its declaration by
+        packages with the import, or a manual entry; names in the files of another distribution do not suffice.
         """
         top, _, rest = module.partition(".")
         if top in PYTHON_MODULES:
@@ -149,17 +154,20 @@ class Names:
         return tuple(package for package, distros in self._py_ros.get(top, ()) if distro in distros)
 
     def successor(self, name: str) -> str:
-        """Return what does in ROS 2 what a package did in ROS 1, or ""."""
+        """Return the ROS 2 successor of a ROS 1 package, or ""."""
         return self._successors.get(name, "")
 
     def end_of_life(self, name: str) -> tuple[str, ...]:
-        """Return the distributions at their end of life that had a package which no active one has, newest first."""
+        """Return the distributions at their end of life with a package that no active one has, newest first."""
         row = self._eol.row(name)
         letters = row[1] if row and len(row) > 1 else ""
         return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
-        """Return words of which one stands in whatever uses a rosdep key: of its name, of headers, modules and for CMake."""
+        """Return words of which each use of a rosdep key contains one.
+
+        They come from the names of the key, its headers, modules and CMake packages.
+        """
         parts = re.findall(r"[a-z0-9]+", key.lower())
         words = [part.removeprefix("lib") for part in parts if part not in _NO_WORDS and not part.isdigit()]
         return tuple(dict.fromkeys([*words, *self._called.get(key, ())])) or (key,)
@@ -174,18 +182,18 @@ class Names:
         return found
 
     def brought(self, key: str) -> tuple[str, ...]:
-        """Return the rosdep keys that come along with a key, for its package depends on theirs; not what these bring."""
+        """Return the rosdep keys that a key provides directly, through dependencies of its system package."""
         return self._brings.get(key, ())
 
     def works_unseen(self, package: str) -> bool:
-        """Return whether a package does its work without being named by those that need it, going by its name."""
+        """Return whether the use of a package leaves no trace in its dependents, by the package's name."""
         found = self._unseen.get(package)
         if found is None:
             found = self._unseen[package] = self._unseen_pattern.match(package) is not None
         return found
 
     def sounds_like_macros(self, package: str) -> bool:
-        """Return whether it is CMake macros by which a package does its work unseen, going by its name."""
+        """Return whether the use of a package leaves no trace because it provides CMake macros, by its name."""
         return self._macros_pattern.match(package) is not None
 
     @cached_property
@@ -224,7 +232,7 @@ class Names:
 
     @cached_property
     def _include_ros(self) -> Mapping[str, tuple[str, ...]]:
-        # A lone file such as ros_utils.h may be anybody's.
+        # A file without a folder, such as ros_utils.h, may belong to any package.
         return {prefix: names for prefix, names in self._map("include_ros.tsv").items() if "/" in prefix}
 
     @cached_property
@@ -237,7 +245,7 @@ class Names:
 
     @cached_property
     def _mapped_folders(self) -> frozenset[str]:
-        """First folders, and lone files, of which a map says something."""
+        """First folders, and files without folders, that a map contains."""
         return frozenset([prefix.partition("/")[0] for names in (self._include_ros, self._include_system) for prefix in names])
 
     @cached_property
@@ -277,7 +285,7 @@ class Names:
         return self._store.table("eol_names.tsv")[1]
 
     def _doubted(self, file: str) -> frozenset[str]:
-        """Return the names of a map that only a hand has put there, or that most users do not declare."""
+        """Return the names of a map that are manual entries, or that most users do not declare."""
         found = self._doubts.get(file)
         if found is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])
@@ -296,7 +304,7 @@ class Names:
 
 
 def _prefixes(path: str) -> list[str]:
-    """Return what a map may know of a header, longest first: a/b/c.h, a/b/, a/b, a/, a."""
+    """Return the possible entries of a header in a map, longest first: a/b/c.h, a/b/, a/b, a/, a."""
     found = [path]
     at = len(path)
     while (at := path.rfind("/", 0, at)) > 0:

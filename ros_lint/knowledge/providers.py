@@ -1,6 +1,6 @@
-"""Whose name is it: from a header, a Python module, a CMake package or a wrong name to what can be declared.
+"""Resolve a header, a Python module, a CMake package or a wrong name to names that can be declared.
 
-The order is always workspace, underlay, index of the distribution, maps (reference, sections C2, D6, E3.8).
+The order of look-ups is always: workspace, underlays, index of the distribution, name maps.
 """
 
 from __future__ import annotations
@@ -22,66 +22,71 @@ if TYPE_CHECKING:
 
 
 Layer = Literal["workspace", "underlay", "index"]
-"""Where a package is taken from: the topmost layer that has it."""
+"""Origin of a package: the topmost layer that contains it."""
 
 
 class Providers(NamedTuple):
-    """Who provides a header, a module or a CMake package.
+    """The providers of a header, a module or a CMake package.
 
-    Any one of ``names`` satisfies the use when it is declared.
+    The declaration of any one of ``names`` satisfies the use.
     """
 
     names: tuple[str, ...] = ()
-    """Packages and keys, the one to declare first."""
+    """Packages and keys; the first is the one to declare."""
     packages: tuple[str, ...] = ()
     keys: tuple[str, ...] = ()
     none_needed: bool = False
-    """It comes with the language or the build tool."""
+    """True if the language or the build tool provides it."""
     sure: bool = True
-    """False where the packages of the distributions that use it mostly declare none of the names, or too few use it."""
+    """False if most released packages that use it declare none of the names, or if too few use it."""
 
     @property
     def known(self) -> bool:
-        """Return whether anything is known. If not, a rule has nothing to say."""
+        """True if there is a provider or none is needed. Otherwise a rule reports nothing."""
         return bool(self.names) or self.none_needed
 
 
 class Suggestion(NamedTuple):
-    """What somebody who wrote an unknown name must have meant."""
+    """The intended name of an unknown name."""
 
     name: str
     """A package, or a rosdep key that resolves for the distribution."""
     by: Literal["spelling", "cmake", "header", "python", "system", "slip"]
-    """How the wrong name comes about: dashes, capitals and what is in the package; what find_package, #include, import, or apt
-    and pip call it; one letter."""
+    """Kind of the mistake.
+
+    * "spelling": dashes, capitals, or the name of something in the package.
+    * "cmake", "header", "python": the name in find_package(), #include or import.
+    * "system": the name in apt or pip.
+    * "slip": one letter.
+    """
 
 
 class Layers(Protocol):
-    """The look-ups that the resolution of names asks: :class:`ros_lint.knowledge.world.World` implements them."""
+    """The look-ups that name resolution needs; :class:`ros_lint.knowledge.world.World` implements them."""
 
     @property
     def knowledge(self) -> Knowledge:
-        """Return the released world."""
+        """Data about released packages."""
 
     @property
     def underlays(self) -> Sequence[Underlay]:
-        """Return the underlays, the topmost first."""
+        """Underlays, the topmost first."""
 
     @property
     def spelling(self) -> Spelling:
-        """Return the index of similar names."""
+        """Index of similar names."""
 
     def layer(self, name: str) -> Layer | None:
-        """Return the topmost layer that has a package, None if there is none."""
+        """Return the topmost layer that contains a package, None if there is none."""
 
     def is_package(self, name: str) -> bool:
-        """Return whether any layer has a package."""
+        """Return whether any layer contains a package."""
 
     def is_key(self, name: str) -> bool:
         """Return whether a name is a rosdep key."""
 
     def offering(self, module: str) -> tuple[str, ...]:
-        """Return the packages of the workspace that offer a Python module."""
+        """Return the packages of the workspace with a Python module."""
 
     def python_modules(self, name: str) -> Known:
         """Return the top-level Python modules of a package."""
@@ -93,17 +98,17 @@ class Layers(Protocol):
         """Return the providers of headers below an include folder."""
 
     def meant(self, name: str, *, python: bool) -> Suggestion | None:
-        """Return the name that an unknown name most likely means."""
+        """Return the intended name of an unknown name, None if there is any doubt."""
 
 
 _NONE_NEEDED = Providers(none_needed=True)
 
 _RELEASED = re.compile(r"ros-[a-z]+-(?=[a-z])")
-"""How what apt calls a package of a distribution begins."""
+"""Prefix of the apt packages of a distribution."""
 
 
 def by_cmake(world: Layers, name: str) -> Providers:
-    """Return who provides the argument of find_package."""
+    """Return the providers of the argument of find_package()."""
     owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
     if world.layer(name) == "workspace":
         return _of(world, (name,))
@@ -117,13 +122,13 @@ def by_cmake(world: Layers, name: str) -> Providers:
 
 
 def by_macro(world: Layers, package: str) -> Providers:
-    """Return who provides the macros of a package."""
+    """Return the providers of a package's macros."""
     names = world.knowledge.names.alternatives(package)
     return world.by_cmake(package) if len(names) == 1 else _of(world, names, keys=names)
 
 
 def by_include(world: Layers, header: str) -> Providers:
-    """Return who provides a header."""
+    """Return the providers of a header."""
     names = world.knowledge.names
     first, slash, rest = header.partition("/")
     if slash and not world.underlays and not names.maps(first):
@@ -147,12 +152,12 @@ def by_include(world: Layers, header: str) -> Providers:
 
 
 def by_folder(world: Layers, folder: str) -> Providers:
-    """Return who provides the headers below a folder that tells its package by its name."""
+    """Return the providers of headers below a folder whose name identifies the package."""
     return _of(world, (folder,))
 
 
 def by_import(world: Layers, module: str) -> Providers:
-    """Return who provides a Python module."""
+    """Return the providers of a Python module."""
     names = world.knowledge.names
     top = module.partition(".")[0]
     keys = names.module(module)
@@ -168,7 +173,7 @@ def by_import(world: Layers, module: str) -> Providers:
 
 
 def _with_released(world: Layers, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the packages of the workspace that offer a module, and the one that everybody knows it of."""
+    """Return the workspace packages with a module, and the released package of the same name, if any."""
     if module in offering or world.layer(module) == "workspace":
         return offering
     answer = world.python_modules(module).ask(module) if world.is_package(module) else "missing"
@@ -176,10 +181,10 @@ def _with_released(world: Layers, module: str, offering: tuple[str, ...]) -> tup
 
 
 def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None:
-    """Return the modules at the top of what a package installs that are meant to be imported, None if they are not known.
+    """Return the top-level importable modules that a package installs, None if unknown.
 
-    ``files`` are those of the package. ``find_namespace_packages()`` takes any folder for a package: those without Python
-    modules and those that hold data, going by their name, are none.
+    ``files`` are the files of the package. ``find_namespace_packages()`` lists all folders as packages, so folders
+    without Python modules and folders with names of data are left out.
     """
     tops = dict.fromkeys(name.partition(".")[0] for name in script.python_packages)
     modules: dict[str, bool] = {}
@@ -193,7 +198,7 @@ def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None
 
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
-    """Yield the modules whose files are put by themselves where Python looks for them."""
+    """Yield the modules whose files are installed directly into a folder of ``sys.path``."""
     for provided in script.installs:
         if provided.path.endswith(".py") and provided.importable:
             top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
@@ -202,7 +207,10 @@ def _installed_modules(script: BuildScript) -> Iterator[str]:
 
 
 def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:
-    """Whether a package surely offers no module: no file becomes one, and CMake finds nothing that binds other code."""
+    """Return whether a package certainly has no module.
+
+    No file becomes a module, and CMake finds no tool for bindings.
+    """
     if any(mention.name.lower().startswith(_BINDS) for mention in script.mentions if mention.via == "cmake"):
         return False
     return not any(file.endswith(_MODULES) and not (is_auxiliary(file) or ".launch." in file) for file in files)
@@ -219,17 +227,17 @@ _DATA = frozenset(
         "msg", "srv", "action", "build", "install", "log",
     }
 )  # fmt: skip
-"""Folders of packages that are there for everything but modules."""
+"""Names of folders that usually contain no modules."""
 
 
 def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
-    """Return what an unknown name must mean, or None when there is any doubt.
+    """Return the intended name of an unknown name, None if there is any doubt.
 
-    ``python`` says whether it is needed to run Python code, where find_package has no say.
+    With ``python`` the name is needed to run Python code, so names of find_package() do not count.
     """
     names = world.knowledge.names
     package = name.replace(".", "/").partition("/")[0]
-    if package != name and world.is_package(package):  # a message, or a module: std_msgs/msg/String, rclpy.qos
+    if package != name and world.is_package(package):  # # an interface or a module: std_msgs/msg/String, rclpy.qos
         return Suggestion(package, "spelling")
     released = _RELEASED.match(name)
     package = name[released.end() :].replace("-", "_") if released else ""
@@ -237,7 +245,9 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
         return Suggestion(package, "system")
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
-        return _first(world, libraries, "cmake")  # nobody who builds against it means what pip calls so
+        return _first(
+            world, libraries, "cmake"
+        )  # # for code that builds against a library, the pip package of that name is irrelevant
     same = _declarable(world, world.spelling.same(name))
     if same:
         return Suggestion(same[0], "spelling") if len(same) == 1 else None
@@ -245,7 +255,7 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
         if found is not None:
             return found
     slips = _declarable(world, world.spelling.one_slip(name))
-    if python:  # a library of that name is nothing to Python: pyaml is not yaml, but the module of it
+    if python:  # # Python does not use C libraries directly: the key for pyaml is that of the module, not of libyaml
         slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
     return Suggestion(slips[0], "slip") if len(slips) == 1 else None
 
@@ -255,14 +265,14 @@ def _bare(names: Iterable[str]) -> Iterator[str]:
 
 
 def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
-    """Return packages and keys that resemble an unknown name, nearest first, at most three."""
+    """Return packages and keys similar to an unknown name, nearest first, at most three."""
     sure = world.meant(name, python=python)
     found = _declarable(world, world.spelling.near(name))
     return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
-    """Yield what the name stands for where it is right: as a CMake package, a module, a package of apt or pip."""
+    """Yield the meaning of the name in other name spaces: CMake packages, modules, apt, pip."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
@@ -277,7 +287,7 @@ def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggesti
 
 
 def _libraries(names: Iterable[str]) -> Iterator[str]:
-    """Leave out what only tells CMake where a library is: whoever declares the library does not mean that."""
+    """Yield the names without packages that only locate a library for CMake: the library is intended."""
     return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
@@ -292,20 +302,20 @@ def _only(world: Layers, keys: Iterable[str]) -> Suggestion | None:
 
 
 def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
-    """Return those names that can stand in a manifest: packages, and keys with a rule for the distribution."""
+    """Return the names that a manifest may declare: packages, and keys with a rule for the distribution."""
     resolves = world.knowledge.resolves
     return tuple(name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False))
 
 
 def _has_module(world: Layers, package: str) -> bool:
-    """Whether a package of the name of a module can be taken for its provider: not when it is known to have none."""
+    """Return whether a package may provide the module of its name: it is not known to lack it."""
     if world.layer(package) == "workspace":
-        return False  # its own word has been heard
+        return False  # # the build script has been consulted already
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the owners in the topmost underlay that has any, without those that the workspace hides."""
+    """Return the owners in the topmost underlay that has any, without packages hidden by the workspace."""
     for found in owners:
         seen = tuple(name for name in found if world.layer(name) == "underlay")
         if seen:
@@ -314,9 +324,9 @@ def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str,
 
 
 def _of(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
-    """Return the providers among names: packages that there are, and those of ``keys`` that are rosdep keys.
+    """Return the providers among names: existing packages, and rosdep keys among ``keys``.
 
-    Keys without a rule for the distribution come last, for what is to be declared must resolve.
+    Keys without a rule for the distribution come last, because a declared name must resolve.
     """
     ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
     allowed = set(keys)

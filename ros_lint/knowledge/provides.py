@@ -1,6 +1,6 @@
-"""What released packages install: one line each, read and written here (``.prov``; docs/knowledge.md).
+"""The contents of released packages, one line each, and their format (``.prov``; docs/knowledge.md).
 
-Three answers, never two: a name exists, is missing, or nobody can tell.
+A look-up has three answers: a name exists, is missing, or is unknowable.
 """
 
 from __future__ import annotations
@@ -24,28 +24,31 @@ LETTERS: Mapping[Offer, str] = {
     "interfaces": "I",
     "programs": "B",
 }
-"""Names in lib/<package>; launch files, relative to share/<package>; component classes; plugins as base=class; Python
-modules; interfaces as msg/Name; names in bin. In the order in which they stand in a line."""
+"""The letters of each kind, in their order in a line.
+
+Executables in lib/<package>; launch files relative to share/<package>; component classes; plugins as base=class;
+Python modules; interfaces as msg/Name; programs in bin.
+"""
 
 
 class Known(NamedTuple):
-    """What is known of the names of one kind that a package provides."""
+    """The known names of one kind that a package provides."""
 
     names: tuple[str, ...] = ()
     maybe: tuple[str, ...] = ()
-    """Those that depend on how it was built."""
+    """Names that depend on how the package was built."""
     complete: bool = False
-    """Whether there is no other name."""
+    """True if there are no other names."""
     endings: tuple[str, ...] = ()
-    """With any, only of names that end so was a list made: nothing is known of others."""
+    """If not empty, the list covers only names with these suffixes: other names are unknown."""
 
     @property
     def possible(self) -> tuple[str, ...]:
-        """Return all names that may be there."""
+        """All names that may exist."""
         return (*self.names, *self.maybe)
 
     def ask(self, name: str) -> Answer:
-        """Return what is known of a name."""
+        """Return whether a name exists."""
         if name in self.names:
             return "exists"
         if not self.complete or name in self.maybe or (self.endings and not name.endswith(self.endings)):
@@ -53,9 +56,9 @@ class Known(NamedTuple):
         return "missing"
 
     def between(self, before: Iterable[Known], after: Iterable[Known]) -> Known:
-        """Return what can be told from what is known of the same in earlier and in later distributions.
+        """Return the names supplemented by the lists for earlier and later distributions.
 
-        It is whole where one before and one after are; what any of them has may be there.
+        The result is complete if one earlier and one later list are complete. Names in any of the lists may exist.
         """
         earlier, later = list(before), list(after)
         sides = [next((one for one in side if one.complete), None) for side in (earlier, later)]
@@ -69,22 +72,27 @@ class Known(NamedTuple):
 
 NOTHING_KNOWN = Known()
 LAUNCH_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", ".launch")
-"""Which files the data count as launch files."""
+"""Suffixes of the files that the data count as launch files."""
 
 
 class ReleasedContents(NamedTuple):
-    """What a package installs, as far as its sources tell."""
+    """The contents of a package, as far as they can be derived from its sources."""
 
     name: str
     origin: str
-    """Which sources were read: ``=`` those of the release, ``b`` those of the branch for the distribution, ``~`` those
-    of the nearest tag."""
+    """Sources that were read.
+
+    ``=`` the sources of the release, ``b`` the branch for the distribution, ``~`` the nearest tag.
+    """
     fields: Mapping[str, tuple[str, ...]]
-    """By letter, see LETTERS. A name with ``?`` at its end depends on how the package was built."""
+    """Names by letter, see LETTERS.
+
+    The suffix ``?`` marks a name that depends on how the package was built.
+    """
 
     @property
     def solid(self) -> bool:
-        """Return whether a name that is not here does not exist either."""
+        """True if names that are not listed do not exist."""
         return self.origin in {"=", "b"}
 
     def known(self, offer: Offer) -> Known:
@@ -98,14 +106,17 @@ class ReleasedContents(NamedTuple):
 
 
 def parse(fields: list[str]) -> ReleasedContents:
-    """Return what a line says that has been split at its tabs. Raises ValueError when it says nothing."""
+    """Return the contents in a line, given its tab-separated fields.
+
+    Raises ValueError if they are invalid.
+    """
     name, origin, *rest = fields
     found: dict[str, tuple[str, ...]] = {}
     for field in rest:
         letter, colon, text = field.partition(":")
         if len(letter) != 1:
             raise ValueError(f"{field!r} is not a list of names")
-        # A lone Y is the module that is called as the package.
+        # Y without names stands for the module named like the package.
         names = text.split(" ") if colon else [name]
         found[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
     return ReleasedContents(name, origin, found)
@@ -126,14 +137,14 @@ def render(provided: ReleasedContents) -> str:
 
 
 def _apart(plugins: Iterable[str]) -> Iterator[str]:
-    """Yield base=class for each of base=class,class."""
+    """Yield base=class for each class in base=class,class."""
     for plugin in plugins:
         base, equals, classes = plugin.partition("=")
         yield from (f"{base}{equals}{one}" for one in classes.split(","))
 
 
 def _together(plugins: Iterable[str]) -> tuple[str, ...]:
-    """Return base=class,class for all classes of a base. The inverse of :func:`_apart`."""
+    """Return base=class,class for each base. The inverse of :func:`_apart`."""
     found: dict[str, list[str]] = {}
     for plugin in plugins:
         base, _, one = plugin.partition("=")
@@ -142,25 +153,28 @@ def _together(plugins: Iterable[str]) -> tuple[str, ...]:
 
 
 def render_file(distro: str, packages: Iterable[ReleasedContents]) -> str:
-    """Return a whole ``.prov`` file."""
+    """Return the contents of a ``.prov`` file."""
     lines = sorted(render(package) for package in packages)
     return "\n".join([f"#ros-provides 1 distro={distro} packages={len(lines)}", *lines, ""])
 
 
 class Provides(Entries[ReleasedContents]):
-    """What the packages of one distribution install."""
+    """The contents of the packages of one distribution."""
 
     def __init__(self, table: Table) -> None:
         super().__init__(table, parse)
 
     def known(self, name: str, offer: Offer) -> Known:
-        """Return what is known of one side of a package."""
+        """Return the known names of one kind that a package provides."""
         found = self.get(name)
         return found.known(offer) if found else NOTHING_KNOWN
 
 
 def load(store: Store, distro: str) -> Provides:
-    """Return what is known of a distribution: empty when nothing is. Raises KnowledgeError when the file is damaged."""
+    """Return the contents of the packages of a distribution: empty if there is no file.
+
+    Raises KnowledgeError if the file is damaged.
+    """
     name = f"{distro}.prov"
     head, table = store.table(name)
     if head and not head.startswith("#ros-provides 1 "):

@@ -1,4 +1,4 @@
-"""The keys of rosdep, and where they resolve (``rosdep.tsv``; docs/knowledge.md)."""
+"""The rosdep keys and the platforms on which they resolve (``rosdep.tsv``; docs/knowledge.md)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ PLATFORMS: Mapping[str, tuple[str, ...]] = {
     "lyrical": ("ubuntu:resolute",),
     "rolling": ("ubuntu:resolute", "ubuntu:noble"),
 }
-"""The platforms of tier 1 for which a distribution has Debian packages (REP 2000). Rolling moves: either will do."""
+"""Tier 1 platforms with Debian packages, by distribution (REP 2000).
+
+Rolling changes its platform, so either of two suffices.
+"""
 
 LETTERS: Mapping[str, str] = {
     "j": "ubuntu:jammy",
@@ -36,7 +39,7 @@ LETTERS: Mapping[str, str] = {
     "A": "arch:",
     "o": "osx:",
 }
-"""The platforms in the data, in the order in which they stand in a line."""
+"""The platforms in the data, in the order of their letters in a line."""
 
 
 class Key(NamedTuple):
@@ -44,14 +47,14 @@ class Key(NamedTuple):
 
     name: str
     platforms: tuple[str, ...]
-    """On which it resolves, such as "ubuntu:noble"."""
+    """Platforms on which the key resolves, such as "ubuntu:noble"."""
     apt: tuple[str, ...]
-    """What it installs with apt, on any platform."""
+    """Packages that the key installs with apt, on any platform."""
     pip: tuple[str, ...]
 
 
 def parse(fields: list[str]) -> Key:
-    """Return the key of a line that has been split at its tabs. Raises ValueError when it is none."""
+    """Return the key in a line, given its tab-separated fields. Raises ValueError if they are invalid."""
     name, letters, apt, pip = (*fields, "", "", "")[:4]
     unknown = set(letters) - LETTERS.keys()
     if unknown:
@@ -66,34 +69,34 @@ def render(key: Key) -> str:
 
 
 def render_file(keys: Mapping[str, Key]) -> str:
-    """Return a whole ``rosdep.tsv``."""
+    """Return the contents of ``rosdep.tsv``."""
     platforms = " ".join(f"{letter}={platform}" for letter, platform in LETTERS.items())
     lines = sorted(render(key) for key in keys.values())
     return "\n".join([f"# key\tresolves on: {platforms}\tapt\tpip", *lines, ""])
 
 
 class Rosdep(Entries[Key]):
-    """All keys."""
+    """All rosdep keys."""
 
     def __init__(self, table: Table) -> None:
         super().__init__(table, parse)
         self._asked: dict[str, tuple[str, ...]] = {}
 
     def resolves(self, name: str, distro: str) -> bool | None:
-        """Return whether a key has a rule for a platform of a distribution: None when either is not known."""
+        """Return whether a key has a rule for a platform of a distribution; None if either is unknown."""
         key, platforms = self.get(name), PLATFORMS.get(distro)
         if key is None or platforms is None or not set(platforms) & set(LETTERS.values()):
             return None
         return not set(platforms).isdisjoint(key.platforms)
 
     def installing(self, name: str) -> tuple[str, ...]:
-        """Return the keys that install a package which apt or pip call so, sorted."""
+        """Return the keys that install a package with this name in apt or pip, sorted."""
         if name not in self._asked:
             self._asked[name] = self._installing(name) or self._installing(_pip_name(name))
         return self._asked[name]
 
     def _installing(self, name: str) -> tuple[str, ...]:
-        # Names of pip are spelt in many ways; the longest word of one stands in all of them.
+        # Names in pip have many spellings; their longest word is in each of them.
         words = [word for word in re.findall(r"[a-z0-9]+", name.lower()) if not word.startswith("python")]
         word = max(words, key=len, default="python" if name else "\n").encode()
         text, lower = self._text
@@ -109,18 +112,18 @@ class Rosdep(Entries[Key]):
 
     @cached_property
     def _text(self) -> tuple[bytes, bytes]:
-        """All lines, and the same in lower case, which for bytes does not change the length."""
+        """All lines, and the lines in lower case, which has the same length for bytes."""
         text = "".join(f"{line}\n" for line in self._table.lines()).encode()
         return text, text.lower()
 
 
 def _pip_name(requirement: str) -> str:
-    # A requirement may carry a version and extras; names compare as PEP 503 says.
+    # A requirement may have a version and extras; names are compared as in PEP 503.
     return re.sub(r"[-_.]+", "-", re.split(r"[\[<>=!~; ]", requirement, maxsplit=1)[0]).lower()
 
 
 def load(store: Store) -> Rosdep:
-    """Return the keys. Raises KnowledgeError when the file is damaged."""
+    """Return the keys. Raises KnowledgeError if the file is damaged."""
     head, table = store.table("rosdep.tsv")
     if head and not head.startswith("# key\t"):
         raise KnowledgeError(f"{store.find('rosdep.tsv')} is not a list of rosdep keys")

@@ -1,7 +1,8 @@
-"""Did you mean: names near an unknown one.
+"""Find names similar to an unknown name.
 
-Two questions, two answers. Which name is meant, for a fix: one of which nobody would doubt. Which names are near, for a
-hint. Besides, what a name says of another one: that of a vendor package of its library, that of a part of its whole.
+A fix needs the one certain name (:meth:`Spelling.same`, :meth:`Spelling.one_slip`); a hint needs near names
+(:meth:`Spelling.near`). The module also compares the name of a vendor package with its library, and the name of a
+part of a library with the whole.
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 _SHORTEST = 5
-"""Words with fewer letters are one letter apart by chance, such as pcl and pil."""
+"""Words with fewer letters often differ by one letter only by chance, such as pcl and pil."""
 
 _SHORTEST_SWAPPED = 4
-"""Letters are swapped by chance in no two names that are known, however short the word."""
+"""No two known names differ by swapped letters only, even if the word is short."""
 
 _COMMON = 150
 
@@ -40,9 +41,10 @@ class Spelling:
         return tuple(self._plain.get(plain(name), ()))
 
     def one_slip(self, name: str) -> tuple[str, ...]:
-        """Return the names that one letter makes: left out, put in, changed, or swapped with the next. Sorted.
+        """Return the names at a distance of one letter, sorted.
 
-        A digit changed for another is no slip: ``lidar_2`` is not meant to be ``lidar_1``.
+        The letter is omitted, inserted, changed, or swapped with its successor. Changed digits do not count:
+        ``lidar_2`` is not a typo of ``lidar_1``.
         """
         if len(name) < _SHORTEST:
             return ()
@@ -52,7 +54,7 @@ class Spelling:
         return tuple(sorted([other for other in near if -2 < len(other) - len(name) < 2 and _is_slip(name, other)]))
 
     def near(self, name: str) -> tuple[str, ...]:
-        """Return names that resemble a name, nearest first, at most three. Nearest are the same words in another order."""
+        """Return similar names, nearest first, at most three. Nearest are names of the same words reordered."""
         words = _words(name)
         alike = {other for word in words for other in self._having(word)}
         scored = [(-_overlap(words, _words(other)), other) for other in alike]
@@ -62,7 +64,7 @@ class Spelling:
         return tuple(dict.fromkeys([*moved, *near_names(name, dict.fromkeys(candidates), 3, 0.8)]))[:3]
 
     def _having(self, word: str) -> list[str]:
-        """Return the names that have a word. None for a word of very many: it tells nothing, and comparing takes long."""
+        """Return the names with a word; none for a very common word, which is insignificant and slow."""
         known = self._by_word.get(word)
         if known is not None:
             return known
@@ -102,12 +104,12 @@ class Spelling:
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return the names that an unknown name may mean: those similar to it (:func:`ros_lint.base.suggestions.similar`).
+    """Return the intended names among similar ones (:func:`ros_lint.base.suggestions.similar_names`).
 
-    Where both have words that the other one lacks, these must resemble each other: front_camera is not meant to be
-    rear_camera, however much of it is the same. If there is one more besides, those that it lacks must begin like others:
-    icar_description is not meant to be flir_camera_description. What several complete alike, as left_arm and right_arm do
-    arm, is neither.
+    If each name has words that the other lacks, these words must resemble each other: rear_camera is not suggested
+    for front_camera. If the suggestion has more words besides, its words must begin like the lacking ones:
+    flir_camera_description is not suggested for icar_description. If several suggestions extend the name, as
+    left_arm and right_arm extend arm, none of these is returned.
     """
     words = _words(name)
     found = [other for other in similar_names(name, names, most, least) if _may_be_meant(words, _words(other))]
@@ -125,23 +127,26 @@ def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
 
 
 def may_be_package(name: str) -> bool:
-    """Return whether a package of ROS may have a name: small letters, digits and underscores after a small letter (REP 144)."""
+    """Return whether a name is valid for a ROS package (REP 144).
+
+    Lower-case letters, digits and underscores after a lower-case letter.
+    """
     return _OF_PACKAGES.fullmatch(name) is not None
 
 
 def plain(name: str) -> str:
-    """Return a name without what people get wrong first."""
+    """Return a name without its most frequent variations: dashes, underscores and capitals."""
     return name.replace("-", "").replace("_", "").lower()
 
 
 VENDOR = "_vendor"
-"""How the names of packages end that bring a library, whose headers, targets and CMake name are the library's own."""
+"""Suffix of packages that wrap a library but keep its headers, targets and CMake name."""
 
 
 def is_vendor(package: str, library: str) -> bool:
-    """Return whether a package has the name of the vendor package of a library, by whatever name or key that goes.
+    """Return whether a package is named as a vendor package of a library, which may be a name or a key.
 
-    What stands before it says whose vendor package it is: rviz_assimp_vendor, google_benchmark_vendor.
+    The prefix may name the owner: rviz_assimp_vendor, google_benchmark_vendor.
     """
     if not package.endswith(VENDOR):
         return False
@@ -150,7 +155,7 @@ def is_vendor(package: str, library: str) -> bool:
 
 
 def is_part(library: str, whole: str) -> bool:
-    """Return whether a key is, going by its name, of a part of the library that another key is of: libboost-thread-dev."""
+    """Return whether a key is for a part of the library of another key, by name: libboost-thread-dev."""
     words = _of_library(whole)
     return words == _of_library(library)[: len(words)]
 
@@ -181,7 +186,7 @@ def _beginning(ordered: list[str], beginning: str) -> list[str]:
 
 
 def _is_slip(one: str, other: str) -> bool:
-    """Whether one edit leads from one name to the other, in a word long enough, and it is no matter of digits."""
+    """Return whether two names differ by one edit in a sufficiently long word, and not in a digit."""
     longer, shorter = (one, other) if len(one) >= len(other) else (other, one)
     if one == other or len(longer) - len(shorter) > 1:
         return False

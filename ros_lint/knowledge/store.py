@@ -1,7 +1,7 @@
-"""Data files about the released world: where they are, and lines looked up by name.
+"""Data files about released packages: their folders, and look-ups of lines by name.
 
-They are read whole and split into lines, and only the lines that are asked for are taken apart: 1.3 ms for a
-distribution of 2,300 packages, where parsing all of it would cost a tenth of a whole run.
+A file is read as a whole and split into lines; only requested lines are parsed. This takes 1.3 ms for a
+distribution of 2,300 packages, while parsing all lines would take a tenth of a whole run.
 """
 
 from __future__ import annotations
@@ -26,11 +26,14 @@ SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
 
 
 class KnowledgeError(UserError):
-    """A data file cannot be read, or is none. The message names the file and the way out."""
+    """A data file cannot be read or is invalid. The message names the file and the remedy."""
 
 
 def user_directory(environ: Mapping[str, str]) -> str:
-    """Return the folder that ``ros-lint index refresh`` writes to (XDG base directories). It need not exist."""
+    """Return the folder to which ``ros-lint index refresh`` writes (XDG base directories).
+
+    It may not exist.
+    """
     home = environ.get("HOME") or os.path.expanduser("~")
     base = environ.get("XDG_DATA_HOME", "")
     if not os.path.isabs(base):
@@ -39,7 +42,7 @@ def user_directory(environ: Mapping[str, str]) -> str:
 
 
 class Store:
-    """Folders with data files. The first that has a file wins; the files that ship with the package come last."""
+    """Folders with data files. The first folder with a file wins; the shipped files come last."""
 
     __slots__ = ("places",)
 
@@ -66,9 +69,9 @@ class Store:
         return tuple(sorted(found))
 
     def lines(self, name: str) -> tuple[str, list[str]]:
-        """Return the head line of a data file and its other lines. No file: an empty head and no lines.
+        """Return the header line of a data file and its other lines; "" and no lines if there is no file.
 
-        Raises KnowledgeError when it cannot be read, has no head line, or is not as long as its head line says.
+        Raises KnowledgeError if the file cannot be read, has no header line, or differs in length from its header.
         """
         path = self.find(name)
         if path is None:
@@ -92,9 +95,9 @@ class Store:
         return head, rows
 
     def table(self, name: str) -> tuple[str, Table]:
-        """Return the head line of a data file, and its other lines for look-up.
+        """Return the header line of a data file, and a table of its other lines.
 
-        Raises KnowledgeError as :meth:`lines` does, and when the lines are not sorted.
+        Raises KnowledgeError like :meth:`lines`, and if the lines are not sorted.
         """
         head, rows = self.lines(name)
         if any(map(gt, rows, rows[1:])):
@@ -113,7 +116,7 @@ def _advice(path: str) -> str:
 
 
 class Table:
-    """Lines that are sorted by their first field. ``path`` is that of the file that they are from."""
+    """Lines sorted by their first field. ``path`` is the path of their file."""
 
     __slots__ = ("_lines", "path")
 
@@ -151,7 +154,7 @@ class Table:
 
 
 class Entries(Generic[T]):
-    """What the lines of a table mean, by name. ``parse`` takes the fields of a line, and raises ValueError for nonsense."""
+    """The parsed lines of a table, by name. ``parse`` gets the fields of a line and may raise ValueError."""
 
     def __init__(self, table: Table, parse: Callable[[list[str]], T]) -> None:
         self._table = table
@@ -168,7 +171,7 @@ class Entries(Generic[T]):
         return self._table.names()
 
     def get(self, name: str) -> T | None:
-        """Return what there is of a name, or None. Raises KnowledgeError when its line makes no sense."""
+        """Return the entry of a name, or None. Raises KnowledgeError if its line is invalid."""
         row = self._table.row(name)
         if row is None:
             return None

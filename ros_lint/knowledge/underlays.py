@@ -1,6 +1,6 @@
-"""Installed prefixes that a workspace is built on, read without ROS (reference, section B4.8).
+"""Install prefixes that a workspace is built on, read without ROS.
 
-Which packages a prefix has is found out at once; all else is read package by package when it is first asked for.
+The packages of a prefix are listed at once; everything else is read for each package at its first use.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _NAMED = re.compile(_TAG.pattern + rb"(?:\s[^>]*)?>\s*([\w.+-]+)\s*</")
 
 
 class UnderlayError(Exception):
-    """A folder that is no install prefix. The message names it and says what would be one."""
+    """A folder that is not an install prefix. The message names it and describes a valid one."""
 
 
 class Installed:
@@ -47,10 +47,10 @@ class Installed:
 
     @cached_property
     def released(self) -> Released | None:
-        """Return version and dependencies, or None when nothing tells them.
+        """Version and dependencies, or None if unknown.
 
-        ``share/<package>/package.xml`` is the authority. A package without one, such as plain CMake, has what colcon or
-        ament recorded of its run dependencies.
+        ``share/<package>/package.xml`` is authoritative. For a package without one, such as plain CMake, the run
+        dependencies recorded by colcon or ament are used.
         """
         path = f"share/{self.name}/package.xml"
         data = self.prefix.read(path)
@@ -63,9 +63,10 @@ class Installed:
 
     @cached_property
     def runtime(self) -> tuple[str, ...] | None:
-        """Return what comes along with it, sorted, or None when nothing tells.
+        """Names that the package provides directly, sorted, or None if unknown.
 
-        As :attr:`released` says, but plain manifests are not taken apart: hundreds of them are asked for this alone.
+        The source is that of :attr:`released`, but simple manifests are not fully parsed, because hundreds of them
+        are read only for this.
         """
         data = self.prefix.read(f"share/{self.name}/package.xml")
         if data is not None and not _NOT_PLAIN.search(data):
@@ -77,11 +78,14 @@ class Installed:
 
     @cached_property
     def groups(self) -> tuple[str, ...]:
-        """Return the groups that it is a member of, ``rosidl_interface_packages`` included."""
+        """Groups that the package is a member of, ``rosidl_interface_packages`` included."""
         return self.released.groups if self.released else ()
 
     def known(self, offer: Offer) -> Known:
-        """Return what is known of one side of the package. Python modules may be hidden by develop installs."""
+        """Return the known names of one kind that the package provides.
+
+        Develop installs may hide Python modules.
+        """
         prefix = self.prefix
         match offer:
             case "executables":
@@ -102,7 +106,7 @@ class Installed:
 
     @cached_property
     def share_files(self) -> Known:
-        """Return every file below share/<package>, relative to it."""
+        """Files below share/<package>, relative to it."""
         return Known(self.prefix.share_files(self.name), complete=True)
 
 
@@ -119,7 +123,7 @@ class Underlay:
         self.packages: Mapping[str, Installed] = dict(sorted(found.items()))
 
     def headers(self, path: str) -> tuple[str, ...]:
-        """Return the packages that install a header, by its path as it is written between the brackets, sorted."""
+        """Return the packages that install a header, by its path as written between the brackets, sorted."""
         return tuple(sorted({owner for prefix in self._prefixes for owner in prefix.header_owners(path)}))
 
     def modules(self, module: str) -> tuple[str, ...]:
@@ -140,14 +144,18 @@ class Underlay:
 
 
 def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:
-    """Return the underlays at some places, in the order given: the first that has a package wins.
+    """Return the underlays at some places, in the given order: the first with a package wins.
 
-    A place is an install prefix such as ``/opt/ros/jazzy``, the ``install`` folder of a workspace (of either layout),
-    one package's folder in there as AMENT_PREFIX_PATH lists it, or a workspace with an ``install`` folder. Conditions
-    in manifests are evaluated for ``distro``. With ``base``, the folder of the workspace under analysis, its own
-    ``install`` folder is left out: what it has was made of the very packages that are looked at. ``machine`` has all files
-    by their absolute paths; without one, this machine has.
-    Raises UnderlayError for any other folder.
+    A place is one of these; any other folder raises UnderlayError:
+
+    * an install prefix such as ``/opt/ros/jazzy``,
+    * the ``install`` folder of a workspace, of either layout,
+    * the folder of a package in it, as in AMENT_PREFIX_PATH,
+    * a workspace with an ``install`` folder.
+
+    Conditions in manifests are evaluated for ``distro``. ``base`` is the folder of the analysed workspace: its own
+    ``install`` folder is left out because it was built from the analysed packages. ``machine`` has files by
+    absolute path; by default it is this machine.
     """
     roots = [os.path.abspath(place) for place in prefixes]
     tree = machine or Machine()
@@ -155,12 +163,12 @@ def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tre
 
 
 def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
-    """Return the underlay in a folder of a tree. Raises UnderlayError as :func:`read` does."""
+    """Return the underlay in a folder of a tree. Raises UnderlayError like :func:`read`."""
     return Underlay(root, tuple(_prefixes(tree, root)), distro)
 
 
 def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
-    """Yield the prefixes at a place. Raises UnderlayError when there is none."""
+    """Yield the prefixes at a place. Raises UnderlayError if there is none."""
     try:
         names = [entry.name for entry in tree.list(root) if entry.kind == "directory"]
     except OSError as error:
@@ -175,7 +183,7 @@ def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
         return
     inner = [child for child in (InstallPrefix(tree, join(root, name)) for name in names) if child.packages]
     if inner and (layout == "isolated" or all(os.path.basename(child.root) in child.packages for child in inner)):
-        # colcon makes one prefix per package.
+        # colcon creates a prefix for each package.
         yield from (child.alone() for child in inner)
     elif layout != "isolated":
         if "install" in names:

@@ -1,7 +1,7 @@
-"""The world that a workspace lives in: its own packages, underlays, and what is known of the released distributions.
+"""All packages and keys that a workspace can use: its own packages, underlays and released packages.
 
-Names are answered from the top: workspace, then underlay, then the index of the distribution; the first that has a
-package hides the others, as it does when everything is installed (reference, section B4.3).
+A name is looked up in the workspace, then in the underlays, then in the index of the distribution. The first layer
+with a package hides the others, as sourced overlays do.
 """
 
 from __future__ import annotations
@@ -28,31 +28,41 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.underlays import Installed, Underlay
 
 _SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
-"""Names of system packages with shared libraries: they end with a version. Headers are in others."""
+"""Names of system packages with shared libraries end with a version; headers are in other packages."""
 
 Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
-"""What a declared name is: a package or key; a package of other distributions only; one of distributions at their end of
-life only; nothing that anybody knows; or nobody can tell, because there is no index of the distribution."""
+"""Result of the look-up of a declared name.
+
+* "known": a package or a rosdep key.
+* "elsewhere": a package of other active distributions only.
+* "end-of-life": a package of distributions at their end of life only.
+* "unknown": none of these.
+* "unknowable": cannot be decided, because the distribution has no index or a submodule is not cloned.
+"""
 
 
 class Member(NamedTuple):
-    """A package of the workspace, as far as the world needs to know it."""
+    """A package of the workspace with the facts that look-ups need."""
 
     name: str
     version: str
     depends: Mapping[str, tuple[str, ...]]
-    """Declared names by letter, conditions that are false left out: b build, t buildtool, e build_export, u
-    buildtool_export, x exec, s test, d doc, G groups (:data:`ros_lint.facts.manifest.DEPENDENCY_KINDS`)."""
+    """Declared names by letter of the tag, without tags whose condition is false.
+
+    b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc, G groups
+    (:data:`ros_lint.facts.manifest.DEPENDENCY_KINDS`).
+    """
     groups: tuple[str, ...] = ()
-    """That it is a member of."""
+    """Dependency groups that the package is a member of."""
     modules: tuple[str, ...] | None = None
-    """Top-level Python modules that it offers, None where they are not known."""
+    """Top-level Python modules that the package provides, None if unknown."""
 
 
 class World:
-    """Answers questions about names. Reads data files and underlays when first asked; may then raise KnowledgeError.
+    """Look-ups of names in all layers.
 
-    Of two members with one name the first counts; of two underlays that have a package, the first.
+    Data files and underlays are read at their first use, which may raise KnowledgeError. Of two members with one
+    name the first counts; of two underlays with one package, the first.
     """
 
     def __init__(
@@ -82,7 +92,7 @@ class World:
     # --- packages -------------------------------------------------------------------------------------------------
 
     def layer(self, name: str) -> Layer | None:
-        """Return where a package is taken from, or None when no layer has it."""
+        """Return the layer that provides a package, or None."""
         if name in self._members:
             return "workspace"
         if name in self._installed:
@@ -90,22 +100,22 @@ class World:
         return "index" if name in self.knowledge.index else None
 
     def is_package(self, name: str) -> bool:
-        """Return whether any layer has a package."""
+        """Return whether any layer contains a package."""
         return self._look_up(name)[0]
 
     def is_key(self, name: str) -> bool:
-        """Return whether a name is a rosdep key, whatever platform it resolves on."""
+        """Return whether a name is a rosdep key, on whatever platform it resolves."""
         return self._look_up(name)[1]
 
     def only_runs(self, name: str) -> bool:
-        """Return whether a name is a key for shared libraries without what is needed to build against them."""
+        """Return whether a name is a key for shared libraries without the files to build against them."""
         if not name.startswith("lib") or self.is_package(name):
             return False
         key = self.knowledge.rosdep.get(name)
         return key is not None and bool(key.apt) and all(map(_SHARED.match, key.apt))
 
     def standing(self, name: str) -> Resolution:
-        """Return what a declared name is."""
+        """Return how a declared name resolves."""
         if self.is_package(name) or self.is_key(name):
             return "known"
         if not self.knowledge.covered:
@@ -117,12 +127,12 @@ class World:
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
     def successor(self, name: str) -> str:
-        """Return what does here what a package did in ROS 1, or ""."""
+        """Return the ROS 2 successor of a ROS 1 package, or ""."""
         successor = self.knowledge.names.successor(name)
         return successor if self.is_package(successor) else ""
 
     def is_declared(self, name: str) -> bool:
-        """Return whether a package of the workspace declares a name, in whatever tag."""
+        """Return whether a package of the workspace declares a name in any tag."""
         return name in self._declared
 
     @cached_property
@@ -130,7 +140,7 @@ class World:
         return frozenset([name for one in self._members.values() for names in one.depends.values() for name in names])
 
     def version(self, name: str) -> str | None:
-        """Return the version of a package where it is taken from, or None."""
+        """Return the version of a package in the layer that provides it, or None."""
         member = self._members.get(name)
         if member is not None:
             return member.version
@@ -143,11 +153,11 @@ class World:
         return installed.released if installed is not None else self.knowledge.index.get(name)
 
     def installed(self, name: str) -> Installed | None:
-        """Return a package of the underlays, also when the workspace hides it, or None."""
+        """Return a package of the underlays, even if the workspace hides it, or None."""
         return self._installed.get(name)
 
     def depends(self, name: str, kinds: Iterable[str]) -> tuple[str, ...] | None:
-        """Return what a package depends on, sorted: None when nobody knows. ``kinds`` are letters, see Member."""
+        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters, see Member."""
         member = self._members.get(name)
         if member is not None:
             return tuple(sorted({other for kind in kinds for other in member.depends.get(kind, ())}))
@@ -157,7 +167,7 @@ class World:
     def dependents_below(self, name: str) -> tuple[str, ...]:
         """Return the packages of the underlays that need a package at run time or to build against, sorted.
 
-        Those that the workspace hides are left out.
+        Packages hidden by the workspace are left out.
         """
         found = []
         for other, installed in self._installed.items():
@@ -167,23 +177,24 @@ class World:
         return tuple(sorted(found))
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return everything that comes along with declared names, these included (reference, section E3.3).
+        """Return the declared names with all names that they provide transitively.
 
-        Followed are build_export, buildtool_export and exec dependencies, and from packages of the workspace those
-        members of groups that are in the workspace, too. A key brings the keys that its system package depends on.
+        The closure follows build_export, buildtool_export and exec dependencies. For packages of the workspace it
+        also follows groups, to the members that are in the workspace. A key provides the keys of the system
+        packages that its package depends on.
         """
         return self._reach.closure(names)
 
     def closure_without(self, names: Iterable[str], package: str, gone: Container[str]) -> Closure:
-        """Return the closure of names as it would be if a package did not bring some of the others itself."""
+        """Return the closure of ``names`` as if ``package`` did not itself provide the names in ``gone``."""
         return self._reach.closure_without(names, package, gone)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
-        """Return a shortest chain by which a name comes along with one of others, both ends included, or ()."""
+        """Return a shortest chain from one of ``starts`` to ``goal``, both ends included, or ()."""
         return self._reach.path(starts, goal)
 
     def group_members(self, group: str) -> tuple[str, ...]:
-        """Return the members of a group in every layer, sorted."""
+        """Return the members of a group in all layers, sorted."""
         found = set(self._members_of.get(group, ()))
         found.update(name for name, installed in self._installed.items() if group in installed.groups)
         found.update(self.knowledge.index.members(group))
@@ -194,12 +205,15 @@ class World:
     def executables(self, name: str) -> Known:
         """Return the names in lib/<package>.
 
-        For packages of the workspace nothing is known here, as in all of these.
+        Like the methods below, this knows nothing of packages of the workspace.
         """
         return self._known(name, "executables")
 
     def lacks(self, name: str, offer: Offer, wanted: str, *, everywhere: bool) -> bool:
-        """Return whether a package is known not to offer something, with ``everywhere`` in no distribution that has it."""
+        """Return whether a package is known not to provide a name.
+
+        With ``everywhere``, no distribution that contains the package may provide it.
+        """
         if self._known(name, offer).ask(wanted) != "missing":
             return False
         return not (everywhere and self.knowledge.offered_elsewhere(name, offer, wanted))
@@ -221,10 +235,11 @@ class World:
         return self._known(name, "programs")
 
     def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
-        """Return all that a package may have of interfaces, as msg/Name, with ``everywhere`` in any distribution that has it.
+        """Return all interfaces that a package may have, as msg/Name; empty if they are not all known.
 
-        So it is, too, where nothing is known of the distribution itself. Of one that nothing is known of, the newest one and
-        those before tell: what was added to it is still there. Empty where nobody knows them all.
+        With ``everywhere``, or if nothing is known for this distribution, the other distributions that contain the
+        package count, too. The newest of them must be known completely, because interfaces of older ones are rarely
+        removed.
         """
         key = (name, everywhere)
         if key not in self._interfaces:
@@ -237,9 +252,10 @@ class World:
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
-        """Return the top-level Python modules. Interface packages have one of their own name.
+        """Return the top-level Python modules. A package of interfaces has a module of its own name.
 
-        One that is so only in other distributions may have it: people import from turtlesim what turtlesim_msgs has now.
+        A package that has interfaces only in other distributions may have the module: interfaces of turtlesim, for
+        example, have moved to turtlesim_msgs.
         """
         known = self._known(name, "modules")
         released = self.released(name) if self.layer(name) in ("underlay", "index") else None
@@ -254,28 +270,28 @@ class World:
     # --- names that are none of packages --------------------------------------------------------------------------
 
     def exports_targets(self, name: str) -> bool:
-        """Return whether a package that is released is known to export all that it offers to CMake as targets."""
+        """Return whether a released package is known to export everything for CMake as targets."""
         released = self.released(name)
         return released is not None and (released.interfaces or self.knowledge.names.exports_targets(name))
 
     def by_cmake(self, name: str) -> Providers:
-        """Return who provides the argument of find_package (reference, sections C2a and C2b)."""
+        """Return the providers of the argument of find_package()."""
         key = ("cmake", name)
         if key not in self._remembered:
             self._remembered[key] = providers.by_cmake(self, name)
         return self._remembered[key]
 
     def by_macro(self, package: str) -> Providers:
-        """Return who provides the macros of a package: what a vendor package stands for has them, too."""
+        """Return the providers of a package's macros, with equivalents of a vendor package."""
         key = ("macro", package)
         if key not in self._remembered:
             self._remembered[key] = providers.by_macro(self, package)
         return self._remembered[key]
 
     def by_include(self, header: str) -> Providers:
-        """Return who provides a header, by its path as written between the brackets (reference, section E3.8).
+        """Return the providers of a header, by its path as written between the brackets.
 
-        Headers of the workspace are known by their packages' names only: who has the files looks there first.
+        Headers of the workspace are matched by package name only, so callers look for their files first.
         """
         key = ("include", header)
         if key not in self._remembered:
@@ -283,21 +299,21 @@ class World:
         return self._remembered[key]
 
     def by_folder(self, folder: str) -> Providers:
-        """Return who provides the headers below a folder that tells its package by its name alone."""
+        """Return the providers of headers below a folder whose name alone identifies the package."""
         key = ("folder", folder)
         if key not in self._remembered:
             self._remembered[key] = providers.by_folder(self, folder)
         return self._remembered[key]
 
     def by_import(self, module: str) -> Providers:
-        """Return who provides a Python module, which may be dotted (reference, section D6)."""
+        """Return the providers of a Python module, which may be dotted."""
         key = ("import", module)
         if key not in self._remembered:
             self._remembered[key] = providers.by_import(self, module)
         return self._remembered[key]
 
     def offering(self, module: str) -> tuple[str, ...]:
-        """Return the packages of the workspace that offer a Python module: by their word, else by their name."""
+        """Return the workspace packages with a Python module: by their build script, else by their name."""
         found = self._modules.get(module, ())
         member = self._members.get(module)
         if not found and member is not None and (member.modules is None or GROUP in member.groups):
@@ -305,13 +321,13 @@ class World:
         return found
 
     def where_else(self, name: str) -> tuple[str, ...]:
-        """Return the other distributions that have a package, oldest first."""
+        """Return the other distributions that contain a package, oldest first."""
         return self.knowledge.elsewhere(name)
 
     def meant(self, name: str, *, python: bool = False) -> Suggestion | None:
-        """Return what an unknown name must mean, or None when there is any doubt: good enough for a fix.
+        """Return the name that an unknown name certainly means, or None. The result is safe for a fix.
 
-        ``python`` says whether it is needed to run Python code.
+        ``python`` is True if the name is needed to run Python code.
         """
         key = (name, python)
         if key not in self._meant:
@@ -319,7 +335,7 @@ class World:
         return self._meant[key]
 
     def suggest(self, name: str, *, python: bool = False) -> tuple[str, ...]:
-        """Return packages and keys that resemble an unknown name, nearest first, at most three."""
+        """Return packages and keys similar to an unknown name, nearest first, at most three."""
         key = (name, python)
         if key not in self._near:
             self._near[key] = providers.near(self, name, python=python)
@@ -327,7 +343,7 @@ class World:
 
     @cached_property
     def spelling(self) -> Spelling:
-        """Return every name of a package or key, to find near ones."""
+        """Index of all names of packages and keys, for similar names."""
         known = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
         return Spelling(name for names in known for name in names)
 

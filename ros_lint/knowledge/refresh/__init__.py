@@ -1,1 +1,1 @@
-"""Refresh the data of the released world from rosdistro and rosdep."""
+"""Refresh the data about released packages from rosdistro and rosdep."""

@@ -1,4 +1,4 @@
-"""rosdep's own files of rules (``base.yaml``, ``python.yaml`` ...; REP 111), read as rosdep's resolver reads them."""
+"""Rule files of rosdep (``base.yaml``, ``python.yaml`` ...; REP 111), read as rosdep's resolver does."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _ONLY_OSX = frozenset({"osx"})
 
 
 def keys(files: Iterable[tuple[str, object]]) -> dict[str, Key]:
-    """Return the keys of rule files, which are given by place and content.
+    """Return the keys of rule files, which are pairs of place and content.
 
-    They stand in the order of rosdep's sources: the first that has a key wins, but that one with nothing but macOS is
-    read on macOS only. Raises KnowledgeError for a file of another kind.
+    The files are in the order of rosdep's sources. The first file with a key wins, except that a rule for macOS
+    alone applies on macOS only. Raises KnowledgeError for a file of another kind.
     """
     merged: dict[str, dict[str, object]] = {}
     for place, rules in files:
@@ -32,7 +32,7 @@ def keys(files: Iterable[tuple[str, object]]) -> dict[str, Key]:
             known = merged.get(str(name), {})
             if known.keys() <= _ONLY_OSX:
                 merged[str(name)] = {**rule, **known}
-    # What only macOS has is no key that a package for Linux could mean.
+    # A package for Linux cannot use a key that exists on macOS only.
     return {name: _key(name, rule) for name, rule in merged.items() if rule.keys() - _ONLY_OSX}
 
 
@@ -49,7 +49,7 @@ def _key(name: str, rule: Mapping[str, object]) -> Key:
 
 
 def _pip(rule: object) -> Iterator[str]:
-    """Yield the pip packages for any platform: what pip calls it, whether or not the platform is one of ours."""
+    """Yield the pip packages of a rule for all platforms, including platforms that the data do not list."""
     if isinstance(rule, dict):
         for name, inside in rule.items():
             if name == "pip":
@@ -59,7 +59,7 @@ def _pip(rule: object) -> Iterator[str]:
 
 
 def _resolve(rule: Mapping[str, object], platform: str) -> tuple[tuple[str, str], ...] | None:
-    """Return the packages to install with their installer, "" for the system's own: None when there is no rule."""
+    """Return packages and their installers ("" for the default installer); None if there is no rule."""
     system, _, version = platform.partition(":")
     found = rule[system] if system in rule else rule.get("*")
     for _ in range(3):  # the version, the installer, its packages

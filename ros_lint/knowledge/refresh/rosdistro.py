@@ -1,6 +1,6 @@
-"""Upstream's files: the index of distributions (REP 153), their files (REP 143), and the caches of manifests.
+"""Files of rosdistro: the index (REP 153), distribution files (REP 143) and manifest caches.
 
-The only place that uses the network, and only for ``ros-lint index refresh`` with a URL.
+This is the only module that uses the network, and only for ``ros-lint index refresh`` with a URL.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ _MOST_BYTES = 1 << 28
 
 
 class Source(NamedTuple):
-    """Where upstream describes a distribution. Places are paths or URLs."""
+    """The files that describe a distribution. Places are paths or URLs."""
 
     name: str
     files: tuple[str, ...]
-    """Later ones go before earlier ones: a private overlay is appended."""
+    """Distribution files; later ones override earlier ones, as a private overlay is appended."""
     cache: str
     active: bool
-    """Whether it is a ROS 2 distribution not yet at its end of life."""
+    """True for a ROS 2 distribution before its end of life."""
 
 
 def sources(place: str) -> dict[str, Source]:
-    """Return the distributions of an index (``index-v4.yaml``) by name. Raises KnowledgeError when it is none."""
+    """Return the distributions of an index (``index-v4.yaml``) by name. Raises KnowledgeError if invalid."""
     index = _mapping(place, load_yaml(place), "distributions")["distributions"]
     found = {}
     for name, entry in index.items():
@@ -50,7 +50,7 @@ def sources(place: str) -> dict[str, Source]:
 
 
 def packages(source: Source) -> Iterator[Released]:
-    """Yield the packages of a distribution. Raises KnowledgeError when a file cannot be read or is of another kind."""
+    """Yield the packages of a distribution. Raises KnowledgeError if a file is unreadable or invalid."""
     if not source.cache:
         raise KnowledgeError(f"the index has no cache for '{source.name}', so its dependencies are unknown")
     cache = _mapping(source.cache, load_yaml(source.cache), "release_package_xmls")
@@ -86,13 +86,13 @@ def _described(source: Source, listed: Released, xml: object, known: Mapping[str
     if manifest.name != listed.name:
         return listed._replace(flags="?-")
     found = describe(manifest, known)
-    # The cache may lag behind the file of the distribution.
+    # The cache may be older than the distribution file.
     state = "U" if not listed.version else "~" if found.version != listed.version else ""
     return listed._replace(flags=found.flags + state + ended, depends=found.depends)
 
 
 def load_yaml(place: str) -> Any:
-    """Return what a YAML file holds, by path or URL, plain or gzipped. Raises KnowledgeError when it cannot be read."""
+    """Return the contents of a YAML file, by path or URL, plain or gzipped. Raises KnowledgeError."""
     data = read(place)
     try:
         return load(data.decode("utf-8-sig"))
@@ -101,7 +101,7 @@ def load_yaml(place: str) -> Any:
 
 
 def read(place: str) -> bytes:
-    """Return a file by path or URL (http, https, file), unpacked. Raises KnowledgeError when it cannot be read."""
+    """Return the bytes of a file, by path or URL (http, https, file), unpacked. Raises KnowledgeError."""
     try:
         data = _download(place) if _is_url(place) else _open(place)
         return gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
@@ -133,7 +133,7 @@ def _is_url(place: str) -> bool:
 
 
 def _beside(index: str, place: str) -> str:
-    """Return a place as seen from the index that names it."""
+    """Return a place that an index names, resolved relative to the index."""
     if _is_url(place) or os.path.isabs(place):
         return place
     folder = index.rpartition("/")[0] if _is_url(index) else os.path.dirname(index)
