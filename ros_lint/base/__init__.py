@@ -1,1 +1,1 @@
-"""Texts, spans, trees, paths and graphs: everything that knows nothing of ROS."""
+"""Texts, spans, trees, paths and graphs: everything that is independent of ROS."""

@@ -9,9 +9,9 @@ from ros_lint.base.text import to_bytes
 
 
 def unified(path: str, before: str | None, after: str) -> str:
-    """Return the difference of two texts of a file, with a line of context around each change. Line ends are kept.
+    """Return the difference of two texts of a file, with one line of context. Line ends are kept.
 
-    ``before`` is None for a file that comes into being.
+    ``before`` is None for a new file.
     """
     old = "/dev/null" if before is None else f"a/{path}"
     lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=1)
@@ -19,18 +19,23 @@ def unified(path: str, before: str | None, after: str) -> str:
 
 
 def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
-    """Return what :func:`unified` does for two states of a file as they are on the disk, whatever their encoding."""
-    was = None if before is None else before.decode("latin-1")  # a letter for each byte, for difflib compares texts
+    """Return the difference of two contents of a file in any encoding, in the format of :func:`unified`."""
+    was = (
+        None if before is None else before.decode("latin-1")
+    )  # # latin-1 maps each byte to a character, because difflib compares texts
     return unified(to_bytes(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
 
 
 def _lines(text: str) -> list[str]:
-    """Split at line feeds only: str.splitlines knows more line ends than patch does."""
+    """Split at line feeds only: str.splitlines splits at more characters than patch."""
     return re.findall(r"[^\n]*\n|[^\n]+", text)
 
 
 def line_before(before: str, after: str, line: int) -> int:
-    """Return the line of the old text that a line of the new one was, or the one that came to stand there. Lines count from 1."""
+    """Return the old line number that corresponds to a line of the new text. Lines count from 1.
+
+    For an inserted line it is the old line before it, or the first line.
+    """
     old, new = _lines(before), _lines(after)
     for _, old_start, old_end, new_start, new_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
         if line - 1 < new_end:

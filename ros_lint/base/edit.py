@@ -8,12 +8,14 @@ from ros_lint.base.text import Span
 
 
 class Edit(NamedTuple):
-    """Put ``text`` where ``span`` is. An empty span inserts."""
+    """Replaces the text of ``span`` by ``text``. An empty span inserts."""
 
     span: Span
     text: str
     kind: int = 0
-    """Of several insertions at one place the one of the least kind comes first. Those of one kind belong together: they are set
-    off by a blank line once. 0 belongs to nothing."""
+    """Rank among several insertions at one place: the lowest kind comes first.
+
+    Insertions of one kind form a group, which is separated by one blank line. Kind 0 forms no group.
+    """
     order: str = ""
-    """Of those of one kind the one with the least comes first; those with the same one keep their order."""
+    """Sort key among insertions of one kind; equal keys keep the order of the edits."""

@@ -1,6 +1,6 @@
 """Read files of the machine: regular files only, and never more bytes than a limit.
 
-Opening a file does not block, so a FIFO, a socket or a device is refused at once.
+Opening a file does not block, so a FIFO, a socket or a device is rejected at once.
 """
 
 from __future__ import annotations
@@ -10,19 +10,23 @@ import os
 import stat
 
 MOST_BYTES = 4 << 20
-"""Size limit of a source file in bytes. A larger file is generated data, and no source."""
+"""Size limit of a source file in bytes. A larger file is generated data, not source code."""
 
 _FLAGS: int = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
 _WRITABLE_BY_OTHERS = 0o022
-"""The permission to write for the group and for all others."""
+"""Write permission of the group and of others."""
 _NO_LINK: int = getattr(os, "O_NOFOLLOW", 0)
 
 
 def read(place: str, most: int = MOST_BYTES, *, links: bool = True, own: bool = False) -> bytes:
-    """Return the bytes of a regular file. A file that grows meanwhile is cut at the size that it had when it was opened.
+    """Return the bytes of a regular file. A file that grows meanwhile is cut at its size when opened.
 
-    Raises OSError, with EFBIG for a file of more than ``most`` bytes, EINVAL for a FIFO, socket or device, without ``links``
-    ELOOP for a path that is a link, and with ``own`` EPERM for a file that another user owns or can write.
+    Raises OSError with one of these errors:
+
+    * EFBIG for a file of more than ``most`` bytes,
+    * EINVAL for a FIFO, socket or device,
+    * ELOOP for a link, unless ``links``,
+    * EPERM, if ``own``, for a file that another user owns or can write.
     """
     # os.open and one read of the right size are twice as fast as open() on the many small files of a workspace.
     handle = os.open(place, _FLAGS if links else _FLAGS | _NO_LINK)
@@ -44,9 +48,10 @@ def read(place: str, most: int = MOST_BYTES, *, links: bool = True, own: bool = 
 
 
 def is_private(folder: str) -> bool:
-    """Return whether a folder, and the link that leads to it, belongs to the user, and no other user can write into it.
+    """Return whether a folder belongs to the user and no other user can write into it.
 
-    A system without user ids (Windows) gives no answer, and every folder counts as private.
+    A link to the folder must belong to the user, too. On a system without user ids (Windows), every folder counts
+    as private.
     """
     try:
         link, target = os.lstat(folder), os.stat(folder)

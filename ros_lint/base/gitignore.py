@@ -1,4 +1,4 @@
-"""What git is told to leave out of a repository: a file that is ignored is made or fetched, and no checkout has it."""
+"""The patterns of ``.gitignore`` files: an ignored file is generated or downloaded."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ _NAME = ".gitignore"
 
 
 class Pattern(NamedTuple):
-    """A line of a ``.gitignore`` (gitignore(5))."""
+    """A pattern of a ``.gitignore`` (gitignore(5))."""
 
     folder: str
-    """Where the file lies; what is not below it is not meant."""
+    """Folder of the file; the pattern applies below it."""
     glob: str
-    """Of a path below the folder. Most runs never ask, so it is translated when it is needed."""
+    """Wildcard for a path below the folder. It is compiled at its first use, because most runs need none."""
     negated: bool
-    """Whether it takes back what an earlier line said."""
+    """True if the pattern re-includes paths that an earlier pattern ignores."""
 
 
 def patterns(folder: str, text: str) -> Iterator[Pattern]:
-    """Yield what the text of a ``.gitignore`` in a folder says."""
+    """Yield the patterns in the text of a ``.gitignore`` in a folder."""
     for written in text.split("\n"):
         line = _trimmed(written.removesuffix("\r"))
         if line.startswith("#"):
@@ -38,14 +38,14 @@ def patterns(folder: str, text: str) -> Iterator[Pattern]:
 
 
 def _trimmed(line: str) -> str:
-    """Return a line without the spaces at its end, but for one that is escaped."""
+    """Return a line without trailing spaces, except for an escaped one."""
     stripped = line.rstrip(" ")
     backslashes = len(stripped) - len(stripped.rstrip("\\"))
     return line[: len(stripped) + backslashes % 2]
 
 
 def is_ignored(given: Iterable[Pattern], path: str) -> bool:
-    """Return whether git leaves out a path, which need not exist: it, or a folder it is in."""
+    """Return whether git ignores a path, which may not exist, or a folder that contains it."""
     ours = [
         (regex, len(octets(one.folder)) + 1 if one.folder else 0, one.negated)
         for one in given
@@ -65,21 +65,21 @@ def is_ignored(given: Iterable[Pattern], path: str) -> bool:
 _TOKEN = re.compile(r"((?:\A|(?<=/))\*\*+(?=/|\Z))|(\*+)|(\?)|(\[)|(\\?/)|\\(.)|([^\\])", re.DOTALL)
 # Groups: 1 any number of folders, 2 star, 3 question mark, 4 bracket, 5 slash, 6 escaped and 7 other characters.
 _ELEMENT = re.compile(r"\[:([^\]]*):\]|(?:\\(.)|([^\\]))(?:-(?:\\(.)|([^\]\\])))?", re.DOTALL)
-"""What stands in brackets: a class by its name (group 1), or a character (2, 3) and perhaps the end of a range (4, 5)."""
+"""An item in brackets: a named class (group 1), or a character (2, 3) or a range up to (4, 5)."""
 _CLASSES: Final = {
     "alnum": "09AZaz", "alpha": "AZaz", "blank": "\t\t  ", "cntrl": "\0\x1f\x7f\x7f", "digit": "09", "graph": "!~",
     "lower": "az", "print": " ~", "punct": "!/:@[`{~", "space": "\t\n\r\r  ", "upper": "AZ", "xdigit": "09AFaf",
 }  # fmt: skip
-"""The first and the last character of each range."""
+"""Pairs of the first and the last character of a range."""
 
 
 class _MalformedError(Exception):
-    """git matches nothing with the pattern."""
+    """A pattern that git never matches."""
 
 
 @lru_cache(maxsize=1024)
 def _compiled(glob: str) -> re.Pattern[str] | None:
-    """Return an expression for a path as :func:`~ros_lint.base.text.octets`, None when git matches nothing with the pattern."""
+    """Return an expression for a path as :func:`~ros_lint.base.text.octets`, None for a malformed pattern."""
     try:
         names = _names(octets(glob))
     except _MalformedError:
@@ -95,7 +95,7 @@ def _compiled(glob: str) -> re.Pattern[str] | None:
 
 
 def _names(glob: str) -> list[list[str]]:
-    """Return for each name in a pattern what stands between its stars, as expressions; an empty list for ``**``."""
+    """Return, for each path component of a pattern, the expressions between its stars; [] for ``**``."""
     if len(glob) > LONGEST:
         raise _MalformedError
     names = [[""]]
@@ -124,7 +124,7 @@ def _names(glob: str) -> list[list[str]]:
 
 
 def _letter(glob: str, at: int) -> tuple[str, int]:
-    """Return an expression for a bracket that is open at an offset, and the offset behind it."""
+    """Return an expression for the bracket that opened before an offset, and the offset after it."""
     negated = glob[at : at + 1] in ("!", "^")
     at += negated
     ranges: list[tuple[int, int]] = []
@@ -137,6 +137,6 @@ def _letter(glob: str, at: int) -> tuple[str, int]:
             ends = _CLASSES[match[1]]
         else:
             low = match[2] or match[3]
-            ends = low + low + low + (match[4] or match[5] or low)  # the first character counts even where the range is empty
+            ends = low + low + low + (match[4] or match[5] or low)  # # the first character counts even if the range is empty
         ranges += [(ord(low), ord(high)) for low, high in zip(ends[::2], ends[1::2], strict=True)]
     return letters(ranges, negated=negated), at + 1

@@ -1,4 +1,4 @@
-"""Ways through a graph, the shortest first."""
+"""Paths through a graph, the shortest first."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
 _MOST_STEPS = 20_000
-"""A search in a knot of cycles ends after so many steps, whatever it has found."""
+"""Limit of the steps of a search: a graph with many cycles has too many paths."""
 
 
 class Paths(NamedTuple):
-    """Ways from one node to another."""
+    """Paths from one node to another."""
 
     found: tuple[tuple[str, ...], ...]
-    """Each from start to end, no node twice; by length, then by name."""
+    """Paths without repeated nodes, from start to end, sorted by length, then by name."""
     more: bool
-    """Whether there are others, or may be."""
+    """True if there are or may be further paths."""
 
 
 def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> Paths:
-    """Return up to ``most`` ways from a node to another one."""
+    """Return up to ``most`` paths from a node to another one."""
     distance = _distances(successors, start, end)
     if start not in distance:
         return Paths((), False)
@@ -44,7 +44,7 @@ def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most
 
 
 def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str) -> dict[str, int]:
-    """Return how far it is to the end, for every node on the way."""
+    """Return the distance to the end for each node on a path to it."""
     before: dict[str, list[str]] = {}
     seen = {start}
     todo = [start]

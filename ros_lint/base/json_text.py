@@ -1,4 +1,4 @@
-"""JSON that can be read by people and compared by line: the upper levels over many lines, the rest on one."""
+"""JSON that is readable and can be compared by lines: only the upper levels span several lines."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ import re
 from typing import Any
 
 _LONE = re.compile("[\ud800-\udfff]")
-# Valid in JSON as they are, but not harmless on a terminal: controls, and what turns the direction of writing.
+# Valid in JSON as they are, but harmful in a terminal: controls and changes of the text direction.
 _HARMFUL = re.compile("[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def encode(value: Any, levels: int) -> str:
-    """Return a value as JSON that ends with a line feed. The first ``levels`` levels have a line an entry.
+    """Return a value as JSON that ends with a line feed.
 
-    What no UTF-8 can say, bytes of a file that is in no known encoding, becomes U+FFFD.
+    The first ``levels`` levels have a line for each entry. Lone surrogates, which stand for bytes of an unknown
+    encoding, become U+FFFD.
     """
     text = _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
     return _HARMFUL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)

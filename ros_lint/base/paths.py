@@ -13,12 +13,12 @@ def join(directory: str, name: str) -> str:
 
 
 def resolve(directory: str, path: str) -> str:
-    """Return the path that a relative one, which may lead upwards, means from a directory."""
+    """Return the path that a relative path refers to from a directory. It may lead upwards."""
     return posixpath.normpath(join(directory, path))
 
 
 def relative(directory: str, path: str) -> str:
-    """Return the relative path, which may lead upwards, by which a directory means a path: the reverse of :func:`resolve`."""
+    """Return ``path`` relative to ``directory``, with ``..`` if necessary: the inverse of :func:`resolve`."""
     return posixpath.relpath(f"/{path}", f"/{directory}")
 
 
@@ -28,28 +28,28 @@ def is_outside(path: str) -> bool:
 
 
 def strip_folder(directory: str, path: str) -> str:
-    """Return a path as it is in a directory that it lies in: the reverse of :func:`join`. Others stay as they are."""
+    """Return ``path`` relative to a directory above it, the inverse of :func:`join`; else unchanged."""
     return path.removeprefix(f"{directory}/") if directory else path
 
 
 def parent(path: str) -> str:
-    """Return the directory that a path lies in."""
+    """Return the directory that contains a path."""
     return path.rpartition("/")[0]
 
 
 def is_below(path: str, folder: str) -> bool:
-    """Return whether a path is that of a directory, or of something that lies in it. The empty one holds everything."""
+    """Return whether a path is a folder or is inside it. The empty folder contains everything."""
     return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
 
 
 def folders_of(path: str) -> Iterator[str]:
-    """Yield the directories that a path lies in, innermost first; not the base, in which everything lies."""
+    """Yield the directories that contain a path, innermost first, without the base."""
     while path := parent(path):
         yield path
 
 
 def upwards(folder: str) -> Iterator[str]:
-    """Yield a folder of the machine and those that it lies in, innermost first."""
+    """Yield a folder of the machine and the folders that contain it, innermost first."""
     while True:
         yield folder
         above = os.path.dirname(folder)

@@ -1,4 +1,7 @@
-"""The parser of the Python that runs, with its warnings off. :mod:`ros_lint.collectors.python.syntax` bounds what it is given."""
+"""The parser of the running Python, without its warnings.
+
+:mod:`ros_lint.collectors.python.syntax` limits the texts that it gets.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +12,16 @@ from ros_lint.base.text import to_bytes
 
 
 class TooDeepForPythonError(Exception):
-    """The parser has run out of stack or memory."""
+    """The parser exceeded the limits of stack or memory."""
 
 
 def module(text: str) -> ast.Module:
-    """Return the tree of a module. Raises SyntaxError and TooDeepForPythonError."""
+    """Return the syntax tree of a module. Raises SyntaxError and TooDeepForPythonError."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # about escapes in somebody's strings
+        warnings.simplefilter("ignore")  # # about invalid escapes in strings
         try:
             return _module(text)
-        except ValueError as error:  # a null character, or an integer of too many digits
+        except ValueError as error:  # # a null character, or an integer with too many digits
             raise SyntaxError(str(error)) from None
         except (RecursionError, MemoryError) as error:
             raise TooDeepForPythonError from error
@@ -27,12 +30,12 @@ def module(text: str) -> ast.Module:
 def _module(text: str) -> ast.Module:
     try:
         return ast.parse(text, "")
-    except UnicodeEncodeError:  # Python takes bytes that are no UTF-8 in comments of what it imports
+    except UnicodeEncodeError:  # # Python accepts bytes other than UTF-8 in comments of imported modules
         return ast.parse(to_bytes(text), "")
 
 
 def expression(text: str) -> ast.expr:
-    """Return the tree of an expression. Raises SyntaxError and TooDeepForPythonError."""
+    """Return the syntax tree of an expression. Raises SyntaxError and TooDeepForPythonError."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -44,7 +47,7 @@ def expression(text: str) -> ast.expr:
 
 
 def literal(text: str) -> object:
-    """Return what a literal stands for. Raises ValueError."""
+    """Return the value of a literal. Raises ValueError."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -55,9 +58,10 @@ def literal(text: str) -> object:
 
 
 def compiled(tree: ast.Module) -> SyntaxError | None:
-    """Return what the compiler refuses in a tree, None where there is nothing, or where it runs out of stack. Nothing is run.
+    """Return the compiler's error for a tree, or None. Nothing is executed.
 
-    The compiler opens the file that it is told to come from when it finds an error. No file has the name it is told here.
+    None also if the compiler exceeds its stack. The file name is empty because the compiler opens the named file to
+    quote an erroneous line.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -1,8 +1,8 @@
-"""The tokens of Python sources, the same under every interpreter that runs ros-lint.
+"""The tokens of Python sources, independent of the interpreter that runs ros-lint.
 
-``tokenize`` of the standard library gives other tokens for f-strings from Python 3.12 on, and fails on other texts. The grammar
-here is that of Python 3.14: f-strings nest (PEP 701), and t-strings exist (PEP 750).
-Source: "Lexical analysis" of the language reference.
+``tokenize`` of the standard library returns different tokens for f-strings from Python 3.12 on, and fails on other
+texts. The grammar here is that of Python 3.14: f-strings nest (PEP 701), and t-strings exist (PEP 750). Source:
+"Lexical analysis" of the language reference.
 """
 
 from __future__ import annotations
@@ -50,11 +50,11 @@ _CLOSES: Final = {"(": ")", "[": "]", "{": "}"}
 _DEBUG: Final = re.compile(r"=[ \t\r\n]*(?=[!:}])")
 _CONVERSION: Final = re.compile(r"!([a-z]*)([ \t\r\n]*)(?=[:}])")
 _MOST_TEMPLATES: Final = 5
-"""How deep f-strings may nest."""
+"""Maximum nesting of f-strings."""
 
 
 class Token(NamedTuple):
-    """A token with its place. Blanks, line ends in brackets and joined lines are none."""
+    """A token with its place. Blanks, line ends in brackets and line continuations are not tokens."""
 
     kind: Kind
     start: int
@@ -65,17 +65,17 @@ class Field(NamedTuple):
     """A replacement field of an f-string or t-string."""
 
     start: int
-    """Of the opening brace."""
+    """Offset of the opening brace."""
     expression: tuple[int, int]
     debug: str
-    """The expression and the sign of equality after it, as ``f"{a = }"`` shows them, else ""."""
+    """Expression with the equals sign after it, as ``f"{a = }"`` displays them, else ""."""
     conversion: str
-    """The letter, or ""."""
+    """Letter of the conversion, or ""."""
     format: tuple[Piece, ...] | None
 
 
 class Piece(NamedTuple):
-    """A part of an f-string or t-string: a field, or literal text between two places."""
+    """A part of an f-string or t-string: a field, or literal text."""
 
     start: int
     end: int
@@ -90,14 +90,14 @@ class Template(NamedTuple):
     quote: str
     raw: bool
     interpolated: bool
-    """Whether it is a t-string."""
+    """True for a t-string."""
     pieces: tuple[Piece, ...]
     newer: tuple[str, ...]
-    """What it has that came with Python 3.12, each a noun in the plural."""
+    """Constructs in it that require Python 3.12, as nouns in the plural."""
 
 
 class TokenError(Exception):
-    """A source is no Python at a place, whatever the grammar."""
+    """A source that is not valid Python in any version."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -106,7 +106,7 @@ class TokenError(Exception):
 
 
 class TemplateDepthError(TokenError):
-    """F-strings are nested more deeply than they are followed. They may be Python all the same."""
+    """F-strings nested more deeply than supported. They may be valid Python."""
 
 
 def tokens(text: str) -> Iterator[Token]:
@@ -138,7 +138,7 @@ def tokens(text: str) -> Iterator[Token]:
 
 
 def template(text: str, start: int) -> Template:
-    """Return the f-string or t-string that begins at a place. Raises TokenError."""
+    """Return the f-string or t-string that begins at an offset. Raises TokenError."""
     return _Reader(text).template(start, 0)
 
 
@@ -156,7 +156,7 @@ def _strange(text: str, at: int) -> TokenError:
 
 
 class _Reader:
-    """Reads f-strings of a text."""
+    """Parses f-strings of a text."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -179,7 +179,7 @@ class _Reader:
         return found
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
-        """Return the parts up to the closing quote, or of a format specification up to the closing brace, and that place."""
+        """Return the pieces of a string or format specification, and the offset of its closing quote or brace."""
         text, found = self._text, list[Piece]()
         literal = _literal(quote, raw)
         while True:
@@ -234,7 +234,7 @@ class _Reader:
         return Field(start, (start + 1, end), debug, conversion, form), at + 1
 
     def _expression_end(self, at: int, depth: int) -> int:
-        """Return where the expression of a field ends: before the brace, the colon, the conversion or the sign of equality."""
+        """Return the end of a field's expression: before the brace, colon, conversion or equals sign."""
         text, opened = self._text, list[str]()
         while at < len(text):
             match = _token().match(text, at)
@@ -259,7 +259,7 @@ class _Reader:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return where literal text ends. In a format specification two braces are two."""
+    """Return the end of literal text. In a format specification, doubled braces are not an escape."""
     match = literal.match(text, at)
     end = match.end() if match is not None else at
     if in_format:

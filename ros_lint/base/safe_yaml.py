@@ -1,7 +1,7 @@
-"""YAML of unknown origin: the only module that calls the yaml library, and what bounds its input.
+"""YAML of unknown origin: the only module that calls the yaml library, with limits for its input.
 
-libyaml calls itself for each level of nesting, and a text of a hundred kilobytes makes it overflow the stack, which ends the
-process. A few aliases stand for any number of values. Both are refused here before a node or an object is made.
+libyaml recurses for each level of nesting, so a text of a hundred kilobytes can overflow the stack, which ends the
+process. A few aliases can stand for any number of values. Both are rejected before a node or an object is created.
 """
 
 from __future__ import annotations
@@ -18,18 +18,21 @@ if TYPE_CHECKING:
 _Taken = TypeVar("_Taken")
 
 DEEPEST: Final = 100
-"""How many lists and mappings may stand in one another. Published workspaces have up to 27."""
+"""Maximum nesting of lists and mappings. Published workspaces have up to 27 levels."""
 _MOST_REPEATED: Final = 200_000
-"""How many values aliases may repeat, those within repeated values included."""
+"""Maximum number of values that aliases repeat, including values within repeated values."""
 _MOST_BITS: Final = 4_096
-"""How large an integer may be. Python refuses to write one of more than 4,300 digits."""
+"""Maximum size of an integer. Python does not convert integers of more than 4,300 digits to text."""
 _LONGEST_FOR_PYTHON: Final = 50_000
-"""How many characters are read by the library's own Python code, which is slow."""
+"""Maximum number of characters for the library's pure Python code, which is slow."""
 _LEADING: Final = re.compile(r"^[ \t?:-]+", re.MULTILINE)
 
 
 class YamlError(Exception):
-    """A text is no YAML, or one of its values cannot be made. ``offset`` is from 0 to the length of the text."""
+    """A text is not YAML, or a value cannot be constructed.
+
+    ``offset`` is from 0 to the length of the text.
+    """
 
     def __init__(self, message: str, offset: int = 0) -> None:
         super().__init__(message)
@@ -38,21 +41,22 @@ class YamlError(Exception):
 
 
 class YamlBoundError(YamlError):
-    """A text exceeds a bound of this module. It may be YAML all the same."""
+    """A text exceeds a limit of this module. It may be valid YAML."""
 
 
 def compose(text: str) -> yaml.Node | None:
-    """Return the root node of the only document, None when there is none. Raises YamlError.
+    """Return the root node of the only document, None if there is none. Raises YamlError.
 
-    The marks of the nodes count characters of the text. Refused is what launch and colcon refuse, which read with the
-    library's Python code: that takes no tab within a plain text, and a "?" in brackets for a key, where libyaml does not.
+    The marks of the nodes count characters of the text. launch and colcon read with the library's pure Python code,
+    which rejects a tab within a plain text and treats "?" in brackets as a key marker; libyaml does neither. Such
+    texts are therefore read with the Python code.
     """
     strict = len(text) <= _LONGEST_FOR_PYTHON and ("\t" in text or "?" in text)
     return _read(text, _loader(fast=not strict), _root)
 
 
 def load(text: str) -> Any:
-    """Return what the only document stands for, None when there is none. Raises YamlError."""
+    """Return the value of the only document, None if there is none. Raises YamlError."""
     return _read(text, _loader(fast=True), _value)
 
 
@@ -62,7 +66,7 @@ def scalar(node: yaml.ScalarNode) -> Any:
 
 
 def tokens(text: str) -> list[tuple[int, int]]:
-    """Return where the tokens of a text begin and end, in order. Raises YamlError."""
+    """Return the start and end offsets of the tokens of a text, in order. Raises YamlError."""
     import yaml  # noqa: PLC0415
 
     text = _bounded(text)
@@ -74,7 +78,7 @@ def tokens(text: str) -> list[tuple[int, int]]:
 
 @cache
 def _loader(*, fast: bool) -> Any:
-    """Return the safe loader of the library in C or in Python, with integers bounded."""
+    """Return the safe loader of the library in C or in Python, with a limit for integers."""
     import yaml  # noqa: PLC0415
 
     class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
@@ -91,7 +95,7 @@ def _loader(*, fast: bool) -> Any:
 
 
 def _read(text: str, kind: Any, take: Callable[[Any, str], _Taken]) -> _Taken:
-    """Return what a function takes from a loader for a text. Raises YamlError for everything that goes wrong there."""
+    """Return the result of ``take`` for a loader of a text. Raises YamlError for every error."""
     text = _bounded(text)
     loader = None
     try:
@@ -99,7 +103,7 @@ def _read(text: str, kind: Any, take: Callable[[Any, str], _Taken]) -> _Taken:
         return take(loader, text)
     except YamlError:
         raise
-    except Exception as error:  # a tag on the wrong value makes the library fail in any way
+    except Exception as error:  # # a tag on a value of the wrong type makes the library raise any exception
         raise _as_yaml_error(error, len(text)) from None
     finally:
         if loader is not None:
@@ -133,11 +137,11 @@ def _as_yaml_error(error: Exception, length: int) -> YamlError:
 
 
 def _bounded(text: str) -> str:
-    """Return a text as one that the library can read: exactly a str, and nested no deeper than the bound."""
+    """Return a text that the library can read: an exact str, not nested more deeply than the limit."""
     import yaml  # noqa: PLC0415
 
-    text = str(text)  # the library takes no subclass
-    # Brackets nest, and so do lines that begin further right: a column has a mapping and a list in it at most.
+    text = str(text)  # # the library rejects subclasses
+    # Brackets nest, and so do indented lines: a column has at most a mapping and a list.
     widest = max(map(len, _LEADING.findall(text)), default=0)
     if text.count("[") + text.count("{") + 2 * (widest + 2) <= DEEPEST:
         return text
@@ -152,12 +156,12 @@ def _bounded(text: str) -> str:
             elif isinstance(event, yaml.CollectionEndEvent):
                 depth -= 1
     except (yaml.YAMLError, UnicodeError):
-        pass  # whoever reads it meets the error again
+        pass  # # reading the text raises the error again
     return text
 
 
 def _check_aliases(root: yaml.Node) -> None:
-    """Raise YamlBoundError if aliases repeat too much, or a value holds itself."""
+    """Raise YamlBoundError if aliases repeat too many values, or a value contains itself."""
     sizes: dict[int, int] = {}
     waiting: list[tuple[yaml.Node, bool]] = [(root, False)]
     entered: set[int] = set()
@@ -181,7 +185,7 @@ def _start(found: yaml.Node | yaml.Event) -> int:
 
 
 def _within(node: yaml.Node) -> Iterator[yaml.Node]:
-    """Yield what a node holds directly."""
+    """Yield the direct children of a node."""
     if isinstance(node.value, list):
         for item in node.value:
             if isinstance(item, tuple):

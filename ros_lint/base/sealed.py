@@ -6,13 +6,13 @@ from typing import NoReturn
 
 
 class Sealed:
-    """A base for objects with a ``__dict__`` that the cache gives out: a pickle cannot set their attributes.
+    """A base class for cached objects with a ``__dict__``: a pickle cannot set their attributes.
 
-    Enumerations need it, because their members are shared by the whole process. A named tuple has no ``__dict__``.
+    Enumerations need it because the whole process shares their members. A named tuple has no ``__dict__``.
     """
 
     __slots__ = ()
 
     def __setstate__(self, state: object) -> NoReturn:
-        """Refuse a state: the opcode BUILD of a pickle calls this."""
+        """Reject a state: the opcode BUILD of a pickle calls this method."""
         raise TypeError(f"{type(self).__name__} takes no state")

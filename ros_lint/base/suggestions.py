@@ -6,24 +6,27 @@ from collections.abc import Iterable, Sequence
 
 
 def similar_names(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) -> list[str]:
-    """Return at most ``most`` of ``names`` that resemble ``name``, nearest first; ``least`` is the similarity, from 0 to 1."""
+    """Return at most ``most`` of ``names`` that resemble ``name``, nearest first.
+
+    ``least`` is the minimum similarity, from 0 to 1.
+    """
     from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for a slip only)
 
     return get_close_matches(name, list(names), most, least)
 
 
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
-    """Return the end of a message that suggests some names, joined to it by ``after``; "" if there are none."""
+    """Return the end of a message that suggests ``names``, joined to it by ``after``; "" without names."""
     return f"{after}did you mean {' or '.join(map(_quoted, names))}?" if names else ""
 
 
 def ask_if_meant(names: Sequence[str]) -> str:
-    """Return the end of a message that suggests the first of some names; "" if there are none."""
+    """Return the end of a message that suggests the first of ``names``; "" without names."""
     return did_you_mean(names[:1])
 
 
 def _quoted(name: str) -> str:
-    """Return a name as messages show it: in quotes, except tags."""
+    """Return a name as in messages: in quotes, except tags."""
     return name if name.startswith("<") else f"'{name}'"
 
 
@@ -31,7 +34,7 @@ _MOST_NAMES = 3
 
 
 def shorten_list(names: Iterable[str]) -> str:
-    """Return the first three of some names, in quotes, and the number of the others."""
+    """Return the first three names in quotes, and the number of the others."""
     names = list(names)
     first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])
     return f"{first} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else first

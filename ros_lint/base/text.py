@@ -1,4 +1,4 @@
-"""Files as text, and places in them."""
+"""Texts of files, and places in them."""
 
 from __future__ import annotations
 
@@ -35,32 +35,32 @@ class Span(NamedTuple):
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
     def inner(self, text: str) -> Span | None:
-        """Return the place of a text that stands here, without its quotes. None where it is written in another way."""
+        """Return the span of ``text``, written here with or without quotes; None if it is written differently."""
         quotes, odd = divmod(self.end_column - self.column - len(text), 2)
         if self.line != self.end_line or odd or quotes not in (0, 1):
             return None
         return self._replace(column=self.column + quotes, end_column=self.end_column - quotes)
 
     def covers(self, other: Span) -> bool:
-        """Return whether another place is within this one; it is within itself."""
+        """Return whether another span is within this one, or equal to it."""
         return self.path == other.path and self[1:3] <= other[1:3] and other[3:5] <= self[3:5]
 
 
 def file_start(path: str) -> Span:
-    """Return the empty place at the beginning of a file: where to point when the file as a whole is meant."""
+    """Return the empty span at the start of a file, for findings about the whole file."""
     return Span(path, 1, 1, 1, 1)
 
 
 _make = tuple.__new__
 
-# Not str.splitlines: it also splits at form feeds and U+2028, which no parser here counts as a line.
+# str.splitlines also splits at form feeds and U+2028, which no parser here counts as line ends.
 _NEWLINE = re.compile(r"\r\n|\r|\n")
 
 
 class Text:
-    """The text of one file, able to turn offsets into spans and back.
+    """The text of a file; converts between offsets and spans.
 
-    ``codec`` is what encodes the text to the bytes it came from, see :func:`decode`.
+    ``codec`` encodes the text to the original bytes, see :func:`decode`.
     """
 
     __slots__ = ("_starts", "codec", "path", "text")
@@ -73,7 +73,7 @@ class Text:
 
     @property
     def newline(self) -> str:
-        """The line end that the file uses first, or a line feed."""
+        """First line end in the file, or a line feed."""
         found = _NEWLINE.search(self.text)
         return found[0] if found else "\n"
 
@@ -88,13 +88,13 @@ class Text:
         before = starts[line - 1] - 1
         if line < len(starts) and end >= starts[line]:
             return Span(self.path, line, start - before, *self.position(end))
-        # Nearly all places lie within a line: made twice as fast as by the constructor.
+        # Nearly all spans are within a line: a tuple is created twice as fast as by the constructor.
         return _make(Span, (self.path, line, start - before, line, end - before))
 
     def spans(self, ranges: Iterable[tuple[int, int]]) -> Iterator[Span]:
-        """Return the spans of ranges that are sorted and lie within a line each.
+        """Return the spans of sorted ranges, each of which is within a line.
 
-        Faster than :meth:`span` for a few places in a long file: lines are counted by the C library.
+        This is faster than :meth:`span` for a few places in a long file, because the C library counts the lines.
         """
         text, path = self.text, self.path
         if "\r" in text:
@@ -110,7 +110,7 @@ class Text:
             yield _make(Span, (path, line, start - before, line, end - before))
 
     def offset(self, line: int, column: int) -> int:
-        """Return the offset of a place. Raises IndexError when there is no such line."""
+        """Return the offset of a place. Raises IndexError if the line does not exist."""
         return self._line_starts()[line - 1] + column - 1
 
     def position(self, offset: int) -> tuple[int, int]:
@@ -120,19 +120,19 @@ class Text:
         return line, offset - starts[line - 1] + 1
 
     def line(self, number: int) -> str:
-        """Return a line without its line end. Raises IndexError when there is no such line."""
+        """Return a line without its line end. Raises IndexError if the line does not exist."""
         starts = self._line_starts()
         end = starts[number] if number < len(starts) else None
         return self.text[starts[number - 1] : end].rstrip("\r\n")
 
     def slice(self, span: Span) -> str:
-        """Return the text that a span of this file covers."""
+        """Return the text of a span of this file."""
         return self.text[self.offset(span.line, span.column) : self.offset(span.end_line, span.end_column)]
 
     def encode(self, text: str) -> bytes:
-        """Return a changed text as bytes, in the encoding that the file had.
+        """Return a changed text as bytes in the encoding of the file.
 
-        Raises UnicodeEncodeError when the encoding has no such character.
+        Raises UnicodeEncodeError if the encoding lacks a character.
         """
         if self.codec == "utf-8":
             return to_bytes(text)
@@ -148,9 +148,10 @@ class Text:
         return self._starts
 
 
-# "utf-16" writes the mark of the little end, so the other one stays in the text as its first character.
+# Decoding with "utf-16-be" keeps its byte order mark as the first character of the text, because "utf-16" would write
+# the mark of UTF-16LE when encoding.
 _BOMS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16-be"))
-# XML 1.0, appendix F: a file without a mark that begins with markup all the same.
+# XML 1.0, appendix F: a file without a byte order mark that begins with markup.
 _XML_WIDE = (
     (re.compile(rb"(?:[ \t\r\n]\0)*<\0"), "utf-16-le"),
     (re.compile(rb"(?:\0[ \t\r\n])*\0<"), "utf-16-be"),
@@ -160,16 +161,21 @@ _PYTHON_ENCODING = re.compile(rb"\A(?:[^\n]*\n)?[ \t\f]*#[^\n]*?coding[:=][ \t]*
 
 
 def decode(data: bytes) -> tuple[str, str]:
-    """Return the text of a file and the codec that turns it back into the same bytes.
+    """Return the text of a file, and the codec that encodes it to the same bytes.
 
-    A byte order mark decides, then what the first characters of XML look like, then the encoding that an XML
-    declaration or a Python coding line names, then UTF-8. Bytes that are no UTF-8 survive as lone surrogates, so nothing
-    raises and nothing is lost.
+    The encoding is determined by, in this order:
+
+    * a byte order mark,
+    * the first characters of XML,
+    * an XML declaration or a Python coding line,
+    * the default UTF-8.
+
+    Bytes that are not UTF-8 become lone surrogates, so nothing raises and nothing is lost.
     """
     head = data[:400]
     named = b"coding" in head
     if not named and data.isascii() and b"\0" not in head[:2]:
-        return data.decode("ascii"), "utf-8"  # nearly every file, and nothing of what follows
+        return data.decode("ascii"), "utf-8"  # # nearly every file
     for mark, codec in _BOMS:
         if data.startswith(mark):
             try:
@@ -194,7 +200,10 @@ def decode(data: bytes) -> tuple[str, str]:
 
 
 def span_in(path: str, data: bytes, start: int, end: int) -> Span:
-    """Return the span between two offsets of a line, for those who search a file as it is: few of many have what they seek."""
+    """Return the span between two offsets of a line, given the bytes of the file.
+
+    This serves searches in undecoded files, because few of them contain the text.
+    """
     line_start = data.rfind(b"\n", 0, start) + 1
     line = data.count(b"\n", 0, start) + 1
     column, width = (len(part.decode("utf-8", "replace")) for part in (data[line_start:start], data[start:end]))
@@ -202,17 +211,17 @@ def span_in(path: str, data: bytes, start: int, end: int) -> Span:
 
 
 def to_bytes(text: str) -> bytes:
-    """Return a piece of a text, or a path, as the bytes that it is on the disk: what is no UTF-8 there stays as it is."""
+    """Return a text or a path as its bytes on disk: surrogate escapes become the original bytes."""
     return text.encode("utf-8", "surrogateescape")
 
 
 def octets(text: str) -> str:
-    """Return a text with one character for each of its bytes (:func:`raw`), for tools that match byte by byte."""
+    """Return a text with one character for each of its bytes (:func:`to_bytes`), for byte-wise matching."""
     return text if text.isascii() else to_bytes(text).decode("latin-1")
 
 
 def from_bytes(data: bytes) -> str:
-    """Return the piece of a text, or the path, that :func:`raw` made bytes of."""
+    """Return bytes as a text or a path: the inverse of :func:`to_bytes`."""
     return data.decode("utf-8", "surrogateescape")
 
 

@@ -1,7 +1,7 @@
-"""Where files come from: a disk, a mapping, or one laid over the other.
+"""Sources of files: a disk, a mapping, or an overlay.
 
-Everything above asks a tree, so that a patched workspace or a case from a test is read by the same code as a real one.
-Paths are relative to the base of the tree, with forward slashes; the base itself is ``""``.
+All other modules read files through a tree, so that a patched workspace or a test case is read by the same code as
+a real one. Paths are relative to the base of the tree, with forward slashes; the base itself is ``""``.
 """
 
 from __future__ import annotations
@@ -28,10 +28,11 @@ class Entry(NamedTuple):
 
 
 class Stamp(NamedTuple):
-    """The state of a file: time of its content in nanoseconds, size in bytes, permission bits, time of its inode, inode.
+    """The state of a file, to detect changes.
 
-    Tools set the first three back (``cp -p``, ``rsync -t``, git-restore-mtime). No tool sets the time of the inode (st_ctime),
-    and the inode changes when a link leads to another file.
+    The fields are the modification time in nanoseconds, the size in bytes, the permission bits, the inode's change
+    time and the inode. Tools can restore the first three (``cp -p``, ``rsync -t``, git-restore-mtime). No tool sets
+    the change time (st_ctime), and the inode changes when a link leads to another file.
     """
 
     time: int
@@ -46,7 +47,7 @@ class Stamp(NamedTuple):
 
 
 class Tree(Protocol):
-    """Files to read. Every method may raise OSError for the place it was asked about."""
+    """Files to read. Each method may raise OSError for the given path."""
 
     def list(self, path: str) -> list[Entry]:
         """Return the entries of a directory, sorted by name."""
@@ -55,12 +56,12 @@ class Tree(Protocol):
         """Return the bytes of a file."""
 
     def stamp(self, path: str) -> Stamp:
-        """Return what tells this state of a file from another."""
+        """Return the state of a file, to detect changes."""
 
     def identity(self, path: str) -> str:
-        """Return a path that two paths share if they lead to one directory.
+        """Return a path that is equal for two paths of one directory.
 
-        Below a directory that is no link, it is the identity of the parent joined to the name.
+        The identity of an entry that is not a link is the identity of its directory joined with its name.
         """
 
 
@@ -73,7 +74,7 @@ def text_of(tree: Tree, path: str) -> Text | None:
 
 
 def contents(tree: Tree, folder: str, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-    """Yield those files below a folder that can be read, by their path in the tree, with what they hold."""
+    """Yield the readable files below a folder: path in the tree and contents."""
     for path in (join(folder, file) for file in files):
         try:
             yield path, tree.read(path)
@@ -86,7 +87,7 @@ _make = tuple.__new__
 
 
 def repository_of(folder: str) -> str:
-    """Return the root of the repository that a folder of the machine is in, or ""."""
+    """Return the root of the repository that contains a folder of the machine, or ""."""
     return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
 
 
@@ -94,7 +95,7 @@ def _followed(entry: os.DirEntry[str]) -> Entry:
     try:
         kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"
     except OSError:
-        kind = "other"  # such as a link to itself
+        kind = "other"  # # e.g. a link to itself
     return Entry(entry.name, kind, entry.is_symlink())
 
 
@@ -102,10 +103,11 @@ LEADS_OUT = "links to a place outside of the workspace"
 
 
 class DiskTree:
-    """The files below a directory. Reads, and never writes.
+    """The files below a directory, read-only.
 
-    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. A file
-    in a folder that is reached by a link which leads out of these may link into that folder, too, and into its repository.
+    ``inside`` are the real paths of the folders to which links to files may lead, by default the directory itself.
+    A folder reached by a link to elsewhere extends this for its own files: their links may also lead into that
+    folder and its repository.
     """
 
     __slots__ = ("_base", "_inside")
@@ -115,14 +117,14 @@ class DiskTree:
         self._inside = tuple(inside)
 
     def place(self, path: str) -> str:
-        """Return the path as the operating system takes it."""
+        """Return the path for the operating system."""
         return f"{self._base}/{path}" if path else self._base
 
     def list(self, path: str) -> list[Entry]:
         found = []
         with os.scandir(self.place(path)) as entries:
             for entry in entries:
-                # The two common cases cost no call to the system, and as little as can be in Python.
+                # The two common cases need no system call and little Python code.
                 if entry.is_file(follow_symlinks=False):
                     found.append(_make(Entry, (entry.name, "file", False)))
                 elif entry.is_dir(follow_symlinks=False):
@@ -145,11 +147,11 @@ class DiskTree:
         return files.read(target)
 
     def _may_lead_to(self, target: str, folder: str) -> bool:
-        """Return whether a link in a folder may lead to a place."""
+        """Return whether a link in a folder may lead to a target."""
         inside = self._inside or (self.identity(""),)
         if _is_in(target, inside):
             return True
-        linked = ""  # the real path of the outermost folder that is reached by a link which leads out
+        linked = ""  # # the real path of the outermost folder that is reached by a link to elsewhere
         while folder and not _is_in(real := self.identity(folder), inside):
             linked, folder = real, parent(folder)
         return bool(linked) and _is_in(target, (linked, repository_of(linked) or linked))
@@ -163,7 +165,7 @@ class DiskTree:
 
 
 _IS_LINK = (errno.ELOOP, errno.EMLINK)
-"""The errors of O_NOFOLLOW: of Linux and macOS, and of FreeBSD."""
+"""Errors of O_NOFOLLOW for a link: ELOOP on Linux and macOS, EMLINK on FreeBSD."""
 
 
 def _is_in(path: str, folders: Iterable[str]) -> bool:
@@ -171,7 +173,7 @@ def _is_in(path: str, folders: Iterable[str]) -> bool:
 
 
 class Machine(DiskTree):
-    """All files of the machine, by their absolute paths. Links are followed wherever they lead."""
+    """All files of the machine, by absolute path. Links may lead anywhere."""
 
     __slots__ = ()
 
@@ -186,13 +188,13 @@ class Machine(DiskTree):
 
 
 Told = list[Entry] | Stamp | str | int
-"""What a tree says to a question, or the number of the error."""
+"""The answer of a tree to a query, or the number of the error."""
 
 
 class RecordedTree:
-    """A disk that takes down what it is asked and what it says, so that it can be asked the same another day.
+    """A disk that records queries and answers, so that a later run can repeat the queries.
 
-    ``steady`` turns False when it says two things to one question: then somebody writes while a run reads.
+    ``steady`` becomes False if a query has two answers: then a file changes during the run.
     """
 
     def __init__(self, disk: DiskTree) -> None:
@@ -202,7 +204,7 @@ class RecordedTree:
         self._known: dict[tuple[str, str], Told] = {}
 
     def still_says(self, said: Iterable[tuple[tuple[str, str], Told]]) -> bool:
-        """Return whether the disk says what was taken down another day. What it says now is not asked for once more."""
+        """Return whether the disk still gives the recorded answers, and keep the current answers for reuse."""
         for (question, path), told in said:
             now = self._told(question, path)
             self._known[question, path] = now
@@ -217,7 +219,7 @@ class RecordedTree:
 
     def read(self, path: str) -> bytes:
         try:
-            self.stamp(path)  # before, so that what changes meanwhile counts as changed
+            self.stamp(path)  # # before reading, so that a file that changes meanwhile counts as changed
             return self.disk.read(path)
         except OSError as error:
             self._note("read", path, error.errno or 0)
@@ -267,7 +269,7 @@ class RecordedTree:
 
 
 class MemoryTree:
-    """Files from a mapping of path to content. ``executable`` names those that have the bit."""
+    """Files from a mapping of path to contents. ``executable`` names the files with the executable bit."""
 
     __slots__ = ("_directories", "_executable", "_files")
 
@@ -303,7 +305,7 @@ class MemoryTree:
 
 
 class OverlayTree:
-    """A tree in which some files have another content, or come into being in a directory that is there. None goes."""
+    """A tree in which some files are replaced or added to existing directories. No file is removed."""
 
     __slots__ = ("_below", "_changed", "_names")
 

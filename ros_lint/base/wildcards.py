@@ -1,4 +1,4 @@
-"""Wildcards as regular expressions that take linear time; what a wildcard is, each format says for itself."""
+"""Compile wildcards to regular expressions that run in linear time. Each format defines its wildcards."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 LONGEST = 4096
-"""Characters of a pattern or a path. A longer one is that of no file: PATH_MAX of Linux."""
+"""Maximum length of a pattern or a path in characters: PATH_MAX of Linux."""
 
 
 def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
-    """Return an expression for pieces with gaps between them, given expressions; that of a gap ends with ``*``.
+    """Return an expression for expressions with gaps between them; ``gap`` is one that ends with ``*``.
 
-    Every piece but the last one takes the first place where it fits and keeps it, because a later place leaves less of the
-    text to the other pieces. ``numbers`` are free names of groups.
+    Each piece except the last one keeps its first match, because a later match leaves less text for the other
+    pieces. ``numbers`` are unused numbers for names of groups.
     """
     first, *others = pieces
     if not others:
         return first
     *middle, last = others
-    # A lookahead is never tried again: what atomic groups do from Python 3.11 on.
+    # A lookahead is not retried: it works like an atomic group, which Python has from 3.11.
     kept = [f"(?=(?P<g{number}>{gap}?{piece}))(?P=g{number})" for piece, number in zip(middle, numbers, strict=False)]
     return f"{first}{''.join(kept)}{gap}{last}"
 
 
 def letters(ranges: Iterable[tuple[int, int]], *, negated: bool) -> str:
-    """Return an expression for one character in ranges of code points, or in none of them, and for no slash."""
+    """Return an expression for a character, not a slash, in ranges of code points or in none of them."""
     inside = "".join([f"{_escaped(low)}-{_escaped(high)}" for low, high in ranges if low <= high])
     if negated:
         return f"[^/{inside}]"

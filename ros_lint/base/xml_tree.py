@@ -1,4 +1,4 @@
-"""XML as a tree with exact places. Neither entities nor anything outside the file is resolved."""
+"""XML as a tree with exact offsets. Entities and external files are not resolved."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.base.text import from_bytes, to_bytes
 
 
 class XmlError(Exception):
-    """The text is not XML that can be read safely. ``offset`` is from 0 to the length of the text."""
+    """The text is not XML, or not safe to read. ``offset`` is from 0 to the length of the text."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -20,7 +20,7 @@ class XmlError(Exception):
 
 
 class Element:
-    """An element: ``start`` is the offset of its ``<``; comments and text between elements are left out."""
+    """An element; ``start`` is the offset of its ``<``. Comments and text between elements are left out."""
 
     __slots__ = ("attributes", "children", "start", "tag")
 
@@ -31,7 +31,7 @@ class Element:
         self.children: list[Element] = []
 
     def walk(self) -> Iterator[Element]:
-        """Yield the element and all below it, in the order of the file."""
+        """Yield the element and its descendants in document order."""
         waiting = [self]
         while waiting:
             found = waiting.pop()
@@ -53,12 +53,15 @@ _E = TypeVar("_E", bound=_Parent)
 
 
 def parse(text: str) -> Element:
-    """Return the root element. Raises XmlError, also for a declared entity: it could be a bomb, or read other files."""
+    """Return the root element. Raises XmlError, also for a declared entity.
+
+    An entity could expand without limit or read other files.
+    """
     return parse_as(text, Element)
 
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
-    """Return the root as an element of a kind of its own, made from tag, attributes and offset; else as :func:`parse`."""
+    """Return the root as created by ``make`` from tag, attributes and offset; see :func:`parse`."""
     data = unmarked(to_bytes(text))
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
@@ -91,12 +94,15 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
 
 
 def unmarked(data: bytes) -> bytes:
-    """Return a text for expat, which would pass over a second byte order mark as it does over the first, taken off already."""
+    """Return the bytes for expat, with a leading byte order mark replaced.
+
+    The first mark was removed when the file was decoded. A second one is an error, but expat would skip it.
+    """
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 
 
 def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
-    """Return the offsets of the values of the attributes, as they are written between the quotes."""
+    """Return the start and end offsets of the attribute values between their quotes."""
     name = _NAME.match(text, element.start)
     at = name.end() if name else element.start
     places = {}
@@ -107,7 +113,7 @@ def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
 
 
 class _Offsets:
-    """Turns offsets of bytes into offsets of characters; fast when they rise."""
+    """Converts offsets of bytes to offsets of characters; fast if they increase."""
 
     __slots__ = ("_ascii", "_byte", "_character", "_data")
 

@@ -245,9 +245,7 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
         return Suggestion(package, "system")
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
-        return _first(
-            world, libraries, "cmake"
-        )  # # for code that builds against a library, the pip package of that name is irrelevant
+        return _first(world, libraries, "cmake")  # # a build uses no pip packages
     same = _declarable(world, world.spelling.same(name))
     if same:
         return Suggestion(same[0], "spelling") if len(same) == 1 else None
