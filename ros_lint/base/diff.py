@@ -20,9 +20,8 @@ def unified(path: str, before: str | None, after: str) -> str:
 
 def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
     """Return the difference of two contents of a file in any encoding, in the format of :func:`unified`."""
-    was = (
-        None if before is None else before.decode("latin-1")
-    )  # # latin-1 maps each byte to a character, because difflib compares texts
+    # latin-1 maps each byte to a character, because difflib compares texts.
+    was = None if before is None else before.decode("latin-1")
     return unified(to_bytes(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
 
 

@@ -47,15 +47,15 @@ def _trimmed(line: str) -> str:
 def is_ignored(given: Iterable[Pattern], path: str) -> bool:
     """Return whether git ignores a path, which may not exist, or a folder that contains it."""
     ours = [
-        (regex, len(octets(one.folder)) + 1 if one.folder else 0, one.negated)
-        for one in given
-        if (not one.folder or path.startswith(f"{one.folder}/")) and (regex := _compiled(one.glob))
+        (regex, len(octets(pattern.folder)) + 1 if pattern.folder else 0, pattern.negated)
+        for pattern in given
+        if (not pattern.folder or path.startswith(f"{pattern.folder}/")) and (regex := _compiled(pattern.glob))
     ]
     parts = octets(path).split("/")
     for number in range(len(parts)) if ours else ():
         place = "/".join(parts[: number + 1])
-        said = [not negated for regex, start, negated in ours if len(place) > start and regex.match(place, start)]
-        if said and said[-1]:
+        ignores = [not negated for regex, start, negated in ours if len(place) > start and regex.match(place, start)]
+        if ignores and ignores[-1]:
             return True
     return False
 
@@ -137,6 +137,6 @@ def _letter(glob: str, at: int) -> tuple[str, int]:
             ends = _CLASSES[match[1]]
         else:
             low = match[2] or match[3]
-            ends = low + low + low + (match[4] or match[5] or low)  # # the first character counts even if the range is empty
+            ends = low + low + low + (match[4] or match[5] or low)  # the first character counts even if the range is empty
         ranges += [(ord(low), ord(high)) for low, high in zip(ends[::2], ends[1::2], strict=True)]
     return letters(ranges, negated=negated), at + 1

@@ -18,10 +18,10 @@ class TooDeepForPythonError(Exception):
 def module(text: str) -> ast.Module:
     """Return the syntax tree of a module. Raises SyntaxError and TooDeepForPythonError."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # # about invalid escapes in strings
+        warnings.simplefilter("ignore")  # about invalid escapes in strings
         try:
             return _module(text)
-        except ValueError as error:  # # a null character, or an integer with too many digits
+        except ValueError as error:  # a null character, or an integer with too many digits
             raise SyntaxError(str(error)) from None
         except (RecursionError, MemoryError) as error:
             raise TooDeepForPythonError from error
@@ -30,7 +30,7 @@ def module(text: str) -> ast.Module:
 def _module(text: str) -> ast.Module:
     try:
         return ast.parse(text, "")
-    except UnicodeEncodeError:  # # Python accepts bytes other than UTF-8 in comments of imported modules
+    except UnicodeEncodeError:  # Python accepts bytes other than UTF-8 in comments of imported modules
         return ast.parse(to_bytes(text), "")
 
 

@@ -103,7 +103,7 @@ def _read(text: str, kind: Any, take: Callable[[Any, str], _Taken]) -> _Taken:
         return take(loader, text)
     except YamlError:
         raise
-    except Exception as error:  # # a tag on a value of the wrong type makes the library raise any exception
+    except Exception as error:  # a tag on a value of the wrong type makes the library raise any exception
         raise _as_yaml_error(error, len(text)) from None
     finally:
         if loader is not None:
@@ -140,7 +140,7 @@ def _bounded(text: str) -> str:
     """Return a text that the library can read: an exact str, not nested more deeply than the limit."""
     import yaml  # noqa: PLC0415
 
-    text = str(text)  # # the library rejects subclasses
+    text = str(text)  # the library rejects subclasses
     # Brackets nest, and so do indented lines: a column has at most a mapping and a list.
     widest = max(map(len, _LEADING.findall(text)), default=0)
     if text.count("[") + text.count("{") + 2 * (widest + 2) <= DEEPEST:
@@ -156,7 +156,7 @@ def _bounded(text: str) -> str:
             elif isinstance(event, yaml.CollectionEndEvent):
                 depth -= 1
     except (yaml.YAMLError, UnicodeError):
-        pass  # # reading the text raises the error again
+        pass  # reading the text raises the error again
     return text
 
 
@@ -166,9 +166,9 @@ def _check_aliases(root: yaml.Node) -> None:
     waiting: list[tuple[yaml.Node, bool]] = [(root, False)]
     entered: set[int] = set()
     while waiting:
-        node, left = waiting.pop()
+        node, finished = waiting.pop()
         key = id(node)
-        if left:
+        if finished:
             sizes[key] = 1 + sum(sizes[id(inner)] for inner in _within(node))
             if sizes[key] - len(sizes) > _MOST_REPEATED:
                 raise YamlBoundError(f"aliases repeat more than {_MOST_REPEATED:,} values", _start(node))

@@ -175,7 +175,7 @@ def decode(data: bytes) -> tuple[str, str]:
     head = data[:400]
     named = b"coding" in head
     if not named and data.isascii() and b"\0" not in head[:2]:
-        return data.decode("ascii"), "utf-8"  # # nearly every file
+        return data.decode("ascii"), "utf-8"  # nearly every file
     for mark, codec in _BOMS:
         if data.startswith(mark):
             try:

@@ -95,7 +95,7 @@ def _followed(entry: os.DirEntry[str]) -> Entry:
     try:
         kind: Kind = "directory" if entry.is_dir() else "file" if entry.is_file() else "other"
     except OSError:
-        kind = "other"  # # e.g. a link to itself
+        kind = "other"  # e.g. a link to itself
     return Entry(entry.name, kind, entry.is_symlink())
 
 
@@ -151,7 +151,7 @@ class DiskTree:
         inside = self._inside or (self.identity(""),)
         if _is_in(target, inside):
             return True
-        linked = ""  # # the real path of the outermost folder that is reached by a link to elsewhere
+        linked = ""  # the real path of the outermost folder that is reached by a link to elsewhere
         while folder and not _is_in(real := self.identity(folder), inside):
             linked, folder = real, parent(folder)
         return bool(linked) and _is_in(target, (linked, repository_of(linked) or linked))
@@ -205,45 +205,45 @@ class RecordedTree:
 
     def still_says(self, said: Iterable[tuple[tuple[str, str], Told]]) -> bool:
         """Return whether the disk still gives the recorded answers, and keep the current answers for reuse."""
-        for (question, path), told in said:
+        for (question, path), answer in said:
             now = self._told(question, path)
             self._known[question, path] = now
-            if now != told:
+            if now != answer:
                 return False
         return True
 
     def list(self, path: str) -> list[Entry]:
-        told = self._answer("list", path)
-        assert isinstance(told, list)
-        return told
+        answer = self._answer("list", path)
+        assert isinstance(answer, list)
+        return answer
 
     def read(self, path: str) -> bytes:
         try:
-            self.stamp(path)  # # before reading, so that a file that changes meanwhile counts as changed
+            self.stamp(path)  # before reading, so that a file that changes meanwhile counts as changed
             return self.disk.read(path)
         except OSError as error:
             self._note("read", path, error.errno or 0)
             raise
 
     def stamp(self, path: str) -> Stamp:
-        told = self.said.get(("stamp", path)) or self._answer("stamp", path)
-        if not isinstance(told, Stamp):
-            raise self._error(told, path)
-        return told
+        answer = self.said.get(("stamp", path)) or self._answer("stamp", path)
+        if not isinstance(answer, Stamp):
+            raise self._error(answer, path)
+        return answer
 
     def identity(self, path: str) -> str:
-        told = self._answer("identity", path)
-        assert isinstance(told, str)
-        return told
+        answer = self._answer("identity", path)
+        assert isinstance(answer, str)
+        return answer
 
     def _answer(self, question: str, path: str) -> Told:
-        told = self._known.pop((question, path), None)
-        if told is None:
-            told = self._told(question, path)
-        self._note(question, path, told)
-        if isinstance(told, int):
-            raise self._error(told, path)
-        return told
+        answer = self._known.pop((question, path), None)
+        if answer is None:
+            answer = self._told(question, path)
+        self._note(question, path, answer)
+        if isinstance(answer, int):
+            raise self._error(answer, path)
+        return answer
 
     def _told(self, question: str, path: str) -> Told:
         disk = self.disk
@@ -259,12 +259,12 @@ class RecordedTree:
             return error.errno or 0
         return "read"
 
-    def _note(self, question: str, path: str, told: Told) -> None:
-        if self.said.setdefault((question, path), told) != told:
+    def _note(self, question: str, path: str, answer: Told) -> None:
+        if self.said.setdefault((question, path), answer) != answer:
             self.steady = False
 
-    def _error(self, told: object, path: str) -> OSError:
-        number = told if isinstance(told, int) else 0
+    def _error(self, answer: object, path: str) -> OSError:
+        number = answer if isinstance(answer, int) else 0
         return OSError(number, os.strerror(number), self.disk.place(path))
 
 

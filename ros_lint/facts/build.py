@@ -172,7 +172,7 @@ class BuildScript(NamedTuple):
     referenced_resources: tuple[tuple[str, Span], ...] = ()
     """Resources that are not installed, each with the place where a text of the package refers to it.
 
-    Such a reference names the resource inside the package, for example ``package://robot/meshes/arm.stl``.
+    A reference is the name of the file after the name of its folder: ``meshes/arm.stl`` or ``"meshes", "arm.stl"``.
     """
     scripts: tuple[ScriptFile, ...] = ()
     """Scripts installed to lib/<package> or bin, their neighbours, and scripts in folders for scripts."""

@@ -108,7 +108,7 @@ class ImportedType(NamedTuple):
     module: Span
     """Span of the module as written.
 
-    A fix replaces it if the package uses the other module.
+    The use of the package that provides the module has the same span.
     """
 
 
@@ -163,7 +163,7 @@ class FileFacts(NamedTuple):
     Relative modules begin with dots.
     """
     path_additions: tuple[Span, ...] = ()
-    """Imports whose module's name the file then uses to extend ``sys.path``."""
+    """Imports after the file added a folder of the module's name to ``sys.path``."""
     programs: tuple[str, ...] = ()
     """Names of Python files at the end of string literals: a test may start such a file by path."""
     sets_path: bool = False

@@ -163,7 +163,7 @@ class Knowledge:
         if package not in self._elsewhere:
             found = set().union(*(other.brought((package,)).names for other in having))
             queue = list(found)
-            for each in queue:  # # a key provides keys
+            for each in queue:  # a key provides keys
                 new = [key for key in self.names.brought(each) if key not in found]
                 found.update(new)
                 queue += new

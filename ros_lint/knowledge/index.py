@@ -122,9 +122,9 @@ class Index(Entries[Released]):
     def __init__(self, distro: str, head: str, table: Table) -> None:
         super().__init__(table, parse)
         self.distro = distro
-        said = dict(_HEAD.findall(head))
-        self.date = said.get("date", "")
-        self.commit = said.get("rosdistro", "")
+        fields = dict(_HEAD.findall(head))
+        self.date = fields.get("date", "")
+        self.commit = fields.get("rosdistro", "")
         self._reach = Reach(self.runtime)
 
     def releases(self, name: str) -> bool:

@@ -234,7 +234,7 @@ class InstallPrefix:
     def _walk(self, folder: str, inside: str, above: frozenset[object] = frozenset()) -> Iterator[str]:
         identity = self._tree.identity(join(self.root, folder))
         if identity in above:
-            return  # # a link to a parent folder
+            return  # a link to a parent folder
         for name, kind in self._list(folder):
             if kind == "directory":
                 yield from self._walk(f"{folder}/{name}", f"{inside}{name}/", above | {identity})

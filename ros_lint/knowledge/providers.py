@@ -237,7 +237,7 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
     """
     names = world.knowledge.names
     package = name.replace(".", "/").partition("/")[0]
-    if package != name and world.is_package(package):  # # an interface or a module: std_msgs/msg/String, rclpy.qos
+    if package != name and world.is_package(package):  # an interface or a module: std_msgs/msg/String, rclpy.qos
         return Suggestion(package, "spelling")
     released = _RELEASED.match(name)
     package = name[released.end() :].replace("-", "_") if released else ""
@@ -245,7 +245,7 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
         return Suggestion(package, "system")
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
-        return _first(world, libraries, "cmake")  # # a build uses no pip packages
+        return _first(world, libraries, "cmake")  # a build uses no pip packages
     same = _declarable(world, world.spelling.same(name))
     if same:
         return Suggestion(same[0], "spelling") if len(same) == 1 else None
@@ -253,7 +253,7 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
         if found is not None:
             return found
     slips = _declarable(world, world.spelling.one_slip(name))
-    if python:  # # Python does not use C libraries directly: the key for pyaml is that of the module, not of libyaml
+    if python:  # Python does not use C libraries directly: the key for pyaml is that of the module, not of libyaml
         slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
     return Suggestion(slips[0], "slip") if len(slips) == 1 else None
 
@@ -308,7 +308,7 @@ def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
 def _has_module(world: Layers, package: str) -> bool:
     """Return whether a package may provide the module of its name: it is not known to lack it."""
     if world.layer(package) == "workspace":
-        return False  # # the build script has been consulted already
+        return False  # the build script has been consulted already
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 

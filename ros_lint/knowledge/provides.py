@@ -61,12 +61,12 @@ class Known(NamedTuple):
         The result is complete if one earlier and one later list are complete. Names in any of the lists may exist.
         """
         earlier, later = list(before), list(after)
-        sides = [next((one for one in side if one.complete), None) for side in (earlier, later)]
+        sides = [next((known for known in side if known.complete), None) for side in (earlier, later)]
         if None in sides:
             return self
-        others = [name for one in (*earlier, *later) for name in one.possible]
+        others = [name for known in (*earlier, *later) for name in known.possible]
         maybe = dict.fromkeys(name for name in (*self.maybe, *others) if name not in self.names)
-        endings = next((one.endings for one in sides if one), ())
+        endings = next((known.endings for known in sides if known), ())
         return Known(self.names, tuple(maybe), True, endings)
 
 
@@ -140,15 +140,15 @@ def _apart(plugins: Iterable[str]) -> Iterator[str]:
     """Yield base=class for each class in base=class,class."""
     for plugin in plugins:
         base, equals, classes = plugin.partition("=")
-        yield from (f"{base}{equals}{one}" for one in classes.split(","))
+        yield from (f"{base}{equals}{name}" for name in classes.split(","))
 
 
 def _together(plugins: Iterable[str]) -> tuple[str, ...]:
     """Return base=class,class for each base. The inverse of :func:`_apart`."""
     found: dict[str, list[str]] = {}
     for plugin in plugins:
-        base, _, one = plugin.partition("=")
-        found.setdefault(base, []).append(one)
+        base, _, name = plugin.partition("=")
+        found.setdefault(base, []).append(name)
     return tuple(f"{base}={','.join(classes)}" for base, classes in found.items())
 
 

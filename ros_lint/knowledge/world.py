@@ -137,7 +137,7 @@ class World:
 
     @cached_property
     def _declared(self) -> frozenset[str]:
-        return frozenset([name for one in self._members.values() for names in one.depends.values() for name in names])
+        return frozenset([name for member in self._members.values() for names in member.depends.values() for name in names])
 
     def version(self, name: str) -> str | None:
         """Return the version of a package in the layer that provides it, or None."""
@@ -247,8 +247,8 @@ class World:
             known = [own]
             if name not in self._members and (everywhere or own == NOTHING_KNOWN):
                 known += self.knowledge.known_elsewhere(name, "interfaces")
-            whole = known[-1].complete and all(one.complete and one.possible for one in known if one != NOTHING_KNOWN)
-            self._interfaces[key] = frozenset([each for one in known for each in one.possible]) if whole else frozenset()
+            whole = known[-1].complete and all(k.complete and k.possible for k in known if k != NOTHING_KNOWN)
+            self._interfaces[key] = frozenset([interface for k in known for interface in k.possible]) if whole else frozenset()
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
@@ -263,7 +263,7 @@ class World:
             return known
         if released.interfaces:
             return known._replace(names=(*known.names, name))
-        if known.complete and any(one.possible for one in self.knowledge.known_elsewhere(name, "interfaces")):
+        if known.complete and any(k.possible for k in self.knowledge.known_elsewhere(name, "interfaces")):
             return known._replace(maybe=(*known.maybe, name))
         return known
 

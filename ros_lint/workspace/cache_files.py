@@ -68,7 +68,7 @@ def maker(module: str, name: str) -> Callable[..., Any]:
         raise LookupError(f"{module}.{name} is no class of facts")
     if issubclass(made, Sealed):
         return _Members(made)
-    call: Callable[..., Any] = type.__call__.__get__(made)  # # a method wrapper: its attributes cannot be set
+    call: Callable[..., Any] = type.__call__.__get__(made)  # a method wrapper: its attributes cannot be set
     return call
 
 
@@ -91,7 +91,7 @@ def load(path: str, state: str) -> Any:
             return None
         head, _, body = files.read(path, _MOST_BYTES, links=False, own=True).partition(b"\n")
         return Facts(io.BytesIO(body)).load() if head == _head(state, body) else None
-    except Exception:  # # the errors of a damaged pickle are not limited: MemoryError, RecursionError, OverflowError and others
+    except Exception:  # the errors of a damaged pickle are not limited: MemoryError, RecursionError, OverflowError and others
         return None
 
 
@@ -120,7 +120,7 @@ def save(path: str, state: str, value: Any) -> bool:
             file.write(_head(state, body.getbuffer()) + b"\n")
             file.write(body.getbuffer())
         os.replace(temporary, path)
-    except Exception:  # # a run does not fail because the cache cannot be written: the disk is full, a fact is nested too deeply
+    except Exception:  # a run does not fail because the cache cannot be written: the disk is full, a fact is nested too deeply
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
         return False

@@ -44,9 +44,9 @@ _OF_PYTHON = re.compile(rb"#![^\n]*python")
 """First line of a Python program, whatever the file name."""
 
 _HIDES: dict[Kind, Facet] = {
-    "manifest": Facet(0),  # # without a manifest there is no package
-    "program": Facet(0),  # # usually not a script
-    "config": Facet(0),  # # matters only next to setup.py, whose evaluation reports it
+    "manifest": Facet(0),  # without a manifest there is no package
+    "program": Facet(0),  # usually not a script
+    "config": Facet(0),  # matters only next to setup.py, whose evaluation reports it
     "cpp": Facet.USES | Facet.COMPONENTS,
     "cmake": ALL_FACETS,
     "interface": Facet.USES | Facet.INTERFACES,
@@ -141,7 +141,7 @@ def collect_all(
     else:
         chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
     enabled = gc.isenabled()
-    gc.disable()  # # facts have no cycles, and the garbage collector would traverse all of them repeatedly
+    gc.disable()  # facts have no cycles, and the garbage collector would traverse all of them repeatedly
     try:
         for chunk in chunks:
             fresh.update(chunk)
@@ -178,7 +178,7 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
         data = tree.read(path)
     except OSError as error:
         if kind == "program" and error.errno == errno.EFBIG:
-            return Collected()  # # too large for a script: it is a compiled program
+            return Collected()  # too large for a script: it is a compiled program
         return _unreadable(path, kind, error.strerror or str(error))
     if kind == "program":
         if not _OF_PYTHON.match(data):
@@ -188,7 +188,7 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
         return _unreadable(path, kind, "binary data")
     try:
         return collect(read(path, data), kind)
-    except Exception as error:  # # a bug in ros-lint for one file must not cost the user the other files
+    except Exception as error:  # a bug in ros-lint for one file must not cost the user the other files
         return _unreadable(path, kind, FAILED.format(f"{type(error).__name__}: {error}"))
 
 

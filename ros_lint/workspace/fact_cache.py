@@ -102,7 +102,7 @@ def _part(path: str) -> int:
 def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
     try:
         return tuple(tree.stamp(path))
-    except (OSError, ValueError):  # # a NUL in a path that was loaded
+    except (OSError, ValueError):  # a NUL in a path that was loaded
         return None
 
 

@@ -49,7 +49,7 @@ def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage], distro: str) 
 def _under(distro: str, file: LaunchFile) -> LaunchFile:
     if distro not in DISTRIBUTIONS or not any(reference.distros for reference in file.references):
         return file
-    return file._replace(references=tuple([one for one in file.references if not one.distros or distro in one.distros]))
+    return file._replace(references=tuple([use for use in file.references if not use.distros or distro in use.distros]))
 
 
 class _Places:
@@ -90,7 +90,7 @@ class _Places:
         if len(again.opaque) > len(file.opaque):
             return file
         # Actions in a module of another package are dependencies of that package.
-        own = [one for one in again.references if self._package_of(one.package_span.path) is package]
+        own = [use for use in again.references if self._package_of(use.package_span.path) is package]
         return again._replace(references=tuple(own))
 
     def _text(self, path: str) -> Text | None:
@@ -135,8 +135,8 @@ class _Places:
 
     def _elsewhere(self, module: str, importer: Text) -> str:
         """Return the path of a module in another package that ``importer`` names: sys.path may contain it."""
-        named = [one for one in self._by_path.values() if _is_quoted(one.name, importer.text)]
-        found = [path for one in named if (path := _shortest(one, module))]
+        named = [package for package in self._by_path.values() if _is_quoted(package.name, importer.text)]
+        found = [path for package in named if (path := _shortest(package, module))]
         return found[0] if len(found) == 1 else ""
 
     def _package_of(self, path: str) -> LaunchPackage | None:
@@ -176,7 +176,7 @@ class _Places:
         found = self._provides.get(package.path)
         if found is None:
             provides = package.script.installs if package.script else ()
-            found = {one.path: resolve(package.path, one.source) for one in provides if one.source}
+            found = {file.path: resolve(package.path, file.source) for file in provides if file.source}
             self._provides[package.path] = found
         return found
 

@@ -191,7 +191,7 @@ class Loader:
                 script,
                 {file: c.facts for file, c in files.items() if c.facts is not None},
                 followed,
-                tuple([each for c in files.values() for each in c.machine_paths]),
+                tuple([path for c in files.values() for path in c.machine_paths]),
             )
             for found, declared, script, files, followed in zip(founds, declared_by, built, of_package, launch, strict=True)
         ]
@@ -236,7 +236,7 @@ class Loader:
                 opaque=opaque_of(source),
                 registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
                 loaders=tuple([loader for facts in done.facts.values() for loader in facts.loaders]),
-                imported_types=tuple([each for facts in done.facts.values() for each in facts.types]),
+                imported_types=tuple([imported for facts in done.facts.values() for imported in facts.types]),
                 interface_files=tuple([f.interface for f in done.facts.values() if f.interface is not None]),
                 lookups=tuple([look_up for facts in done.facts.values() for look_up in facts.lookups]),
                 parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
@@ -306,9 +306,9 @@ def _member(name: str, manifest: Manifest | None, declared: Sequence[Declared]) 
 
 def _kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
     names: dict[str, list[str]] = {}
-    for each in declared:
-        for kind in DEPENDENCY_KINDS[each.depend.tag].letters:
-            names.setdefault(kind, []).append(each.depend.name)
+    for tag in declared:
+        for kind in DEPENDENCY_KINDS[tag.depend.tag].letters:
+            names.setdefault(kind, []).append(tag.depend.name)
     return {kind: tuple(of_kind) for kind, of_kind in names.items()}
 
 
@@ -330,4 +330,4 @@ def _failed(reads: Sequence[_Read]) -> Iterator[UnreadFile]:
 
 def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
     """Yield the places that exceed a limit of ros-lint."""
-    yield from (UnreadFile(one.span.path, one.reason, one.span) for one in opaque if one.unchecked)
+    yield from (UnreadFile(place.span.path, place.reason, place.span) for place in opaque if place.unchecked)

@@ -40,7 +40,7 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
                 result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, around))
             elif script := _python(tree, parts.found):
                 result[number] = with_files(tree, parts.found, parts.commands, script)
-        except Exception as error:  # # a bug in ros-lint for one script must not cost the user the others
+        except Exception as error:  # a bug in ros-lint for one script must not cost the user the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
 
@@ -109,11 +109,11 @@ def _helps(parts: Parts) -> bool:
 
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
     """Yield the indices of packages whose code runs in others, each after its own dependencies."""
-    left = {parts.found.name: number for number, parts in enumerate(packages) if _helps(parts)}
-    while left:
-        ready = [name for name, number in left.items() if not _needed(packages[number]) & (left.keys() - {name})]
-        for name in ready or list(left):  # # a cycle has no correct order
-            yield left.pop(name)
+    remaining = {parts.found.name: number for number, parts in enumerate(packages) if _helps(parts)}
+    while remaining:
+        ready = [name for name, number in remaining.items() if not _needed(packages[number]) & (remaining.keys() - {name})]
+        for name in ready or list(remaining):  # a cycle has no correct order
+            yield remaining.pop(name)
 
 
 def _needed(parts: Parts) -> set[str]:

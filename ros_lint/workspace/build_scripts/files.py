@@ -43,7 +43,7 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
     sources = dict.fromkeys([p.source for p in script.installs if p.source and p.path.startswith(started)])
     folders = {file.rpartition("/")[0] for file in sources}
     if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.installs):
-        folders.add(found.name)  # # a Python package that CMake does not install
+        folders.add(found.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = Executables(tree, found)
     texts = {file: text for file in sources if (text := text_in(tree, found, file))}
@@ -111,7 +111,7 @@ def _read_in_sources(found: DiscoveredPackage, missing: Mapping[str, Sequence[st
     part = re.compile(rb"(?<=[\"'])(%s)(?=[\"'])" % folders)
     below = b"/%s/" % to_bytes(top)
     for path, data in naming:
-        if below in data:  # # the pattern takes a hundred times as long
+        if below in data:  # the pattern takes a hundred times as long
             named = {from_bytes(hit[1]) for hit in place.finditer(data)}
             yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(found.path, folder)}/"))
         if _OF_SOURCES.search(data) and not path.endswith(".md"):
@@ -141,24 +141,24 @@ def _named(
     tree: Tree, found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts
 ) -> Iterator[tuple[str, Span]]:
     """Yield the resources that are not installed and that a text refers to, with the first place."""
-    left: dict[str, tuple[bytes, bytes]] = {}
+    remaining: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = to_bytes(file).rpartition(b"/")
-        left[file] = folder.rpartition(b"/")[2], name
-    if any(map(_is_picture, left)):  # # most images are there for the documentation
+        remaining[file] = folder.rpartition(b"/")[2], name
+    if any(map(_is_picture, remaining)):  # most images are there for the documentation
         for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
-            left = {file: inner for file, inner in left.items() if not (_is_picture(file) and inner[1] in page)}
-    for path, data in naming if left else ():
-        folders = {folder for folder in {folder for folder, _ in left.values()} if folder in data}
-        for resource, (folder, name) in list(left.items()) if folders else ():
+            remaining = {file: inner for file, inner in remaining.items() if not (_is_picture(file) and inner[1] in page)}
+    for path, data in naming if remaining else ():
+        folders = {folder for folder in {folder for folder, _ in remaining.values()} if folder in data}
+        for resource, (folder, name) in list(remaining.items()) if folders else ():
             if folder not in folders or name not in data or join(found.path, resource) == path:
                 continue
             hits = resource_files.pattern_of(resource).finditer(data)
-            hit = next((one for one in hits if _looks_up(path, data, resource, one)), None)
+            hit = next((match for match in hits if _looks_up(path, data, resource, match)), None)
             if hit:
                 yield resource, span_in(path, data, *hit.span(1))
-                del left[resource]
-        if not left:
+                del remaining[resource]
+        if not remaining:
             return
 
 
@@ -172,7 +172,7 @@ def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bo
     if _is_remark(path, data, hit.start(1)):
         return False
     if b"share" not in data and _WORKING_FOLDER.search(data):
-        return False  # # it is looked up in the working directory
+        return False  # it is looked up in the working directory
     if _is_below_sources(data, hit.start()):
         return False
     above = to_bytes(parent(parent(resource)).rpartition("/")[2])
@@ -225,9 +225,9 @@ def _run(tree: Tree, found: DiscoveredPackage, programs: Sequence[str], endings:
     words = b"|".join([re.escape(to_bytes(name)) for name in names])
     command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(to_bytes(found.name)), words))
     above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
-    told = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
+    texts = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}
-    for path, data in (*contents(tree, found.path, told), *contents(tree, "", above)):
+    for path, data in (*contents(tree, found.path, texts), *contents(tree, "", above)):
         for hit in command.finditer(data) if b"ros2 run" in data else ():
             places.setdefault(names[from_bytes(hit[1])], span_in(path, data, *hit.span(1)))
     return places

@@ -45,7 +45,7 @@ def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_auxiliary(file):
             continue
-        if "/." in file or _OF_EXPORTER.search(file):  # # hidden: private files of an editor or a tool
+        if "/." in file or _OF_EXPORTER.search(file):  # hidden: private files of an editor or a tool
             continue
         free = [folder for folder in folders_of(file) if folder not in occupied]
         if free:

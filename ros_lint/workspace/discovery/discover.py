@@ -135,7 +135,7 @@ class _Walk:
         while todo:
             path, identity = todo.pop()
             if identity in visited:
-                continue  # # already visited on another path; as in colcon, the first path in name order counts
+                continue  # already visited on another path; as in colcon, the first path in name order counts
             visited.add(identity)
             entries = self._list(path)
             if entries is None or self._is_package(path, identity, entries):
@@ -207,7 +207,7 @@ class _Walk:
         try:
             kinds = {name: kind for name, kind, _ in self._tree.list(place)}
         except OSError:
-            return None  # # recorded by the crawl
+            return None  # recorded by the crawl
         if kinds.get("colcon.meta") == "directory":
             path = join(path, "colcon.meta")
         elif kinds.get("colcon.meta") != "file":
@@ -217,7 +217,7 @@ class _Walk:
         try:
             return colcon_yaml.meta(read(path, self._tree.read(path)))
         except FileNotFoundError:
-            return None  # # colcon.meta is a folder without such a file
+            return None  # colcon.meta is a folder without such a file
         except OSError as error:
             self._not_checked.append(UnreadFile.of(path, error))
         except colcon_yaml.ColconYamlError as error:
@@ -297,7 +297,7 @@ class _Files:
             try:
                 added = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
             except OSError:
-                continue  # # usually there is none
+                continue  # usually there is none
             if "/".join(parts[depth:]) in added:
                 return False
         return True

@@ -72,7 +72,7 @@ SIGNS = frozenset(
 
 def ignored_everywhere(names: Mapping[str, Kind]) -> str:
     """Return the file name that makes colcon skip a folder with its subfolders in any case, or ""."""
-    if "COLCON_IGNORE" in names:  # # even a dangling link
+    if "COLCON_IGNORE" in names:  # even a dangling link
         return "COLCON_IGNORE"
     return next((name for name in _EVERYWHERE if _exists(names, name)), "")
 
@@ -198,7 +198,7 @@ def _as_ros(folder: Folder, name: str, manifest: Manifest | None, context: Mappi
     if manifest and (kind := build_type(manifest, context)):
         return Identity(name or manifest.name, f"ros.{kind}", ())
     if manifest and not manifest.problems and conditions.problems(manifest):
-        return None  # # colcon fails before it looks at CMakeLists.txt or setup.py
+        return None  # colcon fails before it looks at CMakeLists.txt or setup.py
     # A rosbuild package must not be identified as a plain CMake package.
     return Ignored("manifest.xml") if _exists(folder.names, "manifest.xml") else None
 
@@ -243,7 +243,7 @@ def _cmake_files(folder: Folder) -> Iterator[Text]:
         try:
             entries = folder.tree.list(path)
         except OSError:
-            continue  # # recorded by the walk
+            continue  # recorded by the walk
         for name, kind, link in entries:
             if kind == "file" and (name == "CMakeLists.txt" or name.endswith(".cmake")):
                 if text := folder.read(join(path, name)):

@@ -41,7 +41,7 @@ def unreadable(tree: Tree, lists: Iterable[str]) -> Iterator[UnreadFile]:
         try:
             tree.read(path)
         except FileNotFoundError:
-            continue  # # a dangling link
+            continue  # a dangling link
         except OSError as error:
             yield UnreadFile.of(path, error)
 

@@ -110,8 +110,8 @@ class FileRoles:
         if path in self._public:
             if path in self._installed_for_tests and path not in self._production:
                 return Role.TEST, True
-            left = path in self._left_over or path in self._kept or self._is_of_ros_1(path)
-            return PUBLIC, path in self._production or not left
+            unused = path in self._left_over or path in self._kept or self._is_of_ros_1(path)
+            return PUBLIC, path in self._production or not unused
         if path in self._production:
             return PRODUCTION, True
         if path in self._tests:
@@ -151,7 +151,7 @@ class FileRoles:
     def _is_of_ros_1(self, path: str) -> bool:
         """Return whether a header always includes headers of roscpp, so that it cannot be compiled in ROS 2."""
         mentions = self._facts[path].mentions if path in self._facts else ()
-        return any(each.name.startswith("ros/") and each.via == "include" and not each.optional for each in mentions)
+        return any(mention.name.startswith("ros/") and mention.via == "include" and not mention.optional for mention in mentions)
 
     def _is_of_tests(self, path: str) -> bool:
         """Return whether a file is in a folder that is built only for tests, and is not always installed."""
@@ -181,9 +181,9 @@ class FileRoles:
         runs = self._script.interpreted_tests
         if runs is None:
             return _is_test(name) or folder in self._folders_with_tests
-        if path in runs or "" in runs or path.startswith(tuple([f"{each}/" for each in runs])):
+        if path in runs or "" in runs or path.startswith(tuple([f"{run}/" for run in runs])):
             return True
-        return (not _is_test(name) or name.endswith(".in")) and any(each.rpartition("/")[0] == folder for each in runs)
+        return (not _is_test(name) or name.endswith(".in")) and any(run.rpartition("/")[0] == folder for run in runs)
 
     @cached_property
     def _started_by_tests(self) -> frozenset[str]:
@@ -328,7 +328,7 @@ class FileRoles:
             if len(alternatives) > 1:
                 found |= set.intersection(*alternatives)
         # If everything is conditional, the package is relevant only where the condition holds.
-        return found or {source for alternatives in sometimes.values() for one in alternatives for source in one}
+        return found or {source for alternatives in sometimes.values() for sources in alternatives for source in sources}
 
     @cached_property
     def _installed(self) -> frozenset[str]:
@@ -371,10 +371,10 @@ class FileRoles:
             return frozenset()
         packages = [name.replace(".", "/") for name in self._script.python_packages]
         moved = self._script.relocated_modules
-        inside = (*(f"{package}/" for package in packages), *(each for each in moved if each.endswith("/")))
+        inside = (*(f"{package}/" for package in packages), *(path for path in moved if path.endswith("/")))
         modules = frozenset([*moved, *(f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in"))])
         below = [file for file in self._files if file.startswith(inside)]
-        if projects := self._idle.difference(packages):  # # its files are installed by another setup.py, if at all
+        if projects := self._idle.difference(packages):  # its files are installed by another setup.py, if at all
             below = [file for file in below if projects.isdisjoint(folders_of(file))]
         unseen = self._unseen_folders([file for file in below if file.endswith(".py")], inside)
         kept = [file for file in below if not file.endswith(".py") or _is_of_modules(file, unseen)]

@@ -87,8 +87,8 @@ class OwnFiles:
 
         Left out are tests, sources that some builds omit, and targets with unknown include directories.
         """
-        targets = [each for each in (self.script or NOTHING_BUILT).targets if each.headers is not None and not each.test]
-        sources = dict.fromkeys([source for each in targets for source in each.sources if source not in each.optional_sources])
+        targets = [t for t in (self.script or NOTHING_BUILT).targets if t.headers is not None and not t.test]
+        sources = dict.fromkeys([source for t in targets for source in t.sources if source not in t.optional_sources])
         return {source: self._along(source) for source in sources if source in self.facts}
 
     def _along(self, source: str) -> frozenset[str]:
@@ -195,7 +195,7 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
     yield from _unlisted(files, script, facts)
     provides = script.installs
     programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
-    modules = [(each.name, each.path) for each in script.entry_point_modules if each.path in facts and "." in each.name]
+    modules = [(m.name, m.path) for m in script.entry_point_modules if m.path in facts and "." in m.name]
     if not (programs or modules):
         return
     known = frozenset(files)
@@ -208,7 +208,7 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
             if f"{there}.py" not in installed and f"{there}/" not in installed:
                 yield UninstalledImport(program, module, beside, span, not facts[source].sets_path)
     names = {path.rpartition("/")[2] for path in installed}
-    setting = [path for path, each in facts.items() if each.sets_path] if modules else []
+    setting = [path for path, of_file in facts.items() if of_file.sets_path] if modules else []
     for name, source in modules:
         top = source.removesuffix(f"{name.replace('.', '/')}.py") + name.partition(".")[0]
         if any(path.startswith(f"{top}/") for path in setting):
@@ -229,14 +229,14 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
     started = {module.path for module in script.entry_point_modules}
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
     known = frozenset(files)
-    for path, each in facts.items():
+    for path, of_file in facts.items():
         folder = path.rpartition("/")[0]
         top = "src/" if folder.startswith("src/") else ""
         if not path.endswith(".py") or folder.removeprefix(top).replace("/", ".") not in packages:
             continue
-        for mention in each.mentions:
+        for mention in of_file.mentions:
             name = mention.name
-            if mention.via != "import" or mention.optional or name.partition(".")[0] in each.optional_modules:
+            if mention.via != "import" or mention.optional or name.partition(".")[0] in of_file.optional_modules:
                 continue
             if f"{top}{name.replace('.', '/')}.py" in known:
                 name = name.rpartition(".")[0]

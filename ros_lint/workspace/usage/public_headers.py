@@ -14,17 +14,17 @@ def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[s
     Such a header includes a file of the package that is not installed, a header that Qt generates from a form
     (``ui_*.h``), or another such header. ``facts``, ``files`` and the result have paths relative to the package.
     """
-    provided = [each for each in script.installs if each.path.startswith("include/")]
-    headers = sorted({each.source for each in provided if each.source in facts})
+    provided = [file for file in script.installs if file.path.startswith("include/")]
+    headers = sorted({file.source for file in provided if file.source in facts})
     if not headers:
         return ()
-    installed = {_name(each.path) for each in provided}
+    installed = {_name(file.path) for file in provided}
     private = {_name(file): file for file in files if _name(file) not in installed}
     lost = {header for header in headers if any(_is_private(name, private, installed) for name in _includes(facts[header]))}
     waiting = list(lost)
     while waiting:
         wrong = f"/{waiting.pop()}"
-        more = [each for each in headers if each not in lost and any(map(wrong.endswith, _endings(facts[each])))]
+        more = [header for header in headers if header not in lost and any(map(wrong.endswith, _endings(facts[header])))]
         lost.update(more)
         waiting += more
     return tuple(sorted(lost))

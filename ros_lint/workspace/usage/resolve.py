@@ -94,14 +94,14 @@ class Resolver:
             "launch": lambda name: Answer((name,)) if self.names.is_package(name) else self._strange(name),
             "key": lambda name: Answer((name,)),
         }
-        self._said: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
+        self._answers: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
 
     def answer(self, via: Via, name: str) -> Answer:
         """Return the owner of a name, under the assumption that it is not the package that mentions it."""
-        said = self._said[via]
-        found = said.get(name)
+        answers = self._answers[via]
+        found = answers.get(name)
         if found is None:
-            found = said[name] = self._ask[via](name)._replace(what=_WHAT[via].format(name))
+            found = answers[name] = self._ask[via](name)._replace(what=_WHAT[via].format(name))
         return found
 
     def _include(self, header: str) -> Answer:
@@ -109,11 +109,11 @@ class Resolver:
         first, slash, _ = header.partition("/")
         if not found:
             if (slash and first in self._empty) or _OF_ROS_1.fullmatch(header):
-                return _NOBODY  # # a library named like a metapackage, or headers of ROS 1
+                return _NOBODY  # a library named like a metapackage, or headers of ROS 1
             return self._told(self.names.by_include(header), first if slash else "", header)
         if slash and first not in found:
             known = self.names.by_include(header)
-            if known.known and not set(found).intersection(known.names):  # # a vendored copy of a known header
+            if known.known and not set(found).intersection(known.names):  # a vendored copy of a known header
                 return Answer((*known.names, *found), known.sure)
         return Answer(tuple(sorted(found, key=lambda package: package != first)))
 
@@ -191,7 +191,7 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
         mentions = list(facts.mentions)
         if alive.is_optional(path) or (path in forgone and not alive.is_started(path)):
             mentions = [mention._replace(optional=True) for mention in mentions]
-        if path in launched:  # # the launch collector yields the packages, except for those of plugins
+        if path in launched:  # the launch collector yields the packages, except for those of plugins
             mentions = [mention for mention in mentions if mention.via != "package" or mention.purpose == "plugins"]
         uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
     for launch in source.launch:
@@ -209,7 +209,7 @@ def _add_script(source: Source, uses: _Uses) -> None:
     untaken = frozenset(source.built.unused_optional_finds)
     for mention in source.built.mentions:
         if mention.purpose == "plugins":
-            continue  # # the loader of the plugins is optional, and headers name the package of the base class
+            continue  # the loader of the plugins is optional, and headers name the package of the base class
         role = _TEST if mention.test else _script_role(source, mention)
         only_named = mention.via == "cmake" and mention.span in untaken
         ours = by_role.setdefault((mention.span.path, role), [])
@@ -239,7 +239,7 @@ class _Uses:
         self._reaches_out = script.includes_outside_package
         self._bundled = frozenset([name.lower() for name in script.bundled_projects])
         self._found_always = frozenset(
-            [each.name for each in script.mentions if each.via == "cmake" and not (each.optional or each.test)]
+            [mention.name for mention in script.mentions if mention.via == "cmake" and not (mention.optional or mention.test)]
         )
         self._found: dict[tuple[Span, str, Via], Use] = {}
 
@@ -276,11 +276,11 @@ class _Uses:
                 spared = spared or self._is_spared(name, span, providers[0])
                 known = known and name.partition(".")[0] not in self._absent
             elif known and self._reaches_out and via == "include" and "/" not in name:
-                known = False  # # any include directory may have it
+                known = False  # any include directory may have it
             elif self._absent and known:
                 known = self._is_here(name, providers[0])
             if not known and providers[0] in self._found_always and _INTERFACES.match(name):
-                known = True  # # certainly in use: the build fails without it
+                known = True  # certainly in use: the build fails without it
             by: Via = "macro" if purpose == "helper" else via
             found[span, providers[0], by] = _make(
                 Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)
@@ -296,7 +296,7 @@ class _Uses:
         """Return whether a module may be missing or unknown: the package imports it elsewhere as optional."""
         if span in self._added:
             return not self.resolver.names.is_package(best)
-        return bool(self._caught) and any(name == each or name.startswith(f"{each}.") for each in self._caught)
+        return bool(self._caught) and any(name == module or name.startswith(f"{module}.") for module in self._caught)
 
     def _is_bundled(self, header: str) -> bool:
         """Return whether a header is of a bundled project: in the project's folder, or ``owner/name.hpp``."""
@@ -318,7 +318,7 @@ def _lenient(source: Source, alive: FileRoles) -> list[str]:
 
 def _unspoken(source: Source, uses: _Uses) -> None:
     """Add the implicit use of action_msgs: rosidl generates actions with its types."""
-    if source.name == _ACTIONS or not any(each.startswith("action/") for each in source.built.interfaces):
+    if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.interfaces):
         return
     for mention in source.built.mentions:
         if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):
@@ -357,4 +357,4 @@ def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
     """Return the declared names that satisfy a use: for each use, only the best declared provider."""
     names = frozenset(declared)
     answers = {use.providers for use in uses}
-    return frozenset([name for answer in answers for name in [each for each in answer if each in names][:1]])
+    return frozenset([name for answer in answers for name in [provider for provider in answer if provider in names][:1]])

@@ -46,14 +46,14 @@ def of_package(tree: Tree, package: Package, source: Source, world: World, types
     ]
     libraries = {name: names.called(name) for name in wanted if world.is_key(name)}
     found = mentioned(wanted, source, libraries, _may_trace) if wanted else {}
-    left = [name for name in wanted if name not in found]
-    if left:
-        found = {**found, **find_mentions(left, _contents(tree, package, package.files), libraries)}
-        left = [name for name in left if name not in found]
-    if left:
-        found = {**found, **types.used(source, left)}
-        left = [name for name in left if name not in found]
-    return {**found, **_started(left, tree, package)} if left else found
+    remaining = [name for name in wanted if name not in found]
+    if remaining:
+        found = {**found, **find_mentions(remaining, _contents(tree, package, package.files), libraries)}
+        remaining = [name for name in remaining if name not in found]
+    if remaining:
+        found = {**found, **types.used(source, remaining)}
+        remaining = [name for name in remaining if name not in found]
+    return {**found, **_started(remaining, tree, package)} if remaining else found
 
 
 def _started(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
@@ -89,7 +89,7 @@ def possibly_used(tree: Tree, package: Package, source: Source, world: World, ty
     * The script uses a variable of the package for more than linking.
     * A header of an unknown package may be one of its headers.
     """
-    wanted = [each.name for each in unused_in_sight(package) if not is_traceless_by_name(world, each.name)]
+    wanted = [mention.name for mention in unused_in_sight(package) if not is_traceless_by_name(world, mention.name)]
     if not wanted:
         return frozenset()
     scripts, others = ([file for file in package.files if file.endswith(_OF_BUILD) is of_build] for of_build in (True, False))
@@ -109,7 +109,7 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     """
     made = {registration.name for registration in package.registrations}
     plugins = package.built.plugin_files
-    described = [one.type for plugin in plugins for library in plugin.libraries for one in library.classes]
+    described = [entry.type for plugin in plugins for library in plugin.libraries for entry in library.classes]
     wanted = [name for name in dict.fromkeys(described) if name not in made]
     if not wanted:
         return frozenset()
@@ -296,7 +296,7 @@ def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
     while start >= 0:
         end = start + len(word)
         around = data[max(start - 1, 0) : start], b"" if marked else data[end : end + 1]
-        if not any(each.isalnum() or (each and each in joining) for each in around):
+        if not any(byte.isalnum() or (byte and byte in joining) for byte in around):
             return start
         start = data.find(word, start + 1)
     return -1
