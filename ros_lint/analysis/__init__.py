@@ -1,1 +1,1 @@
-"""What a rule is, and the questions that several rules ask of a package and its workspace."""
+"""The type of a rule, and the questions that several rules ask of a package and its workspace."""

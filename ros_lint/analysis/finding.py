@@ -1,4 +1,4 @@
-"""What a rule reports: findings with their severity, confidence, related places and fixes."""
+"""Types of a rule's results: findings with their severity, confidence, related places and fixes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.base.text import Span
 
 
 class Severity(Sealed, IntEnum):
-    """How bad it is if the finding is right."""
+    """The impact of a problem, given that the finding is right."""
 
     INFO = 1
     WARNING = 2
@@ -22,7 +22,7 @@ class Severity(Sealed, IntEnum):
 
 
 class Confidence(Sealed, IntEnum):
-    """How sure the tool is. Without ``--pedantic`` only HIGH is shown: right at least 99 times in 100."""
+    """The probability that a finding is right. Only HIGH, at least 99 %, is shown without ``--pedantic``."""
 
     LOW = 1
     MEDIUM = 2
@@ -33,9 +33,9 @@ class Confidence(Sealed, IntEnum):
 
 
 class Fix(NamedTuple):
-    """One way out. ``title`` is a verb phrase: "declare std_msgs as <depend>".
+    """A way to fix a finding. ``title`` is a verb phrase: "declare 'std_msgs' as <depend>".
 
-    A safe fix keeps the meaning of everything that works; the others need ``--unsafe-fixes``.
+    A safe fix does not change the behaviour of working code; other fixes need ``--unsafe-fixes``.
     """
 
     title: str
@@ -44,7 +44,7 @@ class Fix(NamedTuple):
 
     @classmethod
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
-        """Return the fix that some edits are, None where there are none, or where one of them cannot be made."""
+        """Return the fix that makes some edits, or None if there are none or if one of them is None."""
         made = tuple([edit for edit in edits if edit is not None])
         return cls(title, made, safe) if made and len(made) == len(edits) else None
 
@@ -57,11 +57,11 @@ class Related(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """Something wrong at a place. It knows neither its rule nor its package: the engine does.
+    """A problem at a place. The engine adds the rule and the package.
 
-    ``message`` is lower case without a final full stop, names the culprit and the way out. ``subject`` is the
-    dependency, file or executable concerned: the stable part of the finding's identity. ``package`` is set only by
-    workspace rules, to the name of the package that has to change.
+    ``message`` is lower case without a final full stop; it says what is wrong and what to write. ``subject`` is the
+    dependency, file or executable concerned: the stable part of the finding's identity. ``package`` is set by workspace
+    rules only: the name of the package that has to change.
     """
 
     message: str
@@ -71,7 +71,7 @@ class Finding(NamedTuple):
     fix: Fix | None = None
     confidence: Confidence = Confidence.HIGH
     severity: Severity | None = None
-    """Instead of the rule's, where one case is milder than the others."""
+    """Overrides the severity of the rule for a milder or graver case."""
     package: str = ""
     steps: bool = False
-    """Whether the related places are the steps of one way, in order: round a cycle, or along a chain of needs."""
+    """True if the related places are the steps of a path, such as a cycle or a dependency chain."""

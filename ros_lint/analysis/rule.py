@@ -1,4 +1,4 @@
-"""What a rule is, and what it says."""
+"""The type of a rule: its name, code, documentation and check."""
 
 from __future__ import annotations
 
@@ -13,10 +13,12 @@ if TYPE_CHECKING:
 
 
 class Rule(NamedTuple):
-    """A check with its papers. Declared once, as ``RULE``, in the file that holds the check.
+    """A check with its metadata. Declared once, as ``RULE``, in the module that holds the check.
 
-    Exactly one of ``package``, ``workspace`` and ``suppressions`` is given: a pure generator of findings for one
-    package, for all, or about the comments that suppress findings, once all other rules have run.
+    Exactly one of ``package``, ``workspace`` and ``suppressions`` is set. Each is a pure generator of findings:
+    - ``package`` is called for each package.
+    - ``workspace`` is called once.
+    - ``suppressions`` is called after all other rules, with the suppression comments and their uses.
     """
 
     name: str
@@ -28,11 +30,11 @@ class Rule(NamedTuple):
     severity: Severity
     since: str
     doc: str
-    """The module's docstring with the headings What it finds / Why it matters / How to fix it / Limitations."""
+    """The module's docstring. Headings: What it finds / Why it matters / How to fix it / Limitations."""
     default: bool = True
-    """Whether it runs without being asked for."""
+    """True if the rule runs unless it is deselected; false if it must be selected."""
     fixable: bool = False
-    """Whether some of its findings carry a fix."""
+    """True if some of its findings have a fix."""
     package: Callable[[Package, Workspace], Iterable[Finding]] | None = None
     workspace: Callable[[Workspace], Iterable[Finding]] | None = None
     suppressions: Callable[[SuppressionUse], Iterable[Finding]] | None = None

@@ -1,4 +1,4 @@
-"""What the declared dependencies of a package provide transitively."""
+"""Packages that the declared dependencies of a package provide transitively."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _ANY = ~Role(0)
 
 @cached_by_package
 def all_declared(package: Package, workspace: Workspace) -> Closure:
-    """Return all that comes along with what is declared, members of groups included."""
+    """Return the closure of all declared dependencies, members of groups included."""
     return declared_closure(package, workspace, _ANY)
 
 
 def declared_closure(package: Package, workspace: Workspace, role: Role) -> Closure:
-    """Return all that comes along with what is declared for any part of a role, members of groups included."""
-    starts = [each.name for each in package.declared if role is _ANY or each.role & role]
+    """Return the closure of all dependencies declared for any part of a role, members of groups included."""
+    starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
     for group in package.group_depends:
         starts += workspace.world.group_members(group.name)
     return workspace.world.closure(starts)
@@ -30,12 +30,12 @@ def declared_closure(package: Package, workspace: Workspace, role: Role) -> Clos
 def provided_transitively(
     package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False
 ) -> bool:
-    """Whether one of the names comes along with something else that is declared for any part of a role.
+    """Return whether another dependency, declared for any part of a role, provides one of the names.
 
-    Or whether it may, unless ``surely``.
+    Dependencies with an unknown closure count as providing it, unless ``surely``.
     """
     names = frozenset(names)
-    starts = {each.name for each in package.declared if each.role & role and each.name not in names}
+    starts = {declared.name for declared in package.declared if declared.role & role and declared.name not in names}
     closure = workspace.world.closure(sorted(starts))
     if any(name in closure for name in names):
         return True

@@ -1,4 +1,4 @@
-"""Why the rules about dependencies say nothing of a package and a dependency."""
+"""Explanations why the dependency rules report nothing about a dependency of a package."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _MOST = 5
 
 
 RULES = ("undeclared-dependency", "unused-dependency")
-"""Those that are explained here."""
+"""The rules that are explained here."""
 
 
 def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str, Confidence]) -> Iterator[str]:
-    """Yield lines: where the dependency is used, how it is declared, and why each of the rules is silent, if it is.
+    """Yield lines: the uses of the dependency, its tags, and for each rule why it reports nothing.
 
-    ``told`` is how sure those are that say something of it. What they do is theirs to say; here are the reasons only.
+    ``told`` maps the names of the rules that report the dependency to their confidence.
     """
     uses = [use for use in package.uses if name in use.providers]
     yield from used_in(uses)
-    for depend in [each.depend for each in package.tags(name)]:
+    for depend in [line.depend for line in package.tags(name)]:
         condition = f" if {depend.condition}" if depend.condition else ""
         yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
     silent = (_not_undeclared(package, workspace, name, uses), _not_unused(package, workspace, name, uses))
@@ -45,7 +45,7 @@ def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str
 
 
 def used_in(uses: Sequence[Use]) -> Iterator[str]:
-    """Yield lines: where something is used, and for what."""
+    """Yield a line for each file that uses the dependency, with the purposes."""
     for use in uses[:_MOST]:
         yield f"{use.span}: {use.what}, {_needed_for(use)}"
     if len(uses) > _MOST:
@@ -76,12 +76,12 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return "it is declared"
     if not uses:
         return f"no use of it was found{_hidden(package)}"
-    told = next((need.name for need, _ in undeclared(package, workspace) if any(use in need.uses for use in uses)), "")
-    if told:
-        return f"'{told}' is reported instead, and provides the same"
+    reported = next((need.name for need, _ in undeclared(package, workspace) if any(use in need.uses for use in uses)), "")
+    if reported:
+        return f"'{reported}' is reported instead, and provides the same"
     closure = all_declared(package, workspace)
-    starts = [each.name for each in package.declared]
-    brought = [next((other for other in use.providers if other in closure), "") for use in _of_itself(name, uses)]
+    starts = [declared.name for declared in package.declared]
+    brought = [next((provider for provider in use.providers if provider in closure), "") for use in _of_itself(name, uses)]
     if all(brought):
         way = workspace.world.path(starts, brought[0])
         return f"a declared dependency provides it: {' -> '.join(way or (brought[0],))}; see rule transitive-dependency"
@@ -106,7 +106,7 @@ def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: 
 
 
 def _of_itself(name: str, uses: list[Use]) -> list[Use]:
-    """Return the uses that need a name more than another one, all if there is none; those that need not be if all are such."""
+    """Return the required uses that name the package itself, or the next best uses if there are none."""
     needed = [use for use in uses if not use.optional] or uses
     return [use for use in needed if use.package == name] or needed
 

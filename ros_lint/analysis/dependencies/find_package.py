@@ -1,4 +1,4 @@
-"""Which packages a CMake script has found, names and exports, from the mentions of its evaluation."""
+"""The packages that a CMake script finds, names and exports."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 
 
 def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the names that find_package() is called with, also by those macros that find what the manifest declares."""
+    """Return the names in calls of find_package(), also of macros that find declared dependencies."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
     calls = frozenset(script.command_names)
     if calls & _FIND_DECLARED:
@@ -29,21 +29,21 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
 
 
 def finds_declared(package: Package) -> bool:
-    """Return whether CMake finds whatever the manifest declares for building, and gives it to every target."""
+    """Return whether CMake finds all declared build dependencies and links them to every target."""
     return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.command_names)
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
-    """Return what is found together with names of find_package(), these included: what their packages bring along.
+    """Return the packages that find_package() finds for some names, directly and transitively.
 
-    None when nobody knows of one of them whose it is, or what it brings.
+    None if a name cannot be resolved, or if the dependencies of its package are unknown.
     """
     closure = partial_closure(workspace, names)
     return closure.names.union(names) if closure.complete else None
 
 
 def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
-    """Return what is found together with names of find_package(), as far as it is known whose they are and what they bring."""
+    """Return the known packages that find_package() finds for some names, directly and transitively."""
     starts: set[str] = set()
     for name in names:
         providers = workspace.world.by_cmake(name)
@@ -53,7 +53,7 @@ def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
 
 
 def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
-    """Yield the packages that macros are given by name for one of some purposes: ament_export_dependencies() those to export."""
+    """Yield the package arguments of macros with a purpose, such as ament_export_dependencies()."""
     for mention in script.mentions:
         if mention.via == "target" and mention.purpose in purposes:
             yield mention

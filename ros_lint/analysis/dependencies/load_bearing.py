@@ -1,4 +1,4 @@
-"""Dependencies that nothing uses: what they bring all the same, declared in place of it, and what is found for nothing."""
+"""Unused dependencies with an effect: they provide undeclared packages or are found by CMake."""
 
 from __future__ import annotations
 
@@ -22,42 +22,42 @@ _TEST: Role = Role.TEST
 
 
 class LostProvision(NamedTuple):
-    """Something that comes along with nothing else."""
+    """An undeclared package that only one dependency provides."""
 
     name: str
     package: str
-    """Who uses it and does not declare it."""
+    """The package that uses it and does not declare it."""
 
 
 def needed_transitively(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, LostProvision]:
-    """Return the names among unused dependencies that cannot go without a loss, each with what would be lost.
+    """Return the unused dependencies that cannot be removed, each with the provision that would be lost.
 
-    A loss is something that this package, or another one of the workspace, uses without declaring it, and that comes along
-    with nothing else. Where one of several will do, all but the last can go.
+    A lost provision is used but not declared by this package or another one of the workspace, and no other dependency
+    provides it. If several dependencies provide it, only the last one is returned.
     """
-    found: dict[str, LostProvision] = {}
-    if not _lost(package, workspace, unused):  # nearly always: when all can go, each can
-        return found
+    result: dict[str, LostProvision] = {}
+    if not _lost(package, workspace, unused):  # common case: if all can be removed, each can
+        return result
     by_name: dict[str, list[Declared]] = {}
-    for each in unused:
-        by_name.setdefault(each.name, []).append(each)
+    for declared in unused:
+        by_name.setdefault(declared.name, []).append(declared)
     for name, tags in by_name.items():
         if lost := _lost(package, workspace, tags):
-            found[name] = lost
+            result[name] = lost
     gone: list[Declared] = []
     for name, tags in by_name.items():
-        if name not in found and (lost := _lost(package, workspace, [*gone, *tags]) if gone else None):
-            found[name] = lost
-        elif name not in found:
+        if name not in result and (lost := _lost(package, workspace, [*gone, *tags]) if gone else None):
+            result[name] = lost
+        elif name not in result:
             gone += tags
-    return found
+    return result
 
 
 def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> LostProvision | None:
-    """Return something that is lost when dependency tags go, or None."""
-    spans = {each.depend.span for each in removed}
-    left = [each for each in package.declared if each.depend.span not in spans]
-    return _lost_here(package, workspace, left, removed) or _lost_above(package, workspace, left, removed)
+    """Return a provision that is lost if the tags are removed, or None."""
+    spans = {declared.depend.span for declared in removed}
+    kept = [declared for declared in package.declared if declared.depend.span not in spans]
+    return _lost_here(package, workspace, kept, removed) or _lost_above(package, workspace, kept, removed)
 
 
 def _lost_here(
@@ -82,43 +82,43 @@ def _lost_above(
     package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
 ) -> LostProvision | None:
     world = workspace.world
-    still = [each.name for each in left if each.role & _RUN]
-    gone = frozenset(each.name for each in removed if each.role & _RUN).difference(still)
+    still = [declared.name for declared in left if declared.role & _RUN]
+    gone = frozenset(declared.name for declared in removed if declared.role & _RUN).difference(still)
     if not gone:
         return None
     hung = _hanging_by_name(workspace)
     for name in sorted(name for name in world.closure(gone).less(world.closure(still)) if name in hung):
-        for other, use in hung[name]:
-            starts = [each.name for each in other.declared]
-            if other.name == package.name or package.name not in world.closure(starts):
+        for dependent, use in hung[name]:
+            starts = [declared.name for declared in dependent.declared]
+            if dependent.name == package.name or package.name not in world.closure(starts):
                 continue
             rest = world.closure_without(starts, package.name, gone)
-            if not any(each in rest for each in use.providers):
-                return LostProvision(name, other.name)
+            if not any(declared in rest for declared in use.providers):
+                return LostProvision(name, dependent.name)
     return None
 
 
 @cached_by_package
 def hanging(package: Package, workspace: Workspace) -> tuple[Use, ...]:
-    """Return the uses of what merely comes along with something that is declared."""
+    """Return the uses of packages that are not declared but provided by a declared dependency."""
     return tuple([use for need in needs(package, workspace) if need.brought and not need.declared for use in need.uses])
 
 
 @cached_by_workspace
 def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
-    """Return who hangs on what: for each name, one use of each package."""
-    found: dict[str, list[tuple[Package, Use]]] = {}
+    """Return the packages that use an undeclared but provided name, by name, with one use each."""
+    result: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:
         answers = {use.providers: use for use in hanging(package, workspace)}
         for use in answers.values():
             for name in use.providers:
-                found.setdefault(name, []).append((package, use))
-    return found
+                result.setdefault(name, []).append((package, use))
+    return result
 
 
 @cached_by_package
 def unused_find_packages(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
-    """Return each find_package() of a package that the code does not use, in no way that can be seen."""
+    """Return each find_package() of an unused package, unless it can be used without a trace."""
     return tuple(
         [
             mention

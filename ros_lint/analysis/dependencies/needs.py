@@ -1,6 +1,6 @@
-"""What a package needs of others, all evidence for one name together, and how the manifest answers it.
+"""The needs of a package: all uses of a name together, and the declared names that satisfy them.
 
-The rules about dependencies share this, so that each need is judged once and named by one of them.
+The rules about dependencies share this module, so that each need is judged once and reported by one rule.
 """
 
 from __future__ import annotations
@@ -20,25 +20,25 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 class Need(NamedTuple):
-    """Something that a package does not do without."""
+    """A package or key that the sources of a package need."""
 
     name: str
-    """What to declare for it."""
+    """The name to declare."""
     uses: tuple[Use, ...]
-    """Where it is needed, the surest and most telling place first; never empty."""
+    """The places where it is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
-    """Those names that satisfy it and are declared, in whatever tag. What merely brings the best one is not among them."""
+    """Declared names that satisfy the need, in any tag, except names that only provide the best one."""
     brought: bool
-    """Whether any name that satisfies it comes along with a declared dependency."""
+    """True if a declared dependency provides a name that satisfies the need."""
 
     @property
     def sure(self) -> bool:
-        """Return whether the best evidence is in a file that is alive, of a name that is known."""
+        """Return whether the best evidence is certain: the file is in use and the name is known."""
         return self.uses[0].certain
 
     @property
     def role(self) -> Role:
-        """Return all that it is needed for: by what is alive, if anything is."""
+        """Return all roles of the certain uses, or of all uses if no use is certain."""
         alive = [use for use in self.uses if use.certain] or self.uses
         role = Role(0)
         for use in alive:
@@ -53,19 +53,20 @@ _TEST = Role.TEST
 
 @cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return every need of a package, in the order of the best evidence. What it can do without is no need.
+    """Return all needs of a package, in the order of their best evidence. Optional uses are left out.
 
-    A package of ROS 1 (build type catkin) has its own ways to get what it needs, and none that are known here.
+    A ROS 1 package (build type catkin) has no needs, because its dependencies are not analysed.
     """
     return _gathered(package, workspace, [use for use in package.uses if not use.optional])
 
 
 @cached_by_package
 def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return what a package uses only if it is there and does not declare, in the order of the best evidence.
+    """Return the optional undeclared needs of a package, in the order of their best evidence.
 
-    Symbols are left out: in languages other than C++ they may as well come from elsewhere. So is what needs the package
-    itself, and cannot be declared.
+    Left out are:
+    - symbols, because in languages other than C++ they may come from elsewhere,
+    - packages that depend on this one, because they cannot be declared.
     """
     needed = {name for use in package.uses if not use.optional for name in use.providers}
     uses = [use for use in package.uses if use.optional and use.via != "symbol" and needed.isdisjoint(use.providers)]
@@ -92,7 +93,7 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
 
 
 def _is_ament(package: Package) -> bool:
-    """Whether CMake takes a package for one of ROS 2, though its manifest says nothing of it."""
+    """Return whether CMake finds ament_cmake, even if the manifest names no build type."""
     mentions = package.built.mentions
     return any(mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in mentions)
 
@@ -105,16 +106,16 @@ def _needs(
     bring: Callable[[tuple[str, ...]], Closure],
     only_runs: Callable[[str], bool],
 ) -> Iterator[Need]:
-    """Yield what uses of a name amount to; they come sorted by place.
+    """Yield the needs that some uses of a name result in. ``uses`` is sorted by place.
 
-    Each place has to be satisfied: Eigen3 of CMake by its find module, a header of Eigen by the library, and what is built
-    by more than a key that ``only_runs``.
+    Each use has to be satisfied by its own providers. Examples: find_package(Eigen3) by its find module, a header of
+    Eigen by the library. A key that ``only_runs`` does not satisfy a build use.
     """
     if len(uses) > 1:
         uses.sort(key=_rank)
     answers = dict.fromkeys([use.providers for use in uses])
     vendors = [] if name in declared else [each for each in declared if each.endswith(VENDOR) and name in bring((each,))]
-    if not vendors and answers.keys() == {(name,)}:  # nearly always
+    if not vendors and answers.keys() == {(name,)}:  # the common case
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
     found = {names: [each for each in names if each in declared and _is_meant(each, names[0], bring)] for names in answers}
@@ -139,15 +140,16 @@ def _needs(
 
 
 def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure]) -> bool:
-    """Whether a name that will do is declared for itself, and does not merely bring the best one along.
+    """Return whether a declared name satisfies the need by itself and not only by its dependencies.
 
-    A vendor package is declared for the library, which it brings where the system has it, and a library for all its parts.
+    True for a vendor package of a library, which provides it where the system has none, and for a library with its
+    parts.
     """
     return name == best or best not in bring((name,)) or is_vendor(name, best) or is_part(best, name)
 
 
 def _rank(use: Use) -> int:
-    """The surest and most telling evidence first."""
+    """Return a sort key: the best evidence first."""
     rank = _RANKS[use.via]
     if not use.certain:
         rank += 32

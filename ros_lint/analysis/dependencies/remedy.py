@@ -1,4 +1,4 @@
-"""Remedies for undeclared dependencies: the tag to write, where the name resolves, or why it cannot be declared."""
+"""Remedies for undeclared dependencies: the tag to write, or why a name cannot be declared."""
 
 from __future__ import annotations
 
@@ -15,18 +15,19 @@ if TYPE_CHECKING:
 
 
 class Remedy(NamedTuple):
-    """The remedy for an undeclared dependency, if there is one."""
+    """The remedy for an undeclared dependency, if one exists."""
 
     written: str
     """The element to add, followed by remarks in parentheses."""
     fix: Fix | None
-    """None when it cannot be declared, or when colcon rejects the manifest, which has to be fixed first."""
+    """None if the name cannot be declared, or if colcon rejects the manifest, which has to be fixed first."""
     obstacle: str
-    """Why it cannot be declared: completes "cannot be declared: ". "" when it can."""
+    """The reason why it cannot be declared, which completes "cannot be declared: ", or ""."""
     circular: bool
-    """Whether the obstacle is that it depends on the package itself."""
+    """True if the obstacle is that it depends on the package itself."""
     certain: bool = True
-    """Whether the need is as certain as its evidence: not if it is circular or colcon rejects the manifest."""
+    """True if the need is as certain as its evidence: not if it is circular or colcon rejects the
+    manifest."""
 
     @property
     def ending(self) -> str:
@@ -37,12 +38,12 @@ class Remedy(NamedTuple):
 def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
     """Return the remedy for a needed package or key that is not declared. The package has a manifest."""
     tag = tag_for(package, workspace, name, role)
-    written = " and ".join(f"<{each}>{name}</{each}>" for each in tags_for(package, tag))
+    written = " and ".join(f"<{needed_tag}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
         between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
         return Remedy(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
-    if (bare := workspace.by_name.get(name)) and all(each.manifest is None for each in bare):
+    if (bare := workspace.by_name.get(name)) and all(needed_tag.manifest is None for needed_tag in bare):
         obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
     if is_unresolvable_key(workspace, name):
@@ -59,19 +60,19 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
 
 
 def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
-    """Return the fix that writes a name into a dependency tag, None where there are no edits.
+    """Return the fix that writes a name into a dependency tag, or None if there are no edits.
 
-    Every fix that does so is made here: it is safe only where rosdep resolves the name wherever the workspace is meant to be
-    built, see :func:`availability`.
+    All such fixes are made here. A fix is safe only if rosdep resolves the name wherever the workspace has to build,
+    see :func:`availability_remark`.
     """
     return Fix.of(title, *edits, safe=safe and not availability_remark(workspace, name))
 
 
 def availability_remark(workspace: Workspace, name: str) -> str:
-    """Return the remark on where a name resolves, such as " (only in humble)", "" where it does so wherever it has to.
+    """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
 
-    It has to in the stated distribution, or in every active one where none was stated. A package of the workspace or of an
-    underlay is there for all of them; any other name must be a released package or a rosdep key.
+    It has to resolve in the stated distribution, or in every active one if none was stated. Packages of the workspace
+    and of underlays resolve in all of them; any other name must be a released package or a rosdep key.
     """
     world, target = workspace.world, workspace.target
     if world.layer(name) in ("workspace", "underlay"):
@@ -96,8 +97,8 @@ def availability_remark(workspace: Workspace, name: str) -> str:
 def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
     """Return a path by which a name depends on the package itself, both ends included, or ().
 
-    In the workspace every tag counts, because colcon orders packages by all of them; otherwise the run-time dependencies of
-    the released package, of any distribution if the target distribution has no such package.
+    In the workspace every tag counts, because colcon orders packages by all of them. Elsewhere the run-time
+    dependencies of the released package count, of any distribution if the target distribution has no such package.
     """
     graph = dependency_graph(workspace) if name in workspace.by_name else None
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):

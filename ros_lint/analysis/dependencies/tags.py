@@ -1,4 +1,4 @@
-"""What to write into a manifest for a need, and which declared needs leave no trace: advice that several rules share."""
+"""Choice of the dependency tag for a need, and edits of the manifest, for several rules."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
-    """Return the one tag that a careful maintainer writes for all that a name is needed for (reference, section E2).
+    """Return the one tag that covers all roles of a dependency, as REP 149 defines the tags.
 
-    Where the manifest says ``<depend>`` of everything, and of something that is only run, it goes on saying so, unless CMake
-    finds and links all that it says it of. For a manifest of format 1, where nothing means "build and run", it is the tag for
-    building, see :func:`add_dependency`.
+    ``<exec_depend>`` is avoided if the manifest declares everything by ``<depend>``, even run-time dependencies. The
+    exception: CMake finds and links all declared dependencies. Format 1 has no tag for building and running; the result
+    is ``build_depend``, and :func:`add_dependency` adds the other tag.
     """
     form = package.manifest.format if package.manifest else 3
     if role == Role.TEST:
@@ -38,13 +38,13 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
 
 
 def _always_depend(package: Package) -> bool:
-    """Whether a manifest knows no other tag than ``<depend>``, and that one well, for what is built or run."""
+    """Return whether the manifest uses ``<depend>`` for all of its build and run dependencies."""
     tags = [declared.depend.tag for declared in package.declared if declared.role & (Role.BUILD | Role.EXEC | Role.EXPORT)]
     return len(tags) > 1 and set(tags) == {"depend"}
 
 
 def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
-    """Whether something that is declared is only run, as far as the package uses it, or else by what others declare it as."""
+    """Return whether one of the <depend> tags is needed at run time only, by its uses or by convention."""
     roles: dict[str, Role] = {}
     for use in package.uses:
         for name in use.providers:
@@ -65,21 +65,21 @@ def _without(role: Role, part: Role) -> Role:
 
 
 def tags_for(package: Package, tag: str) -> tuple[str, ...]:
-    """Return all tags that it takes to say what a tag means: in format 1, what is built is run as well. It has a manifest."""
+    """Return the tags to write: format 1 needs a ``run_depend`` with each ``build_depend``."""
     assert package.manifest is not None
     return (tag, "run_depend") if package.manifest.format == 1 and tag == "build_depend" else (tag,)
 
 
 def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
-    """Return the edits that declare a name. The package has a manifest."""
+    """Return the edits that declare a dependency. The package has a manifest."""
     assert package.manifest is not None
-    return tuple(manifest_edits.add(package.manifest, each, name) for each in tags_for(package, tag))
+    return tuple(manifest_edits.add(package.manifest, needed_tag, name) for needed_tag in tags_for(package, tag))
 
 
 def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that make one tag of all those that a name is declared in. The package has a manifest.
+    """Return the edits that replace all tags of a dependency by one. The package has a manifest.
 
-    ``alike`` are all that change to this tag.
+    ``alike`` are all tags that the fix changes to this kind.
     """
     assert package.manifest is not None
     kept = next((depend for depend in depends if depend.tag == tag), depends[0])
@@ -88,15 +88,15 @@ def change_dependency(package: Package, depends: Sequence[Depend], tag: str, ali
 
 
 def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
-    """Return the edits that take a dependency out. The package has a manifest."""
+    """Return the edits that remove a dependency. The package has a manifest."""
     assert package.manifest is not None
     return (manifest_edits.remove(package.manifest, depend),)
 
 
 def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:
-    """Whether released packages mostly declare a name as a build tool.
+    """Return whether released packages mostly declare a name as a build tool.
 
-    What public headers have is exported, and else those do not count that have it for tests.
+    Test dependencies are not counted, unless the package exports the dependency in its public headers.
     """
     every = workspace.world.knowledge.index.declared_as(name)
     declared = {kinds: count for kinds, count in every.items() if kinds != "s" or _has(needed, Role.EXPORT)}
@@ -104,16 +104,16 @@ def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:
 
 
 def _is_only_run(workspace: Workspace, name: str) -> bool:
-    """Whether released packages, many of them, mostly declare a name for running alone."""
+    """Return whether many released packages declare a name, mostly for run time only."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * declared.get("x", 0) > max(_FEW, sum(declared.values()))
 
 
 _FEW = 40
-"""Of so few packages the habits say nothing."""
+"""Smallest number of released packages that shows a habit."""
 
 
 def _is_only_for_building(workspace: Workspace, name: str) -> bool:
-    """Whether released packages mostly declare a name for building alone."""
+    """Return whether released packages mostly declare a name for building only."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if set(kinds) <= {"b", "t"}) > sum(declared.values())

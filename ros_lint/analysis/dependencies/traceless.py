@@ -1,4 +1,4 @@
-"""Dependencies that a package can use without a trace in its sources."""
+"""Dependencies that a package can use without naming them in its sources."""
 
 from __future__ import annotations
 
@@ -14,16 +14,21 @@ if TYPE_CHECKING:
 
 
 def is_library(world: World, name: str) -> bool:
-    """Whether a name is a key of something that is compiled against, which launch files cannot use."""
+    """Return whether a name is a key of a compiled library, which a launch file cannot use."""
     return world.is_key(name) and not name.startswith("python")
 
 
 def may_be_used_without_trace(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a dependency of a package on a name can do its work without the name standing anywhere (reference, section F2).
+    """Return whether a package can use a dependency whose name appears nowhere in its sources.
 
-    True for what is no package that is known; for packages that bring others, give macros or plugins, or are not there whole;
-    for those whose name says that they stand for something else; and for what generated interfaces need. See
-    :func:`is_mostly_runtime`, too.
+    True for:
+    - names that are not known as a package,
+    - packages that provide others, CMake macros or plugins,
+    - packages that are not completely cloned,
+    - names that indicate a substitute or a collection,
+    - packages that the code generated from interfaces needs.
+
+    See also :func:`is_mostly_runtime`.
     """
     world = workspace.world
     if is_traceless_by_name(workspace.world, name):
@@ -39,7 +44,7 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
 
 
 def only_brings(world: World, name: str) -> bool:
-    """Whether a released package is a metapackage: it says so, or has nothing but what it brings to be run."""
+    """Return whether a released package is a metapackage, by its manifest or for lack of content."""
     released = world.released(name)
     if released is None or "m" in released.flags[1:]:
         return released is not None
@@ -47,20 +52,21 @@ def only_brings(world: World, name: str) -> bool:
 
 
 def _stands_for_others(package: Package, world: World, name: str) -> bool:
-    """Whether a released metapackage that declares its members by ``<depend>`` brings one that the package uses.
+    """Return whether a released metapackage provides a package that this package uses.
 
-    It has the name of its repository, and what it brings is mostly from there.
+    A metapackage here has the name of its repository, and most of its run dependencies are from that repository. Such
+    packages declare their members by ``<depend>``.
     """
     released = world.released(name)
     if released is None or released.repository != name or not _offers_nothing(world, released):
         return False
     brought = released.on("x")
-    members = {each for each in brought if (found := world.released(each)) and found.repository == name}
+    members = {member for member in brought if (released_member := world.released(member)) and released_member.repository == name}
     return 2 * len(members) > len(brought) and any(use.package in members for use in package.uses)
 
 
 def _offers_nothing(world: World, released: Released) -> bool:
-    """Whether nothing is known that a package of ament_cmake installs."""
+    """Return whether no content of a released ament_cmake package is known."""
     if released.build_type != "ament_cmake" or released.interfaces:
         return False
     known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
@@ -68,9 +74,10 @@ def _offers_nothing(world: World, released: Released) -> bool:
 
 
 def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
-    """Whether released packages mostly declare a name without building against it, so that it may well leave no trace.
+    """Return whether released packages mostly declare a name without a build tag.
 
-    Not so of packages that give nothing but interfaces: this tells that Python code uses them, which has to name them.
+    The use of such a package may leave no trace. False for packages that only contain interfaces: Python code declares
+    them so, and has to name them.
     """
     world = workspace.world
     if name in workspace.by_name or not world.is_package(name):
@@ -83,13 +90,16 @@ def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
 
 
 def has_programs(world: World, name: str) -> bool:
-    """Whether a package is known to have something to start or to load."""
+    """Return whether a package is known to have executables, launch files, components or plugins."""
     offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
     return any(offer(name).names for offer in offers)
 
 
 def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a dependency leaves a trace if it is of any use: messages, and modules where no Python code could import them."""
+    """Return whether a use of the dependency has to be visible in the sources.
+
+    This holds for interfaces, and for Python modules if the package has no Python code.
+    """
     world = workspace.world
     released = world.released(name)
     if released is None:
@@ -99,11 +109,11 @@ def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
 
 
 PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
-"""Files that can run Python code, or have it run."""
+"""Endings of files that can contain or run Python code."""
 
 
 def _lacks_parts(package: Package, world: World) -> bool:
-    """Whether a submodule that is not cloned lies in a package: what that has may be called anything."""
+    """Return whether the package contains a submodule that is not cloned: its contents are unknown."""
     return any(folder.rpartition("/")[2] in world.awaited.uncloned for folder in package.unvisited_folders)
 
 

@@ -17,27 +17,32 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def manifest_is_complete(package: Package) -> bool:
-    """Whether the manifest tells all that is declared. One that colcon rejects does, if it was read to its end."""
+    """Return whether the manifest was read to its end, even if colcon rejects it."""
     manifest = package.manifest
     return manifest is not None and all(problem.kind not in _CUT_SHORT for problem in manifest.problems)
 
 
 _CUT_SHORT = frozenset({"bare-ampersand", "encoding", "entity", "invalid-xml", "merge-conflict", "no-package", "too-deep"})
-"""Problems of manifests after which nothing more was read, or something that is not meant."""
+"""Manifest problems after which the rest of the file is unread or unreliable."""
 
 
 @cached_by_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
-    """Return the needs that nothing declared brings along, and whether that is sure.
+    """Return the needs that no declared dependency provides, each with whether it is certain.
 
-    What only launch files name, to start, include or look it up, is left out, unless these are tests: it has a rule of its
-    own. So is what is declared by another name, and a command of CMake that comes with what is to be declared anyway. Of what
-    modules with parts of launch files name, nobody knows who takes it. Nor is it known of files that need what is declared under
-    a condition, which does not hold here, whether they are for here; what CMake asks for is. A metapackage has no files that
-    could be looked up. What a slip in a declared name must mean is told with that name already, so it is not sure, either.
+    Left out are:
+    - names that only launch files outside of tests start, include or look up, because another rule reports them,
+    - dependencies that are declared by another name,
+    - CMake commands that come with another missing dependency.
+
+    Not certain are:
+    - names that are only used in launch modules, because the caller may provide them,
+    - names that are declared under a false condition, unless CMake needs them: their files may be unused here, too,
+    - files of a metapackage, because it has none,
+    - the probable meaning of a misspelled declared name, because that name is reported.
     """
     unknown = all_declared(package, workspace).unknown
-    found = []
+    result = []
     otherwise = intended_names(package, workspace).difference(misspelled_names(package, workspace).values())
     missing = [
         need
@@ -45,7 +50,9 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         if not (need.declared or need.brought or any(otherwise.intersection(use.providers) for use in need.uses))
     ]
     joined = _joined([need for need in missing if not only_launched(package, need.uses)])
-    elsewhere = frozenset([each.name for each in package.manifest.depends if each.condition]) if package.manifest else frozenset()
+    elsewhere = (
+        frozenset([depend.name for depend in package.manifest.depends if depend.condition]) if package.manifest else frozenset()
+    )
     for need in joined:
         if all(use.via == "macro" for use in need.uses) and _comes_with(need, joined, workspace):
             continue
@@ -57,12 +64,12 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
                 continue
             sure = sure and not (workspace.target.explicit and workspace.world.where_else(need.name))
         uses = uses_not_explained_by(unknown, need.uses, workspace) if sure and unknown else need.uses
-        found.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
-    return tuple(found)
+        result.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
+    return tuple(result)
 
 
 def is_declared_misspelled(package: Package, workspace: Workspace, need: Need) -> bool:
-    """Whether a slip in a declared name must mean what is needed: then that name is told, and what it means."""
+    """Return whether a misspelled declared name probably means this need, and is reported instead."""
     names = set(misspelled_names(package, workspace).values())
     return any(names.intersection(use.providers) for use in need.uses)
 
@@ -71,42 +78,42 @@ _BUILT = frozenset({"cmake", "macro", "target"})
 
 
 def _looks_into_nothing(need: Need, workspace: Workspace) -> bool:
-    """Whether only files of a metapackage are looked up, which has none: another package of its name is meant."""
+    """Return whether only files of a metapackage are used: it has none, so another package is intended."""
     if need.name in workspace.by_name or any(use.via not in ("package", "launch") for use in need.uses):
         return False
     return only_brings(workspace.world, need.name)
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether what once was a package is now a library of the system, and declared by a key of its name: libnlopt-dev."""
-    return any(workspace.world.is_key(each.name) and is_part(each.name, name) for each in package.declared)
+    """Return whether a former package is declared as a key of the system: libnlopt-dev for nlopt."""
+    return any(workspace.world.is_key(declared.name) and is_part(declared.name, name) for declared in package.declared)
 
 
 def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
-    """Whether there is a package of a name. If nobody said which distribution is meant, it may be one of any."""
+    """Return whether a package exists in the target distribution, or in any if none was chosen."""
     world = workspace.world
     return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
 
 def provided_in_other_distros(package: Package, workspace: Workspace, name: str) -> bool:
-    """Whether a package that only other distributions have comes along there with something that is declared."""
-    starts = {each.name for each in package.declared}
+    """Return whether in another distribution a declared dependency provides the package."""
+    starts = {declared.name for declared in package.declared}
     closure = all_declared(package, workspace)
     for name_here, having in workspace.by_name.items():
         if name_here in closure:
-            starts.update(each.name for other in having for each in other.declared)
+            starts.update(declared.name for namesake in having for declared in namesake.declared)
     return workspace.world.knowledge.comes_elsewhere(starts, name)
 
 
 def _joined(found: Sequence[Need]) -> list[Need]:
-    """Return needs without those that another one satisfies: what CMake finds and what is included may have two names."""
+    """Join needs for one package that find_package() and #include name differently."""
     result: list[Need] = []
     for need in found:
-        for number, other in enumerate(result):
-            before = all(other.name in use.providers for use in need.uses)
-            if before or all(need.name in use.providers for use in other.uses):
-                kept = other if before else need
-                uses = sorted((*other.uses, *need.uses), key=lambda use: (_rank(use), not _names(use, kept.name)))
+        for number, earlier in enumerate(result):
+            before = all(earlier.name in use.providers for use in need.uses)
+            if before or all(need.name in use.providers for use in earlier.uses):
+                kept = earlier if before else need
+                uses = sorted((*earlier.uses, *need.uses), key=lambda use: (_rank(use), not _names(use, kept.name)))
                 result[number] = kept._replace(uses=tuple(uses))
                 break
         else:
@@ -115,19 +122,19 @@ def _joined(found: Sequence[Need]) -> list[Need]:
 
 
 def _names(use: Use, name: str) -> bool:
-    """Whether a use names what it needs, and not what that merely brings."""
+    """Return whether a use names the package itself and not a package that it provides."""
     return name in (use.package, use.name.partition("/")[0])
 
 
 def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> bool:
-    return any(need.name in workspace.world.closure((other.name,)) for other in others if other is not need)
+    return any(need.name in workspace.world.closure((sibling.name,)) for sibling in others if sibling is not need)
 
 
 def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
-    """Return uses of a name, first those that no declared name of which nothing is known could satisfy.
+    """Return the uses of a name, those first that no declared unknown name could satisfy.
 
-    None at all if no sure one is among these. Each place has to be satisfied: a library may come with anything, which helps no
-    script that finds the package.
+    () if the unknown names could satisfy every certain use. Each use is judged for itself: an unknown package may
+    provide a library, but that does not help a script that calls find_package().
     """
     uses = tuple(uses)
     answers = dict.fromkeys([use.providers for use in uses])
@@ -138,9 +145,9 @@ def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace
 
 
 def only_launched(package: Package, uses: Sequence[Use]) -> bool:
-    """Whether only launch files name a package, and not for tests alone.
+    """Return whether only launch files name a package, and not only for tests.
 
-    Modules with parts of launch files, which others call, are code like any other.
+    Launch modules that other files call count as ordinary code.
     """
     if any(use.via != "launch" for use in uses) or all(use.role is _TEST for use in uses):
         return False
@@ -149,6 +156,6 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
 
 
 def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
-    """Whether only launch files import it, and it is part of whatever can launch them (reference, section E2, row 15)."""
+    """Return whether only launch files import the package and it is installed wherever launch is."""
     launched = {launch.path for launch in package.launch}
     return all(use.via == "import" and use.package in LAUNCH_RUNTIME and use.span.path in launched for use in uses)

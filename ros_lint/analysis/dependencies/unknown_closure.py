@@ -1,4 +1,4 @@
-"""What a declared name of which nothing is known may bring along: that it may keeps rules from claiming what is lacking."""
+"""Estimates whether an unknown declared dependency provides a package: then a need is uncertain."""
 
 from __future__ import annotations
 
@@ -11,12 +11,15 @@ from ros_lint.workspace.model import Workspace
 
 
 def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
-    """Whether one of the declared names of which nothing is known could bring a package along.
+    """Return whether one of the unknown declared names could provide a package.
 
-    What comes from elsewhere needs none of this workspace: repositories do not need each other in a circle. A package of
-    messages brings messages, and build tools and linters come with others of their kind. Of a library
-    nobody knows in which ways it comes. What hardly any package brings is not brought by one of which nothing is known but a
-    name that sounds quite different.
+    The answer follows from these assumptions:
+    - Unknown packages do not depend on packages of this workspace, because repositories do not depend on each other in
+      a cycle.
+    - Packages of interfaces provide only interfaces.
+    - Build tools and linters are provided by packages of that kind.
+    - Libraries may be provided by any package.
+    - A package that few released packages provide is not provided by an unknown package with a quite different name.
     """
     if name in workspace.by_name:
         return False
@@ -26,72 +29,78 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
     strange = []
     library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith(VENDOR)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
-    for each in unknown:
-        brings = workspace.world.knowledge.brings_elsewhere(each, name)
+    for unknown_name in unknown:
+        brings = workspace.world.knowledge.brings_elsewhere(unknown_name, name)
         if brings:
             return True
-        if brings is None and (_is_no_package(each, workspace) or (tool and not any(word in each for word in _OF_TOOLS))):
+        if brings is None and (
+            _is_no_package(unknown_name, workspace) or (tool and not any(word in unknown_name for word in _OF_TOOLS))
+        ):
             continue
-        if each.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
+        if unknown_name.endswith(("_msgs", "_interfaces", "_srvs", "_msg")) and not (messages or plumbing):
             continue
         if library:
             return True
-        if brings is False:  # then it is known well enough, if the name is the same there
+        if brings is False:  # known well enough, if the name means the same there
             continue
-        if workspace.world.knowledge.elsewhere(each):
+        if workspace.world.knowledge.elsewhere(unknown_name):
             return True
-        strange.append(each)
+        strange.append(unknown_name)
     return bool(strange) and (tool or not _is_far(strange, name, workspace))
 
 
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
-    """Whether it would be a strange chance if one of the unknown names brought a package along.
+    """Return whether it is unlikely that one of the unknown names provides a package. All of these hold:
 
-    Few released packages bring it, of those of a distribution that has it, no other package of this workspace does, and its
-    name has nothing in common with theirs.
+    - Few released packages provide it.
+    - The target distribution has it.
+    - No other package of this workspace provides it.
+    - Its name has no word in common with the unknown names.
     """
     words = _words(name)
-    if any(words & _words(each) for each in unknown):
+    if any(words & _words(unknown_name) for unknown_name in unknown):
         return False
     world = workspace.world
     if world.standing(name) == "elsewhere":
-        return False  # it is brought where it is
+        return False  # packages of that distribution provide it
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
-    if most < 1 or any(name in world.closure((other,)) for other in workspace.by_name if other != name):
+    if most < 1 or any(name in world.closure((local,)) for local in workspace.by_name if local != name):
         return False
     return world.knowledge.index.bringing(name, most) <= most
 
 
 _CHANCE = 0.05
-"""How likely it may be that one of the unknown names brings a package along, going by how many released packages do.
+"""Share of released packages up to which it is unlikely that an unknown name provides a package.
 
-Measured on packages that declare nothing strange, each dependency taken for unknown in turn: what else they lack it brings
-in none of 180 cases below this, tools of the build aside, and in 10 of 268, mostly launch, up to twice as much.
-"""
+Measured on packages without unknown dependencies, each dependency in turn treated as unknown. Below this share it
+provided an undeclared package in 0 of 180 cases (build tools aside); up to twice the share in 10 of 268 cases, mostly
+launch."""
 
 _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", "common", "utils", "tools"})
 
 
 def _words(name: str) -> frozenset[str]:
-    """Return how the telling words of a name begin, without the number of a generation: mrpt2 is akin to mrpt_libobs."""
+    """Return the significant words of a name, without version numbers: mrpt2 resembles mrpt_libobs."""
     return frozenset([word.rstrip("0123456789")[:8] or word for word in name.replace("-", "_").split("_")]) - _EVERYDAY
 
 
 _OF_TOOLS = ("ament", "cmake", "lint", "common", "tools", "test")
-"""Parts of the names of packages that bring build tools, linters or what runs tests."""
+"""Parts of the names of packages that provide build tools, linters or test runners."""
 
 
 @cached_by_workspace
 def _found(workspace: Workspace) -> frozenset[str]:
-    """Return what build scripts of ROS 2 do not do without."""
+    """Return the names that build scripts of ROS 2 packages require by find_package()."""
     scripts = [package.script for package in workspace.packages if package.builds_with == "ament_cmake" and package.script]
-    return frozenset({each.name for script in scripts for each in script.mentions if each.via == "cmake" and not each.optional})
+    return frozenset(
+        {mention.name for script in scripts for mention in script.mentions if mention.via == "cmake" and not mention.optional}
+    )
 
 
 def _is_no_package(name: str, workspace: Workspace) -> bool:
-    """Whether an unknown name can stand for no package of ROS 2: it is spelt like a key, a slip, a group, or one of ROS 1.
+    """Return whether an unknown name is a key, a misspelling, a group or a ROS 1 package.
 
-    What a build script finds, and nothing took the place of in ROS 2, was ported without a release.
+    A ROS 1 package that a build script finds, and that has no ROS 2 successor, was probably ported without a release.
     """
     if not may_be_package(name) or name == "ament_python" or workspace.world.group_members(name):
         return True

@@ -1,4 +1,4 @@
-"""Declared names that do not resolve, in packages where that is a mistake: what several rules share."""
+"""Declared names that do not resolve, in packages where this is an error."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
 
 
 class UnresolvedDependency(NamedTuple):
-    """A name that a package declares."""
+    """A declared name that does not resolve."""
 
     package: Package
     declared: Declared
@@ -22,7 +22,7 @@ class UnresolvedDependency(NamedTuple):
     tags: tuple[Depend, ...]
     """All tags with the name."""
     called_so: tuple[Use, ...]
-    """Where something is used that is called so, or that is in what is called so."""
+    """Uses whose name is this name or a part of it."""
 
     @property
     def name(self) -> str:
@@ -30,7 +30,7 @@ class UnresolvedDependency(NamedTuple):
 
     @property
     def runs_python(self) -> bool:
-        """Return whether it is needed to run Python code, for all that the tags say, and what uses it."""
+        """Return whether its tags and uses allow that it is only needed to run Python code."""
         if self.package.builds_with == "ament_python":
             return True
         called_so = {use.via for use in self.called_so}
@@ -43,24 +43,26 @@ class UnresolvedDependency(NamedTuple):
 def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
     """Return every name that has to resolve, with the packages that declare it.
 
-    Left out are packages of ROS 1 (catkin) and those whose manifest nobody can use, and packages of the workspace that colcon
-    does not see: other rules speak of these.
+    Left out, because other rules report them, are:
+    - packages of ROS 1 (catkin),
+    - packages with an unusable manifest,
+    - packages of the workspace that colcon does not find.
     """
     hidden = {package.name for package in workspace.unusable}
     for package in workspace.packages:
         hidden.update([nested.name for nested in package.nested])
-    found: dict[str, list[Package]] = {}
+    result: dict[str, list[Package]] = {}
     for package in workspace.packages:
         if package.manifest is None or package.manifest.problems or package.type not in _BUILD_TYPES:
             continue
         for name in dict.fromkeys([declared.depend.name for declared in package.declared]):
             if name not in hidden:
-                found.setdefault(name, []).append(package)
-    return found
+                result.setdefault(name, []).append(package)
+    return result
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield a name once for each package that surely declares it: under no condition that nobody can evaluate."""
+    """Yield a name once for each package that declares it, unless all of its conditions are unknown."""
     for package in packages:
         tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)
@@ -70,25 +72,28 @@ def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDep
 
 
 def resembles_ament_package(name: str, workspace: Workspace) -> bool:
-    """Whether an unknown name is near one of ament: nearly everything of that is released, so it is a slip and no package."""
+    """Return whether an unknown name is probably a misspelled package of ament: nearly all are released."""
     return name.startswith("ament_") and any(near.startswith("ament_") for near in workspace.world.suggest(name))
 
 
 @cached_by_package
 def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return what a package must mean by those of its declared names that do not exist: nobody else need declare it."""
-    found = (workspace.world.meant(each.name, python=each.runs_python) for each in _unknown(package, workspace))
-    return frozenset([what.name for what in found if what]).union(misspelled_names(package, workspace).values())
+    """Return the packages that the misspelled dependencies probably mean: they need no second declaration."""
+    result = (
+        workspace.world.meant(unresolved_dependency.name, python=unresolved_dependency.runs_python)
+        for unresolved_dependency in _unknown(package, workspace)
+    )
+    return frozenset([what.name for what in result if what]).union(misspelled_names(package, workspace).values())
 
 
 @cached_by_package
 def misspelled_names(package: Package, workspace: Workspace) -> Mapping[str, str]:
-    """Return those of a package's declared names that must mean what it uses and does not declare, with what they mean."""
-    found: dict[str, str] = {}
+    """Return the probably misspelled declared names, each with the undeclared package that it means."""
+    result: dict[str, str] = {}
     for stranger in _unknown(package, workspace):
         if not workspace.world.meant(stranger.name, python=stranger.runs_python):
-            found[stranger.name] = undeclared_match(stranger, workspace)
-    return {name: what for name, what in found.items() if what}
+            result[stranger.name] = undeclared_match(stranger, workspace)
+    return {name: what for name, what in result.items() if what}
 
 
 def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDependency]:
@@ -99,23 +104,23 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDepen
 
 
 def undeclared_match(stranger: UnresolvedDependency, workspace: Workspace) -> str:
-    """Return what a name must mean that CMake does not know: the only one like it that is used and not declared, or "".
+    """Return the only similar package that is used and not declared, or "".
 
-    The same words, in whatever order and however joined, are meant for sure; another name is where nothing but the manifest has
-    the wrong one.
+    A name of the same words in another order or spelling is a match. Another similar name is one only if the misspelled
+    name appears in the manifest alone.
     """
     package, name = stranger.package, stranger.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]
     near += workspace.world.suggest(name, python=stranger.runs_python)
-    lacking = [other for other in dict.fromkeys(near) if _is_lacking(package, other)]
-    same = [other for other in lacking if _is_same(other, name)]
+    lacking = [undeclared_name for undeclared_name in dict.fromkeys(near) if _is_lacking(package, undeclared_name)]
+    same = [undeclared_name for undeclared_name in lacking if _is_same(undeclared_name, name)]
     if len(same) == 1 and name not in _mentioned(package):
         return same[0]
     return lacking[0] if len(lacking) == 1 and not is_used_in_sources(stranger) else ""
 
 
 def is_used_in_sources(stranger: UnresolvedDependency) -> bool:
-    """Whether anything but the manifest names it, so that there may be such a package after all."""
+    """Return whether a file other than the manifest uses the name, so that such a package may exist."""
     package, name = stranger.package, stranger.name
     return name in _mentioned(package) or name in package.textual_mentions or any(name in use.providers for use in package.uses)
 
@@ -125,12 +130,12 @@ def _mentioned(package: Package) -> set[str]:
 
 
 def _is_same(one: str, other: str) -> bool:
-    """Whether two names are of the same words, in any order, or joined otherwise: robot-talk, talk_robot and robottalk."""
+    """Return whether two names have the same words: robot-talk, talk_robot, robottalk."""
     first, second = (name.lower().replace("-", "_") for name in (one, other))
     return sorted(first.split("_")) == sorted(second.split("_")) or first.replace("_", "") == second.replace("_", "")
 
 
 def _is_lacking(package: Package, name: str) -> bool:
-    """Whether a package needs another one for sure, and does not declare it."""
+    """Return whether a package certainly needs a dependency that it does not declare."""
     needed = any(use.package == name and use.certain and not use.optional for use in package.uses)
     return needed and not package.declares(name)

@@ -1,4 +1,4 @@
-"""Cycles in a graph: the shortest one, and the cheapest edges to take out so that none is left."""
+"""Cycles of a dependency graph, and the cheapest edges whose removal breaks them."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 _MOST_EXACT = 12
-"""Up to this many nodes every order is weighed, which takes time in proportion to n * 2**n."""
+"""Largest number of nodes for which all orders are compared; the time grows with n * 2**n."""
 _MOST_CUTS = 2
-"""Up to this many edges the smallest cut is found in larger components, too."""
+"""Largest number of edges in a cut for which larger components are searched exhaustively."""
 
 
 class Cycle(NamedTuple):
-    """Packages of which each needs all the others, directly or not."""
+    """A strongly connected component: packages that all depend on each other, directly or indirectly."""
 
     names: tuple[str, ...]
-    """Sorted."""
+    """The packages, sorted."""
     cycle: tuple[str, ...]
-    """A shortest cycle among them, the first name in front."""
+    """A shortest cycle among the packages; it begins with the first name in alphabetical order."""
     cut: tuple[Edge, ...]
-    """The cheapest edges to do without, so that there is an order. At least one of them lies on the cycle."""
+    """The cheapest edges whose removal breaks all cycles. At least one of them lies on ``cycle``."""
     certain: bool
-    """False when it is a knot only if a condition holds that nobody can evaluate here."""
+    """False if the cycle exists only under a condition that cannot be evaluated here."""
 
 
 def cycles(graph: Graph) -> Iterator[Cycle]:
-    """Yield the knots of a graph, the certain ones first."""
+    """Yield the cycles of a graph, the certain ones first."""
     for found, arcs, certain in ((graph.cycles, graph.certain_arcs, True), (graph.possible_cycles, graph.arcs, False)):
         for names in found:
             inner = arcs_within(arcs, names)
@@ -37,12 +37,12 @@ def cycles(graph: Graph) -> Iterator[Cycle]:
 
 
 def arcs_within(arcs: Mapping[str, Collection[str]], nodes: Collection[str]) -> Edges:
-    """Return the part of a graph that lies between some of its nodes."""
+    """Return the subgraph of ``nodes``."""
     return {name: frozenset(arcs[name]).intersection(nodes) for name in sorted(nodes)}
 
 
 def shortest_cycle(arcs: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return the nodes of a shortest cycle, first by name in front. () when there is none."""
+    """Return the nodes of a shortest cycle, beginning with the first name, or () if there is no cycle."""
     best: tuple[str, ...] = ()
     for start in sorted(arcs):
         found = _cycle_through(arcs, start, len(best) or len(arcs) + 1)
@@ -52,7 +52,7 @@ def shortest_cycle(arcs: Mapping[str, Collection[str]]) -> tuple[str, ...]:
 
 
 def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) -> tuple[str, ...]:
-    """Return the first of the shortest cycles in which ``start`` is the first name and which have fewer nodes."""
+    """Return a shortest cycle of less than ``below`` nodes in which ``start`` is the first name, or ()."""
     came: dict[str, str] = {}
     level = [start]
     for _ in range(below - 1):
@@ -69,7 +69,7 @@ def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) 
 
 
 def _way(came: Mapping[str, str], start: str, end: str) -> tuple[str, ...]:
-    """Return the way by which one came from a start to an end, both included."""
+    """Return the path from ``start`` to ``end``, both included, from the predecessor of each node."""
     path = [end]
     while path[-1] != start:
         path.append(came[path[-1]])
@@ -77,11 +77,18 @@ def _way(came: Mapping[str, str], start: str, end: str) -> tuple[str, ...]:
 
 
 def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edge, ...]:
-    """Return the fewest edges without which ``arcs``, a part of the graph, has no cycle.
+    """Return the fewest edges whose removal breaks all cycles of ``arcs``, a subgraph of ``graph``.
 
-    Of cuts with as many edges, the one that is easiest to live without: what may not count anyway, then test
-    dependencies, then what is needed at run time only, then what a single tag asks for, groups last. With more than 12
-    nodes and more than 2 edges to cut there may be a smaller cut, but none of its edges can be left out.
+    Among cuts of the same size, the cheapest wins. From cheap to expensive:
+    - edges that are uncertain,
+    - test dependencies,
+    - dependencies that are only needed at run time,
+    - dependencies with one tag,
+    - dependencies with several tags,
+    - members of groups.
+
+    The cut may not be the smallest one if a component has more than 12 nodes and needs more than 2 cuts. Even then no
+    edge of the cut can be left out.
     """
     loops = [(name, name) for name in sorted(arcs) if name in arcs[name]]
     plain = {name: frozenset(others) - {name} for name, others in arcs.items()}
@@ -116,7 +123,7 @@ def _cut_component(arcs: Edges, weight: Callable[[Edge], int]) -> Iterable[Edge]
 
 
 def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
-    """Weigh every order of the nodes: what is needed from a node further on has to be cut."""
+    """Compare all orders of the nodes: an edge to a node that comes later in the order has to be cut."""
     names = sorted(arcs)
     number = {name: index for index, name in enumerate(names)}
     weights = [[(1 << number[other], weight((name, other))) for other in sorted(arcs[name])] for name in names]
@@ -141,7 +148,7 @@ def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
 
 
 def _cut_by_branching(arcs: Edges, weight: Callable[[Edge], int], depth: int) -> list[Edge]:
-    """Take out one edge of a shortest cycle after the other: one of them must go."""
+    """Cut each edge of a shortest cycle in turn, because every cut contains one of them."""
     cycle = shortest_cycle(arcs)
     best: list[Edge] = []
     for edge in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
@@ -158,7 +165,7 @@ def _cut_by_branching(arcs: Edges, weight: Callable[[Edge], int], depth: int) ->
 
 
 def _cut_by_greed(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
-    """Order the nodes by what they are needed for and what they need (Eades, Lin and Smyth), and spare what can be."""
+    """Order the nodes by their degrees (Eades, Lin and Smyth), then drop needless edges of the cut."""
     cut = set(_against(arcs, _greedy_order(arcs, weight)))
     for edge in sorted(cut, key=lambda edge: (-weight(edge), edge)):
         kept = cut - {edge}

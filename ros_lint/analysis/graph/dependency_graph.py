@@ -1,9 +1,11 @@
-"""Who needs whom among the packages of a workspace, as colcon orders them (reference, sections B1 and B2).
+"""The dependency graph of a workspace, with the edges by which colcon orders packages.
 
-An edge leads from a package to what has to be built before it: build, run and test dependencies, members of groups,
-and what colcon.pkg or the script of a plain package adds. Documentation dependencies, conflicts and false conditions
-give no edge. Nodes are the names that colcon uses (:attr:`Package.colcon_name`): a manifest that names a package by
-another name orders nothing. Packages of one name are one node.
+An edge leads from a package to one that has to be built before it. There is an edge for build, run and test
+dependencies, members of groups, and the dependencies that colcon.pkg or the script of a plain package adds.
+Documentation dependencies, conflicts and false conditions give no edge.
+
+The nodes are the names that colcon uses (:attr:`Package.colcon_name`). A dependency on the name in package.xml gives no
+edge if colcon uses another name. Packages of the same name are one node.
 """
 
 from __future__ import annotations
@@ -22,34 +24,34 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Package, Workspace
 
 Edge = tuple[str, str]
-"""Who needs, and what is needed."""
+"""The dependent package and its dependency."""
 
 Edges = dict[str, frozenset[str]]
-"""Successors by node, without reasons."""
+"""Successors by node, without the reasons."""
 
 
 class Reason(NamedTuple):
-    """Why a package has to be built before another."""
+    """A reason why a package has to be built before another."""
 
     tag: str
-    """A dependency tag, or the name of the file that colcon takes the edge from."""
+    """A dependency tag, or the name of the file from which colcon takes the edge."""
     categories: tuple[str, ...]
-    """Of "build", "run", "test", "group"."""
+    """Values are "build", "run", "test" and "group"."""
     span: Span
     certain: bool = True
-    """False under a condition with a variable that nobody knows."""
+    """False under a condition with a variable whose value is unknown."""
 
 
 class Order(NamedTuple):
-    """A build order, as far as there is one."""
+    """A build order, as complete as the cycles allow."""
 
     names: tuple[str, ...]
     stuck: tuple[str, ...]
-    """What lies on a cycle or needs something that does, sorted."""
+    """Packages that lie on a cycle or depend on one, sorted."""
 
 
 class Graph:
-    """Packages by name, and why each needs the others. Iterations are in the order of names."""
+    """The packages by name, with their dependencies and the reasons. Iterations are in the order of names."""
 
     def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
         self.places = {name: tuple(places[name]) for name in sorted(places)}
@@ -65,17 +67,17 @@ class Graph:
         return ((name, other) for name, others in self.needs.items() for other in others)
 
     def reasons(self, edge: Edge) -> tuple[Reason, ...]:
-        """Return why there is an edge. Raises KeyError when there is none."""
+        """Return the reasons of an edge. Raises KeyError if there is no such edge."""
         return self.needs[edge[0]][edge[1]]
 
     @cached_property
     def arcs(self) -> Edges:
-        """All edges."""
+        """All edges, certain and uncertain."""
         return {name: frozenset(others) for name, others in self.needs.items()}
 
     @cached_property
     def certain_arcs(self) -> Edges:
-        """The edges that do not hang on an unknown condition."""
+        """The edges that do not depend on an unknown condition."""
         return {
             name: frozenset(other for other, reasons in others.items() if any(reason.certain for reason in reasons))
             for name, others in self.needs.items()
@@ -83,14 +85,14 @@ class Graph:
 
     @cached_property
     def needed_by(self) -> Edges:
-        """All edges, the other way round."""
+        """All edges, reversed: the dependents of each package."""
         return reverse(self.arcs)
 
     @cached_property
     def order(self) -> Order:
         """The first build order in the order of names.
 
-        It obeys uncertain edges, too, except where these close a cycle.
+        It respects uncertain edges, too, unless they close a cycle.
         """
         names, stuck = sort(self.arcs)
         if stuck and any(self.certain_arcs[name] != self.arcs[name] for name in stuck):
@@ -104,19 +106,19 @@ class Graph:
 
     @cached_property
     def cycles(self) -> tuple[tuple[str, ...], ...]:
-        """The strongly connected components that make colcon refuse the workspace, each sorted."""
+        """The strongly connected components for which colcon refuses the workspace, each sorted."""
         return components(self.certain_arcs) if self.order.stuck else ()
 
     @cached_property
     def possible_cycles(self) -> tuple[tuple[str, ...], ...]:
-        """The strongly connected components that an unknown condition would close, and that hold no cycle without."""
+        """The strongly connected components that have a cycle only if an unknown condition is true."""
         if self.arcs == self.certain_arcs or is_acyclic(self.arcs):
             return ()
         certain = [set(cycle) for cycle in self.cycles]
         return tuple(found for found in components(self.arcs) if not any(cycle <= set(found) for cycle in certain))
 
     def closure(self, name: str) -> frozenset[str]:
-        """Return everything that a package needs, directly or not; itself only when it lies on a cycle."""
+        """Return all direct and indirect dependencies of a package; itself only if it is on a cycle."""
         if name not in self._closures:
             self._closures[name] = reachable(self.arcs, name)
         return self._closures[name]
@@ -124,12 +126,12 @@ class Graph:
 
 @cached_by_workspace
 def dependency_graph(workspace: Workspace) -> Graph:
-    """Return the dependency graph of the packages of a workspace, in the order of colcon."""
+    """Return the dependency graph of the workspace's packages."""
     return build(workspace.packages)
 
 
 def build(packages: Iterable[Package]) -> Graph:
-    """Return the graph of the packages of a workspace."""
+    """Return the dependency graph of some packages."""
     places: dict[str, list[Package]] = {}
     members: dict[str, list[str]] = {}
     for package in packages:
@@ -146,7 +148,7 @@ def build(packages: Iterable[Package]) -> Graph:
 
 
 def _reasons(package: Package, members: Mapping[str, Iterable[str]]) -> Iterator[tuple[str, Reason]]:
-    if package.type.startswith("ros."):  # otherwise colcon does not look into the manifest
+    if package.type.startswith("ros."):  # otherwise colcon does not read the manifest
         for declared in package.declared:
             if phases := DEPENDENCY_KINDS[declared.depend.tag].phases:
                 reason = Reason(declared.depend.tag, phases, declared.depend.span, declared.certain)
@@ -169,10 +171,10 @@ def _categories(role: Role) -> Iterator[str]:
 
 
 def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ...]:
-    """Return the strongly connected components that hold a cycle, each sorted, in the order of their first names."""
+    """Return the strongly connected components with a cycle, each sorted, by their first names."""
     import networkx as nx  # noqa: PLC0415  (costs more than a run without a cycle)
 
-    # Whatever can be peeled off from either end lies on no cycle.
+    # Nodes without predecessors or without successors lie on no cycle.
     stuck = set(sort(arcs)[1])
     stuck &= set(sort(reverse({name: stuck.intersection(arcs[name]) for name in stuck}))[1])
     graph: nx.DiGraph[str] = nx.DiGraph({name: sorted(stuck.intersection(arcs[name])) for name in sorted(stuck)})
@@ -181,7 +183,7 @@ def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ..
 
 
 def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
-    """Return the arcs the other way round."""
+    """Return the edges reversed."""
     found: dict[str, set[str]] = {name: set() for name in arcs}
     for name, others in arcs.items():
         for other in others:
@@ -190,7 +192,7 @@ def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
 
 
 def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]:
-    """Return the nodes that can be reached over one arc or more."""
+    """Return the nodes that can be reached over at least one edge."""
     found: set[str] = set()
     todo = [start]
     while todo:
@@ -201,12 +203,12 @@ def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]
 
 
 def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:
-    """Return whether there is an order in which every node comes after its successors."""
+    """Return whether there is an order in which each node follows its successors."""
     return not sort(arcs)[1]
 
 
 def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the first order by name in which successors come first, and the nodes that have no place in it."""
+    """Return the first order by name in which successors come first, and the nodes that cannot be ordered."""
     missing = {name: len(others) for name, others in arcs.items()}
     before = reverse(arcs)
     ready = [name for name, count in missing.items() if not count]

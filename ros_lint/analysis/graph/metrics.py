@@ -1,4 +1,4 @@
-"""Figures about the packages of a graph. Sets of packages are bits of integers: nothing in Python is faster."""
+"""Metrics of the packages of a graph. Sets of packages are bits of integers, for speed."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ if TYPE_CHECKING:
 
 
 class Metrics(NamedTuple):
-    """Figures about one package, counting packages of the workspace only."""
+    """Metrics of a package. Only packages of the workspace are counted."""
 
     needed_by: int
-    """How many packages need it directly: the in-degree."""
+    """Number of packages that depend on it directly: the in-degree."""
     needs: int
-    """How many packages it needs directly: the out-degree."""
+    """Number of packages that it depends on directly: the out-degree."""
     depth: int
-    """Number of edges on the longest chain below it; a cycle counts as one package."""
+    """Number of edges on the longest chain of its dependencies; a cycle counts as one package."""
     reach: int
-    """How many packages are built again when it changes: all that need it, directly or not."""
+    """Number of packages that are rebuilt when it changes: all direct and indirect dependents."""
     redundant: tuple[tuple[str, ...], ...]
-    """Edges that another way implies, each told as a shortest such way, from the package to what it needs."""
+    """Redundant edges, each as a shortest longer path from the package to the same dependency."""
 
 
 def measure(graph: Graph) -> Mapping[str, Metrics]:
-    """Return the figures of every package, by name. An edge between packages of one cycle is never called redundant."""
+    """Return the metrics of each package by name. Edges within a cycle are never redundant."""
     knot = _knots(graph)
     outer: dict[str, set[str]] = {name: set() for name in knot.values()}
     for name, other in graph.edges:
@@ -61,7 +61,7 @@ def measure(graph: Graph) -> Mapping[str, Metrics]:
 
 
 def _knots(graph: Graph) -> dict[str, str]:
-    """Return the first member of the component that every package is in."""
+    """Return the first member of the component of each package."""
     found = {name: name for name in graph.names}
     if graph.order.stuck or graph.possible_cycles:
         for members in components(graph.arcs):
@@ -93,7 +93,7 @@ def _on_the_way(knot: Mapping[str, str], end: str, below: Mapping[str, int], bit
 
 
 def _shortest(graph: Graph, starts: Collection[str], end: str, useful: Callable[[str], bool]) -> tuple[str, ...]:
-    """Return a shortest way from one of the starts to the end."""
+    """Return a shortest path from one of the starts to the end."""
     came = dict.fromkeys(starts, "")
     level = list(starts)
     while end not in came:
