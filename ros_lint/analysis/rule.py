@@ -23,8 +23,10 @@ class Rule(NamedTuple):
 
     name: str
     code: str
-    """``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch,
-    9xx the tool itself."""
+    """``ROS`` and three digits, where the first digit is the group of the rule.
+
+    The groups: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch, 9xx ros-lint
+    itself."""
     summary: str
     """Completes "checks that", lower case, no full stop: "used packages are declared"."""
     severity: Severity

@@ -1,4 +1,4 @@
-"""Everything a rule may import: what a rule is and reports, the model that it reads, and seven namespaces of questions."""
+"""Everything a rule may import: types of rules, findings and the model, and seven namespaces."""
 
 from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace

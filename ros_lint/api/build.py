@@ -1,4 +1,4 @@
-"""Build scripts: what a package builds, installs and leaves out."""
+"""Build scripts: what a package builds, installs and does not install."""
 
 from ros_lint.analysis.build.commands import (
     ENDS,

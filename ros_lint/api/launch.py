@@ -1,4 +1,4 @@
-"""Launch files: what they start, include and set."""
+"""Launch files: the programs they start, the files they include, and the configurations they set."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Edits of CMakeLists.txt that keep its style: worked out from the commands as they are written, without their text."""
+"""Edits of CMakeLists.txt that keep its style, computed from its commands alone."""
 
 from __future__ import annotations
 
@@ -19,37 +19,40 @@ install(TARGETS {}
 
 
 def at_end(script: BuildScript, code: str) -> Edit | None:
-    """Add commands before ament_package(), set off by blank lines if that is. None where there is no such place."""
+    """Add commands before ament_package(), separated by blank lines if it is.
+
+    None if there is no such place.
+    """
     if script.insertion is None:
         return None
     return Edit(script.insertion_after, f"\n\n{code}") if script.insertion_after else Edit(script.insertion, f"{code}\n")
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
-    """Install a library, before ament_package()."""
+    """Install a library: add the command before ament_package()."""
     return at_end(script, _LIBRARY.format(name))
 
 
 def install_program(script: BuildScript, kind: str, name: str) -> Edit | None:
-    """Install one of TARGETS, PROGRAMS to lib/<package>."""
+    """Install a target or file into lib/<package>. ``kind`` is TARGETS or PROGRAMS."""
     return at_end(script, f"install({kind} {_word(name)} DESTINATION lib/${{PROJECT_NAME}})")
 
 
 def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
-    """Install files to a folder below share/<package>, "" for that itself."""
+    """Install files into a folder below share/<package>; "" is share/<package> itself."""
     words = " ".join([*map(_word, paths), "DESTINATION", _word(join("share/${PROJECT_NAME}", folder))])
     return at_end(script, f"install(FILES {words})")
 
 
 def _word(path: str) -> str:
-    """Write a path as an argument, in quotes where blanks, parentheses and their like would end it."""
+    """Return a path as an argument, quoted if it contains blanks, parentheses or the like."""
     return f'"{path}"' if re.search(r"[\s()#;]", path) else path
 
 
 def install_folder(package: Package, folder: str) -> Edit | None:
-    """Install a folder to share/<package>: in the rule that does it for other folders, if there is one, or else in a new one.
+    """Install a folder to share/<package>: extend the command for other folders, or else add one.
 
-    None when there is no place for a new one.
+    None if there is no place for a new command.
     """
     call = _beside(package)
     if call is not None:
@@ -58,9 +61,9 @@ def install_folder(package: Package, folder: str) -> Edit | None:
 
 
 def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
-    """Export a package: in the call that does it for others, if there is one, or else in a new one, with all that lack it.
+    """Export a package: extend the existing call, or else add one with all names that lack an export.
 
-    So the edit is one and the same for all of them. None when there is no place for a new call.
+    So the edit is the same for each of these names. None if there is no place for a new call.
     """
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
@@ -69,15 +72,16 @@ def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -
 
 
 LINKED = "link to the targets of the packages"
-"""What :func:`link_to_targets` does."""
+"""The title of the fix by :func:`link_to_targets`."""
 
 _NAME = re.compile(r"[A-Za-z]\w*")
 
 
 def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edit | None]:
-    """Replace each ``ament_target_dependencies()`` by the link to targets that it makes itself (reference, section C3).
+    """Replace each ``ament_target_dependencies()`` by the equivalent ``target_link_libraries()``.
 
-    None for a package that is not named, or not known to export targets: for such it takes other variables.
+    Yields None for a call with a package whose name is computed, or that is not known to export targets: for these,
+    ament_target_dependencies() uses variables (ament_cmake_target_dependencies).
     """
     for call in calls:
         yield Edit(call.name_span, "target_link_libraries")
@@ -99,19 +103,19 @@ _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interface
 
 
 def add_argument(call: Call, text: str) -> Edit:
-    """Add an argument at the end of a call that has some."""
+    """Add an argument at the end of a call with arguments."""
     return _append(call, len(call.args) - 1, text)
 
 
 def _append(call: Call, last: int, text: str) -> Edit:
-    """Add an argument after the one with the number ``last``: on a line of its own if that has one."""
+    """Add an argument after the one with the index ``last``, on a line of its own if that one has one."""
     span = call.span(last)
     above = call.span(last - 1).line if last else call.line
     return Edit(span.end(), f" {text}" if span.line == above else f"\n{' ' * (span.column - 1)}{text}")
 
 
 def _beside(package: Package) -> Call | None:
-    """Return a rule that installs folders to share/<package> as they are, and does nothing else."""
+    """Return a command that installs unchanged folders to share/<package> and nothing else."""
     for call in package.calls("install"):
         texts = call.texts
         if texts[:1] != ("DIRECTORY",) or call.blocks or texts[-2:-1] != ("DESTINATION",):
@@ -124,17 +128,17 @@ def _beside(package: Package) -> Call | None:
 
 
 def keep_permissions(call: Call) -> Edit:
-    """Add USE_SOURCE_PERMISSIONS to install(DIRECTORY), after the destination: patterns come later."""
+    """Add USE_SOURCE_PERMISSIONS to install(DIRECTORY), after the destination because patterns come later."""
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")
 
 
 def write(call: Call, index: int, text: str) -> Edit:
-    """Put another argument in the place of one."""
+    """Replace an argument."""
     return Edit(call.span(index), text)
 
 
 def drop(call: Call, first: int, last: int) -> Edit:
-    """Remove the arguments from ``first`` to ``last``, and what separates them from the one before, which must be there."""
+    """Remove the arguments from ``first`` to ``last``, with the space before them. ``first`` is not 0."""
     gap, span = call.span(first - 1).end(), call.span(last)
     return Edit(gap._replace(end_line=span.end_line, end_column=span.end_column), "")

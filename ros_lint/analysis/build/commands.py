@@ -1,4 +1,4 @@
-"""What several rules about building and installing ask of a package's build script."""
+"""Questions of several rules about the commands of a package's build script."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from ros_lint.workspace.model import Package
 FINDS_TESTS = frozenset({
     "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies", "autoware_package",
 })  # fmt: skip
-"""Commands that find all that is declared for tests, and with it linters, which then run."""
+"""Commands that find all declared test dependencies, linters included, which then run."""
 
 LINTERS = {
     f"ament_cmake_{linter}": f"ament_{linter}"
     for linter in ("clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8", "lint_cmake", "mypy", "pclint",
                    "pep257", "pycodestyle", "pyflakes", "uncrustify", "xmllint")
 }  # fmt: skip
-"""Linters, and the command of each."""
+"""Linters, with the command of each."""
 
 
 def stops_early(script: BuildScript) -> bool:
-    """Whether CMake stops where a script is not to be seen: at a mistake in its syntax, a script or a folder that is not there.
+    """Return whether CMake stops early: at a syntax error, or at a script or folder that does not exist.
 
-    A file that is to be installed and is not there hides nothing.
+    A missing file that is to be installed does not count, because it hides nothing.
     """
     return any(problem.kind in _STOPS for problem in script.problems)
 
@@ -36,19 +36,19 @@ _STOPS = ("cmake-syntax", "missing-folder", "missing-script")
 
 
 def config_names(name: str) -> tuple[str, str]:
-    """Return how the file is called that find_package() reads for a name, in both forms."""
+    """Return both names of the file that find_package() reads for a name."""
     return f"{name}Config.cmake", f"{name.lower()}-config.cmake"
 
 
 def has_extras(package: Package) -> bool:
-    """Whether code of a package runs where it is found: files that ament_package(CONFIG_EXTRAS) is given, known or not."""
+    """Return whether find_package() runs code of the package, given by ament_package(CONFIG_EXTRAS)."""
     if package.built.config_extras:
         return True
     return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
 
 
 def installed_targets(call: Call) -> tuple[int, ...]:
-    """Return the indexes of the arguments that are names of targets, in a call of install(TARGETS) and in no other."""
+    """Return the indexes of the target names in a call of install(TARGETS), () for any other call."""
     texts = call.texts
     if texts[:1] != ("TARGETS",):
         return ()
@@ -57,20 +57,20 @@ def installed_targets(call: Call) -> tuple[int, ...]:
 
 
 ENDS = ("ament_package", "ament_auto_package")
-"""Commands that end a package: they write down what it exports."""
+"""Commands that end a package: they write its exports."""
 
 REGISTERING = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
-"""Commands that register components; the first argument is the library that has them."""
+"""Commands that register components; the first argument is the library that contains them."""
 
 EXPORTING_PLUGINS = "pluginlib_export_plugin_description_file"
 
 
 _OWN_TARGET = re.compile(r"[^:\s]+")
-"""The name of a target that is none of another package."""
+"""The name of a target of this package: one without a namespace."""
 
 
 def opaque_except_undefined_targets(package: Package, facet: Facet) -> tuple[Opaque, ...]:
-    """Return what hides a facet, leaving out targets that are installed and that nobody defines: these are mistakes."""
+    """Return the places that hide a facet, except undefined targets in install(), which are errors."""
     return tuple(opaque for opaque in package.hidden(facet) if not _OWN_TARGET.fullmatch(opaque.undefined))
 
 
@@ -78,7 +78,7 @@ _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")
 
 
 def evaluated_name(package: Package, text: str) -> str | None:
-    """Return the name that an argument gives, None when it has variables other than that of the project's name."""
+    """Return the value of an argument, or None if it has other variables than the project's name."""
     name = _PROJECT_NAME.sub(package.script.name if package.script and package.script.name else package.name, text)
     return None if "$" in name or not name else name
 
@@ -95,7 +95,7 @@ _FOR_TESTS = frozenset({*_TEST_COMMANDS.values(), "ament_lint_auto", "ament_lint
 
 
 def unguarded_tests(package: Package) -> dict[str, Call]:
-    """Return the packages for tests that are declared for tests only, or not at all, and used in every build: the first call."""
+    """Return the test packages that every build uses without declaring them for it, with the first call."""
     found: dict[str, Call] = {}
     if package.builds_with != "ament_cmake":
         return found

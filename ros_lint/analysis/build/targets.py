@@ -16,20 +16,20 @@ from ros_lint.workspace.model import Package
 
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
-    """Yield the executables that are built for use: no tests, nor what is called so."""
+    """Yield the executables that are built for use: neither tests nor targets with the name of a test."""
     for target in script.targets:
         if target.kind == "executable" and not target.test and "test" not in target.name:
             yield target
 
 
 def is_optional_target(package: Package, target: BuildTarget) -> bool:
-    """Whether some builds leave out all that a target is made of, or it is an example."""
+    """Return whether a target is an example, or some builds leave out all of its sources."""
     wanted = bool(target.sources) and set(target.sources) == set(target.optional_sources)
     return wanted or is_auxiliary(package.relative(target.span.path))
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
-    """Return whether a program that launch would not find is built, and goes to bin or nowhere: its own rules say so."""
+    """Return whether a built program is installed into bin or not at all, so that launch cannot find it."""
     script = package.script
     if script is None:
         return False
@@ -45,9 +45,9 @@ _RUNS = frozenset({"add_custom_command", "add_custom_target"})
 
 
 def may_run_built(script: BuildScript) -> bool:
-    """Whether a custom command may run in the build what the package builds.
+    """Return whether a custom command of the build may run a program that the package builds.
 
-    That which rosidl makes for interfaces does not.
+    The commands that rosidl generates for interfaces do not count.
     """
     calls = [call.name for call in script.calls] if "rosidl_generate_interfaces" in script.command_names else script.command_names
     return not _RUNS.isdisjoint(calls)
@@ -59,7 +59,7 @@ def files_using_client_library(package: Package) -> frozenset[str]:
 
 
 def node_targets(package: Package) -> frozenset[str]:
-    """Return the executables of which a source, or the header that is called as a source is, includes a client library."""
+    """Return the executables with a source or a header of the same name that includes a client library."""
     files = files_using_client_library(package)
     return frozenset(
         target.name
@@ -69,31 +69,31 @@ def node_targets(package: Package) -> frozenset[str]:
 
 
 def has_header(target: BuildTarget, files: Iterable[str]) -> bool:
-    """Whether one of some files is a header that is called as a source of a target is."""
+    """Return whether one of the files is a header with the name of a source of the target."""
     stems = {stem(source) for source in target.sources}
     return any(file.endswith(HEADERS) and stem(file) in stems for file in files)
 
 
 def stem(path: str) -> str:
-    """Return the name of a file without its folder and all that follows the first dot."""
+    """Return the name of a file without its folder and without everything from the first dot."""
     return path.rpartition("/")[2].partition(".")[0]
 
 
 def library_calls(package: Package, name: str) -> Iterator[Call]:
-    """Yield the commands that make a library of some name, in order."""
+    """Yield the commands that create a library of this name, in order."""
     for call in package.calls("add_library", "ament_auto_add_library", anywhere=True):
         if call.args and evaluated_name(package, call.texts[0]) == name:
             yield call
 
 
 def is_declared_shared(package: Package, name: str) -> bool:
-    """Return whether every build makes a library a shared one, by the words of the command."""
+    """Return whether a library is a shared one in every build, by the arguments of its command."""
     calls = library_calls(package, name)
     return any(not call.blocks and not {"SHARED", "MODULE"}.isdisjoint(call.texts) for call in calls)
 
 
 def library_registering(package: Package, made: Registration) -> str:
-    """Return the library, tests aside, of which a source makes a class loadable; "" if there is none."""
+    """Return the library, tests excluded, whose source registers a class, or ""."""
     path = package.relative(made.span.path)
     for target in package.built.targets:
         if target.kind == "library" and not target.test and path in target.sources:
@@ -102,28 +102,28 @@ def library_registering(package: Package, made: Registration) -> str:
 
 
 def installs_built(script: BuildScript) -> bool:
-    """Whether anything that a package builds may be installed, by the name of its target or as a file.
+    """Return whether anything that the package builds may be installed, as a target or as a file.
 
-    What rosidl generates, and installs by itself, is none of it.
+    The libraries that rosidl generates and installs do not count.
     """
     built = (provided.path for provided in script.installs if provided.target or provided.path.startswith(("lib/", "bin/")))
     return not all(_GENERATED in path for path in built)
 
 
 _GENERATED = "__rosidl_"
-"""What stands in the names of the libraries of interfaces, and of no others."""
+"""Part of the names of all libraries that rosidl generates, and of no others."""
 
 
 def install_arguments(package: Package) -> frozenset[str]:
-    """Return every name among the arguments of install(): what stands there may be installed, whether or not it is seen."""
+    """Return every word of the arguments of install(): a name among them may be installed."""
     texts = {text for call in package.calls("install", anywhere=True) for text in call.texts}
     return frozenset([name for text in texts if (name := evaluated_name(package, text))])
 
 
 def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
-    """Return the libraries that every build installs to the folder of the programs and to no other, with the first place.
+    """Return the libraries that are only installed into the folder of programs, with the first place.
 
-    Of the files of a library those count that have one of some endings.
+    Only files with one of the endings count.
     """
     places: dict[str, list[InstalledFile]] = {}
     for provided in package.built.installs:
@@ -138,7 +138,10 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
 
 
 def never_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the nodes of a package that installs nothing at all of what it builds: no tests, nothing that the build may run."""
+    """Return the nodes of a package that installs no target.
+
+    Tests and nodes that the build may run are left out.
+    """
     script = package.script
     if (
         script is None
@@ -151,9 +154,10 @@ def never_installed_nodes(package: Package) -> frozenset[str]:
 
 
 def partly_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the nodes of every build that a package does not install, while it installs others of its nodes.
+    """Return the nodes of every build that are not installed, although other nodes of the package are.
 
-    No tests, examples or what measures, by the name or the folder of a source, and nothing that the build may run.
+    Left out are tests, examples and benchmarks, by the name of the target or the folder of a source, and nodes that the
+    build may run.
     """
     script = package.script
     if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES) or may_run_built(script):

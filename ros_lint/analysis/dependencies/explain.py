@@ -30,7 +30,7 @@ def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str
     """
     uses = [use for use in package.uses if name in use.providers]
     yield from used_in(uses)
-    for depend in [line.depend for line in package.tags(name)]:
+    for depend in [declared.depend for declared in package.tags(name)]:
         condition = f" if {depend.condition}" if depend.condition else ""
         yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
     silent = (_not_undeclared(package, workspace, name, uses), _not_unused(package, workspace, name, uses))

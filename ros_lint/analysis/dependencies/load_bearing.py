@@ -93,7 +93,7 @@ def _lost_above(
             if dependent.name == package.name or package.name not in world.closure(starts):
                 continue
             rest = world.closure_without(starts, package.name, gone)
-            if not any(declared in rest for declared in use.providers):
+            if not any(provider in rest for provider in use.providers):
                 return LostProvision(name, dependent.name)
     return None
 

@@ -43,7 +43,7 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
         between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
         return Remedy(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
-    if (bare := workspace.by_name.get(name)) and all(needed_tag.manifest is None for needed_tag in bare):
+    if (bare := workspace.by_name.get(name)) and all(namesake.manifest is None for namesake in bare):
         obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
     if is_unresolvable_key(workspace, name):

@@ -1,1 +1,1 @@
-"""Questions about launch files: includes, configurations, and what they start."""
+"""Questions about launch files: includes, configurations, and the programs that they start."""

@@ -1,4 +1,4 @@
-"""Which launch configurations a launch file declares, sets and asks for, and what it gets from those that include it."""
+"""The launch configurations that launch files declare, set and read."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ class FileConfigurations(NamedTuple):
     """The launch configurations of one file."""
 
     declared: Mapping[str, Span]
-    """Its arguments."""
+    """Its launch arguments, with the place of each declaration."""
     made: frozenset[str]
-    """Those that it sets in other ways, or passes to a file that it includes, which leaves them set."""
+    """Configurations that it sets in other ways, or passes to an included file, which leaves them set."""
     asked: frozenset[str]
-    """Those that it asks for."""
+    """Configurations that it reads."""
     whole: bool
-    """Whether no other name can be meant."""
+    """True if all names are known."""
     fills: bool
-    """Whether files of parameters, which anybody can replace by others, may ask for any name."""
+    """True if parameter files, which users can replace, may read any configuration."""
 
 
 def names_of(file: LaunchFile) -> FileConfigurations:
-    """Return what a file itself does."""
+    """Return the configurations of a launch file, without those of included files."""
     declared: dict[str, Span] = {}
     made: set[str] = set()
     asked = configurations_read(file)
@@ -44,12 +44,12 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
-    """Return those names that must be there, since the file has no default where it asks for them."""
+    """Return the names that have to be set because the file reads them without a default."""
     return {name: span for (name, has_default), span in read_sites(file, names).items() if not has_default}
 
 
 def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
-    """Return where a file first asks for names, for each with and without a default."""
+    """Return the first place where a file reads each name, separately with and without a default."""
     found: dict[tuple[str, bool], Span] = {}
     for action in walk_actions(file.actions):
         for text, span in values_of_action(action):
@@ -60,14 +60,14 @@ def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool]
 
 
 class IncludeTree:
-    """Who includes whom among the launch files of a workspace."""
+    """The include relation between the launch files of a workspace."""
 
     def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._names = {file.path: names_of(file) for file in files}
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
         self.made = frozenset().union(*(names.made for names in self._names.values()))
-        """What any of the files sets, or passes to another one."""
+        """Configurations that any file sets or passes to another one."""
         self._filling = {path for path, names in self._names.items() if names.fills}
         self._filled: dict[str, bool] = {}
         for file in files:
@@ -76,11 +76,11 @@ class IncludeTree:
                 self._included.setdefault(file.path, set()).add(inner.path)
 
     def names(self, file: LaunchFile) -> FileConfigurations:
-        """Return what a file itself does."""
+        """Return the configurations of a launch file, without those of included files."""
         return self._names[file.path]
 
     def fill(self, file: LaunchFile) -> bool:
-        """Whether parameters are filled in from launch configurations by a file, one that it includes or one that includes it."""
+        """Return whether the file, an included or an including one substitutes configurations in parameters."""
         if not self._filling:
             return False
         path = file.path
@@ -90,12 +90,12 @@ class IncludeTree:
         return self._filled[path]
 
     def above(self, file: LaunchFile) -> list[FileConfigurations]:
-        """Return the same of every file that includes it, itself or by way of others."""
+        """Return the configurations of every file that includes this one, directly or indirectly."""
         return [self._names[path] for path in sorted(_reached(self._includers, file.path))]
 
 
 def _reached(edges: Mapping[str, set[str]], start: str) -> set[str]:
-    """Return what is reached from a path, itself left out."""
+    """Return the paths that can be reached from a path, without the path itself."""
     seen = {start}
     waiting = [start]
     while waiting:

@@ -1,4 +1,4 @@
-"""Launch files that include each other: what an include means in the workspace, and what a file takes and uses."""
+"""Includes between launch files, and the arguments that a launch file accepts."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ File = TypeVar("File", LaunchFile, ParameterFile)
 
 
 class InstalledLaunchFile(NamedTuple):
-    """A launch file of the workspace, where it is installed."""
+    """A launch file of the workspace at its install path."""
 
     package: Package
     file: LaunchFile
     path: str
-    """Below share/<package>."""
+    """The path below share/<package>."""
 
 
 class AcceptedArguments(NamedTuple):
-    """What a launch file and those that it includes do with launch configurations."""
+    """The launch configurations that a launch file and its includes accept."""
 
     required: Mapping[str, Span]
-    """Arguments without default that the file itself declares, whatever else is so, with where it does."""
+    """Arguments that the file itself declares unconditionally and without a default, with their places."""
     known: frozenset[str]
-    """Names that are declared, set or used."""
+    """Names that are declared, set or read."""
     complete: bool
-    """Whether every include could be followed, so that no other name can matter."""
+    """True if every include could be resolved, so that no other name is accepted."""
 
 
 class _Own(NamedTuple):
-    """The same of one file, and the files that it includes."""
+    """The configurations of one file, without its includes, and the files that it includes."""
 
     required: Mapping[str, Span]
     known: set[str]
@@ -46,7 +46,7 @@ class _Own(NamedTuple):
 
 
 def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[tuple[File, str]]:
-    """Yield those files of a package that it installs below share/<package>, each with its path there."""
+    """Yield the files that the package installs below share/<package>, each with its path there."""
     by_source = {strip_folder(package.path, file.path): file for file in files}
     share = f"share/{package.name}/"
     for provided in package.built.installs if by_source else ():
@@ -56,7 +56,7 @@ def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[t
 
 
 class IncludeResolver:
-    """All launch files of a workspace by where they are installed."""
+    """Resolves includes to the launch files of a workspace by their install paths."""
 
     def __init__(self, packages: Iterable[Package]) -> None:
         self._by_path: dict[tuple[str, str], list[InstalledLaunchFile]] = {}
@@ -71,7 +71,7 @@ class IncludeResolver:
                 self._places.setdefault(file.path, linked)
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> InstalledLaunchFile | None:
-        """Return the one launch file of the workspace that an include in a file means, None when it is not that clear."""
+        """Return the launch file of the workspace that an include refers to, or None if unknown or ambiguous."""
         texts = (
             () if value is None else value.texts if all(map(is_settled, value.texts)) else substitute(value, self._set_in(source))
         )
@@ -82,7 +82,7 @@ class IncludeResolver:
         return found[0] if len(found) == 1 else None
 
     def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
-        """Return the configurations that a file sets for itself, and that nobody can give it as arguments."""
+        """Return the configurations that a file sets and that are no arguments that callers can change."""
         done = self._sets.get(file.path)
         if done is None:
             asked = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
@@ -92,7 +92,7 @@ class IncludeResolver:
         return done
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
-        """Return the package, and the place below its share folder, that a path in a launch file means; None if unclear."""
+        """Return the package, and the path in its share folder, to which a path in a launch file refers."""
         if not is_settled(text):
             return None
         if text.startswith(f"{OWN_FOLDER}/"):
@@ -104,21 +104,21 @@ class IncludeResolver:
         return (place.package, place.share) if place is not None and place.share else None
 
     def place(self, file: LaunchFile) -> InstalledLaunchFile | None:
-        """Return where a launch file is installed, None when it is not."""
+        """Return where a launch file is installed, or None if it is not installed."""
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return the launch file at an install place, such as includes name."""
+        """Return the launch file at an install path, as includes refer to it."""
         place = installed_place(path)
         found = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
         return found[0].file if len(found) == 1 else None
 
     def includes(self, file: LaunchFile) -> list[LaunchFile]:
-        """Return the launch files of the workspace that a file is sure to mean where it includes some."""
+        """Return the launch files of the workspace that a file certainly includes."""
         return self._own(file).includes
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
-        """Return what a file does with launch configurations, and those that it includes, each read once."""
+        """Return the configurations that a file and its includes accept. Each file is read once."""
         done = self._takes.get(file.path)
         if done is not None:
             return done
@@ -157,9 +157,9 @@ class IncludeResolver:
 
 
 def configurations_read(file: LaunchFile) -> set[str]:
-    """Return the launch configurations that a file asks for, UNKNOWN among them if others may be meant."""
+    """Return the configurations that a file reads; with UNKNOWN if there may be others."""
     found = set(file.configurations_read)
-    if file.language == "python":  # of the others, the text says it all
+    if file.language == "python":  # in XML and YAML files, the text is complete
         for action in walk_actions(file.actions):
             for text, _ in values_of_action(action):
                 if not text.isascii():
@@ -168,7 +168,7 @@ def configurations_read(file: LaunchFile) -> set[str]:
 
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
-    """Return the launch arguments and configurations that a file sets, each with all values that it gives it."""
+    """Return the launch arguments and configurations that a file sets, each with all its values."""
     found: dict[str, tuple[str, ...]] = {}
     for action in walk_actions(file.actions):
         if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
@@ -178,7 +178,7 @@ def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """Return what a value can be when launch configurations have some values, () for none."""
+    """Return the possible values if launch configurations have some values, or () if there is no value."""
     if value is None:
         return ()
     if all(map(is_settled, value.texts)):
@@ -188,7 +188,7 @@ def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]
 
 
 def _required(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, Span]]:
-    """Yield the arguments that must be given, each with its place: declared at the top, without default, under no condition."""
+    """Yield the unconditional top-level arguments without default, with their places."""
     for action in actions:
         if action.kind == "argument" and action.value is None and not action.conditions and action.target is not None:
             yield from ((text, action.span) for text in action.target.texts if is_plain(text))
@@ -196,5 +196,5 @@ def _required(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, Span]]:
 
 @cached_by_workspace
 def include_resolver(workspace: Workspace) -> IncludeResolver:
-    """Return which launch file of the workspace an include means."""
+    """Return the resolver of includes for a workspace."""
     return IncludeResolver(workspace.packages)

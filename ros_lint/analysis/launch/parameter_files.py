@@ -1,4 +1,4 @@
-"""The parameter files that launch files of the workspace give to nodes, with default arguments."""
+"""Parameter files that launch files of the workspace pass to nodes when arguments have their defaults."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 
 
 class NodeParameterFile(NamedTuple):
-    """A parameter file of the workspace that a launch file gives to a node or component."""
+    """A parameter file of the workspace that a launch file passes to a node or component."""
 
     action: LaunchAction
     value: LaunchValue
-    """What names the file."""
+    """The value that names the file."""
     file: ParameterFile
     names: tuple[str, ...]
-    """What the node can be called; () when the launch file does not say."""
+    """The possible names of the node; () if the launch file does not set one."""
     namespaces: tuple[str, ...]
-    """As the action itself gives it; ("",) when it gives none."""
+    """The possible namespaces that the action itself sets; ("",) if it sets none."""
 
 
 class ParameterFiles:
-    """All parameter files of a workspace by where they are installed."""
+    """All parameter files of a workspace by their install paths."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = include_resolver(workspace)
@@ -36,11 +36,11 @@ class ParameterFiles:
         for package in workspace.packages:
             for file, path in installed_below_share(package, package.parameter_files):
                 key = (package.name, path)
-                # Where one of two is installed, nobody knows which.
+                # If two files are installed to one path, it is unknown which of them is used.
                 self._by_path[key] = None if key in self._by_path else file
 
     def given(self, file: LaunchFile) -> Iterator[NodeParameterFile]:
-        """Yield the parameter files that a launch file gives to nodes, as far as it is clear which these are."""
+        """Yield the parameter files that a launch file passes to nodes, as far as they can be resolved."""
         defaults: Mapping[str, tuple[str, ...]] | None = None
         for action in walk_actions(file.actions):
             for name, value in action.parameters if action.kind in ("node", "component") else ():

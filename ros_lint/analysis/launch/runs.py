@@ -1,4 +1,4 @@
-"""What a launch file of the workspace starts when it is launched without arguments."""
+"""The processes that a launch file of the workspace starts if it is launched without arguments."""
 
 from __future__ import annotations
 
@@ -30,27 +30,30 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class PassedFile(NamedTuple):
-    """A file that a launch file names which another one includes, as it is with what that one passes on."""
+    """A file that an included launch file refers to, resolved with the arguments of the including file."""
 
     package: str
     path: str
-    """Below share/<package>."""
+    """The path below share/<package>."""
     kind: Literal["include", "file"]
-    """Whether it is included, or a file of parameters."""
+    """"include" for an included launch file, "file" for a parameter file."""
     span: Span
-    """Of the action that names it."""
+    """The place of the action that refers to it."""
     via: Span
-    """Of the include in the file that is launched."""
+    """The place of the include in the launched file."""
     depth: int
-    """How many includes lie between."""
+    """Number of includes between the launched file and the reference."""
     sure: bool
-    """False when it depends on something that is not known."""
+    """False if the reference depends on an unknown value."""
 
 
 def expand_defaults(
     file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], given: Mapping[str, str] = _NOTHING
 ) -> Expansion:
-    """Return what a launch file starts by itself, in brief, with those of the files that it includes that are to be followed."""
+    """Return what a launch file starts by default.
+
+    ``follow`` selects the included files that are expanded.
+    """
     from ros_lint.collectors.launch.expand import expand  # noqa: PLC0415  (most runs need nothing of it)
 
     place = include_resolver(workspace).place(file)
@@ -65,9 +68,9 @@ def expand_defaults(
 
 
 def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = False) -> Iterator[PassedFile]:
-    """Yield the files that included launch files name when a file is launched.
+    """Yield the files that included launch files refer to when a file is launched.
 
-    With ``settled`` only those that are the same whatever arguments it is launched with.
+    With ``settled``, only files that do not depend on the launch arguments.
     """
     found = expand_defaults(file, workspace, lambda inner: True)
     if settled:
@@ -87,21 +90,21 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
 
 
 class FailingExpression(NamedTuple):
-    """An expression that Python cannot evaluate as long as an argument has its default."""
+    """An expression that Python cannot evaluate if an argument has its default."""
 
     argument: str
-    """The launch configuration whose default it is."""
+    """The launch configuration with that default."""
     expression: str
-    """With the defaults in it, for people."""
+    """The expression with the defaults filled in, for messages."""
     name: str
-    """What Python does not know of it, "" where all of it is no Python."""
+    """The name that Python does not know; "" if the text is no Python expression."""
     span: Span
     conditional: bool
-    """Whether it lies in something that is done only under a condition."""
+    """True if its action runs only under a condition."""
 
 
 def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:
-    """Yield the expressions of a launch file that fail, for the defaults in them, when it is launched without arguments."""
+    """Yield the expressions of a launch file that fail with its default arguments."""
     asked = list(_with_expressions(file))
     defaults = assigned_configurations(file) if asked else {}
     for text, span, conditional in asked:
@@ -110,7 +113,7 @@ def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:
 
 
 def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
-    """Yield the texts with expressions, each with its place and whether it lies in something done only under a condition."""
+    """Yield the texts with expressions, each with its place and whether its action is conditional."""
     waiting = [(action, False) for action in reversed(file.actions)]
     while waiting:
         action, conditional = waiting.pop()
@@ -126,7 +129,7 @@ def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
 
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
-    """Yield of each expression in a text that fails the argument, the expression, and the name that is not known."""
+    """Yield the argument, the expression and the unknown name of each failing expression in a text."""
     from ros_lint.collectors.launch.expressions import evaluate, refused  # noqa: PLC0415  (it takes the parser of Python)
 
     given = {name: texts for name, _, one in configurations(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
@@ -144,11 +147,11 @@ def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tupl
 
 
 _TRUTHS = frozenset({"true", "false"})
-"""What is meant as a truth, and what Python does not know."""
+"""Boolean values of launch that Python does not know."""
 
 
 def _expressions(text: str, values_of: Callable[[str], tuple[str, ...] | None]) -> list[str]:
-    """Return the expressions in a text, those in others left in, with values for the configurations."""
+    """Return the expressions in a text with the values of configurations, nested ones included."""
     found: list[str] = []
 
     def take(expression: str) -> str:

@@ -1,4 +1,4 @@
-"""What an include is given stays set for what comes after it, up to the end of the group with a scope around it (launch)."""
+"""Scopes of launch: arguments of an include stay set up to the end of the scoped group."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from ros_lint.facts.launch import LaunchAction, LaunchFile, values_of_action, wa
 
 
 class PlacedInclude(NamedTuple):
-    """An include in its place."""
+    """An include and its position in the launch file."""
 
     action: LaunchAction
     later: list[LaunchAction]
-    """What comes after it in the file and sees what it leaves set."""
+    """The later actions of the file that see the configurations that the include leaves set."""
     leaves: bool
-    """Whether what it sets is left so at the end of the file."""
+    """True if its configurations are still set at the end of the file."""
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
@@ -37,7 +37,7 @@ def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction], *,
 
 
 class ScopeLeaks:
-    """Answers for launch files of a workspace who may take what an include leaves set."""
+    """Finds the launch files that read configurations which an include leaves set."""
 
     def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._links = links
@@ -48,11 +48,11 @@ class ScopeLeaks:
                     self._above.setdefault(target.file.path, []).append((file, include))
 
     def is_taken_later(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
-        """Whether what comes after an include in its file, ``source``, takes what it was given by a name, or may take it."""
+        """Return whether a later action of ``source``, the file of the include, may read the configuration."""
         return any(self._may_take(action, name, source) for action in include.later)
 
     def is_taken_above(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
-        """Whether a file that includes ``source``, itself or by way of others, goes on with what takes it, or may take it."""
+        """Return whether a file that includes ``source`` may read the configuration after the include."""
         seen, waiting = {source.path}, [source.path] if include.leaves else []
         while waiting:
             for file, above in self._above.get(waiting.pop(), ()):
