@@ -1,4 +1,4 @@
-"""argv to options, by the one table of :mod:`ros_lint.cli.options`."""
+"""The parser of the command line, built from the table of options in :mod:`ros_lint.cli.options`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ exit codes: 0 no findings at or above --fail-on, 1 such findings, 2 the check co
 
 class _Parser(argparse.ArgumentParser):
     def refuse(self, strange: Sequence[str]) -> NoReturn:
-        """End because of arguments that mean nothing."""
+        """Exit because of unknown arguments."""
         known = [text for action in self._actions for text in action.option_strings]
         hint = did_you_mean(similar_names(strange[0].partition("=")[0], known))
         self.error(f"unrecognized arguments: {' '.join(strange)}{hint}")
@@ -34,7 +34,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
-    """Knows its width without ``shutil``: argparse makes one for every option there is, on every start."""
+    """A formatter that does not import ``shutil``: argparse creates one for every option at start-up."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, width=_columns() - 2)
@@ -52,13 +52,13 @@ def _columns() -> int:
 
 
 def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
-    """Return the command and what was said: ``paths`` and options by their names. Exits as argparse does."""
+    """Return the command, and the ``paths`` and options by name. Exits as argparse does."""
     if arguments and arguments[0] in COMMANDS:
         command, rest = arguments[0], list(arguments[1:])
     else:
         command, rest = "check", list(arguments)
     made = parser(command, top=not arguments or arguments[0] != command)
-    # Options may stand between paths, but argparse cannot do that where there are actions below a command.
+    # Options may be placed between paths, which argparse does not support for commands with actions.
     said, strange = made.parse_known_args(rest) if command == "index" else made.parse_known_intermixed_args(rest)
     if strange:
         made.refuse(strange)
@@ -66,7 +66,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
 
 
 def parser(command: str, *, top: bool = False) -> _Parser:
-    """Return the parser of a command. With ``top``, the one that also tells of the other commands."""
+    """Return the parser of a command. With ``top``, return the parser that also lists the other commands."""
     listed = "\n".join(f"  {name:17}{summary}" for name, summary in COMMANDS.items())
     made = _Parser(
         "ros-lint" if top else f"ros-lint {command}",
@@ -195,9 +195,9 @@ def _add(made: argparse.ArgumentParser, option: Option) -> None:
 
 
 class _Words(argparse.Action):
-    """``--select a,b --select c`` is the list a, b, c."""
+    """Splits words at commas: ``--select a,b --select c`` gives the list a, b, c."""
 
-    def __call__(  # argparse says what it hands over
+    def __call__(  # signature of argparse
         self,
         parser: object,  # noqa: ARG002
         namespace: argparse.Namespace,

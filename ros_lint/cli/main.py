@@ -1,6 +1,7 @@
-"""The command line: argv in, exit code out. 0 clean, 1 findings, 2 the tool could not do its job.
+"""The command line: argv in, exit code out.
 
-Everything heavy is imported by the command that needs it: ``--version`` and ``--help`` are part of every shell's start-up.
+Exit codes: 0 no findings, 1 findings, 2 the run failed. Each command imports its own dependencies, so that
+``--version`` and ``--help`` start fast.
 """
 
 from __future__ import annotations
@@ -17,32 +18,32 @@ if TYPE_CHECKING:
 
 
 def run() -> NoReturn:
-    """Run the command of this process and end it."""
+    """Run the command of this process and exit."""
     prepare()
     try:
         code = _flushed(main())
-    except SystemExit as end:  # of argparse: after help, and for arguments that it refuses
+    except SystemExit as end:  # from argparse: after help, and for invalid arguments
         code = _flushed(end.code if isinstance(end.code, int) else 2)
     except OSError:
         code = 2  # standard error cannot be written
-    # Nothing is left to be saved. Taking a model of a large workspace to pieces would take as long as reading it.
+    # Nothing is left to be saved. Freeing the model of a large workspace would take as long as reading it.
     os._exit(code)
 
 
 def _flushed(code: int) -> int:
-    """Write out what is left to be written. Returns the exit code, which is 2 when that is not possible."""
+    """Flush the standard streams. Returns the exit code, which is 2 if that fails."""
     try:
         sys.stdout.flush()
         sys.stderr.flush()
     except OutputError as error:
         return _without_output(error)
     except BrokenPipeError:
-        return code or 2  # the reader has ended
+        return code or 2  # the reader has exited
     return code
 
 
 def _without_output(error: OutputError) -> int:
-    """Say why standard output cannot be written, and drop what it still holds. Returns the exit code."""
+    """Print why standard output cannot be written, and drop its buffer. Returns the exit code."""
     print(f"ros-lint: {error}", file=sys.stderr)
     _drop_output()
     return 2
@@ -53,7 +54,7 @@ def _drop_output() -> None:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command. Returns the exit code; raises nothing but what ends the process."""
+    """Run a command. Returns the exit code; only raises exceptions that end the process."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     if arguments == ["--version"]:
         from ros_lint import __version__  # noqa: PLC0415
@@ -64,20 +65,20 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     from ros_lint.cli.arguments import parse  # noqa: PLC0415
 
-    gc.disable()  # a run makes a model once and ends: looking for garbage in it again and again takes a seventh of it
+    gc.disable()  # a run builds one model and exits: garbage collection would take a seventh of the time
 
     try:
         command, options = parse(arguments)
         return _run(command, options)
     except BrokenPipeError:
-        _drop_output()  # the reader has ended, as in `ros-lint | head`
+        _drop_output()  # the reader has exited, as in `ros-lint | head`
         return 2
     except OutputError as error:
         return _without_output(error)
     except KeyboardInterrupt:
         print("ros-lint: interrupted", file=sys.stderr)
         return 130
-    except Exception:  # exit code 1 would say that there are findings
+    except Exception:  # exit code 1 would mean that there are findings
         import traceback  # noqa: PLC0415
 
         traceback.print_exc()

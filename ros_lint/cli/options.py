@@ -1,4 +1,4 @@
-"""The one table of options. Command line, configuration file, error messages, JSON schema and docs are made of it."""
+"""The table of options: source of the command line, the settings, their JSON schema and their docs."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from ros_lint.reporters import FORMATS
 Type = Literal["flag", "word", "words", "number", "path", "paths", "table"]
 SEVERITIES = ("error", "warning", "info")
 MOST = 1_000_000
-"""The largest number that an option takes."""
+"""The largest number that an option accepts."""
 
 
 class Option(NamedTuple):
-    """An option and where it may stand. ``table`` maps a pattern or rule to words, and stands in files only."""
+    """An option. ``table`` maps a pattern or rule to words and is only allowed in files."""
 
     name: str
     type: Type
@@ -24,9 +24,11 @@ class Option(NamedTuple):
     on_command_line: bool = True
     in_file: bool = True
     environment: str = ""
-    """The variable that is read when neither says anything."""
+    """The environment variable that is read if neither the command line nor the file sets the option."""
     loads_code: bool = False
-    """Whether it loads code. A configuration file that has it gets a warning, because the file can be part of what is checked."""
+    """True if the option loads code.
+
+    It causes a warning in a file, which can be part of the checked workspace."""
 
 
 OPTIONS: tuple[Option, ...] = (
@@ -109,7 +111,7 @@ BY_NAME = {option.name: option for option in OPTIONS}
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON schema of ``ros-lint.toml`` (the table ``[tool.ros-lint]`` of a pyproject.toml has the same shape)."""
+    """Return the JSON schema of ``ros-lint.toml``, and of the table ``[tool.ros-lint]`` in pyproject.toml."""
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "ros-lint settings",

@@ -1,4 +1,4 @@
-"""One line on the terminal that says what takes so long."""
+"""The progress line on the terminal of a long run."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Callable
 from typing import TextIO
 
 _PATIENCE = 0.5
-"""Seconds without a word: most runs end before."""
+"""Seconds until the line is shown: most runs end before."""
 _PAUSE = 0.1
-"""Seconds between two changes of the line."""
+"""Seconds between two updates of the line."""
 
 
 class Progress:
-    """Tells how far a run is, once it takes long and only to a terminal. To be used as a context: leaving it cleans up."""
+    """Shows the progress of a long run on a terminal. A context manager: it clears the line at the end."""
 
     def __init__(self, stream: TextIO, wanted: bool = True, clock: Callable[[], float] = time.monotonic) -> None:
         self._stream = stream
@@ -30,7 +30,7 @@ class Progress:
         self.clear()
 
     def tell(self, what: str, done: int, total: int) -> None:
-        """Say that ``done`` of ``total`` are done. ``what`` is what is being done, ``total`` is 0 when it is not known."""
+        """Show that ``done`` of ``total`` items are done. ``what`` names the step; ``total`` is 0 if unknown."""
         if (now := self._clock()) < self._next:
             return
         self._next = now + _PAUSE
@@ -39,7 +39,7 @@ class Progress:
         self._shown = True
 
     def clear(self) -> None:
-        """Take the line away, before something else is written."""
+        """Clear the line before other output is written."""
         if self._shown:
             self._write("\r\x1b[K")
             self._shown = False
@@ -55,4 +55,4 @@ class Progress:
             self._stream.write(text)
             self._stream.flush()
         except OSError:
-            self._next = float("inf")  # a terminal that has gone keeps nobody from their work
+            self._next = float("inf")  # a closed terminal must not stop the run

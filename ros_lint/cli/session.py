@@ -1,4 +1,4 @@
-"""From what was said on the command line to a workspace that can be loaded."""
+"""From the options of the command line to a workspace that can be loaded."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ if TYPE_CHECKING:
 
 
 class UsageError(UserError):
-    """Something that was asked for cannot be done. The message names it, and the way out."""
+    """An invalid request. The message names the problem and the remedy."""
 
 
 class Request(NamedTuple):
-    """A workspace and settings that are known to make sense. Nothing has been read of it."""
+    """A workspace and settings that have been validated. The workspace has not been read yet."""
 
     settings: Settings
     base: str
-    """Absolute. Every path in the output is relative to it: the root of the repository, or the workspace itself."""
+    """Absolute folder to which paths in the output are relative: the repository or the workspace."""
     roots: tuple[str, ...]
-    """What was asked for, relative to the base."""
+    """The requested paths, relative to the base."""
     inside: tuple[str, ...]
-    """Absolute. The folders that links of the workspace may lead into: the repository, or what was asked for."""
+    """Absolute folders that links of the workspace may lead into: the repository or requested paths."""
     target: TargetDistro
     places: tuple[str, ...]
-    """Folders with data of the released world that go before those shipped."""
+    """Folders with data of the released world that override the shipped data."""
     cache: str
-    """The folder for what is kept between runs, or ""."""
+    """The cache folder, or ""."""
     warnings: tuple[str, ...]
 
     @property
@@ -52,7 +52,7 @@ class Request(NamedTuple):
 
 
 class Session(NamedTuple):
-    """A workspace that is ready to be loaded."""
+    """A workspace that can be loaded."""
 
     loader: Loader
     settings: Settings
@@ -65,20 +65,20 @@ class Session(NamedTuple):
 
     @property
     def folder(self) -> str:
-        """The checked folder relative to the base, "" if it is the base or if there are several."""
+        """The checked folder relative to the base; "" for the base itself or for several folders."""
         return self.roots[0] if len(self.roots) == 1 else ""
 
 
 def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
-    """Return the workspace that the options name, not yet loaded.
+    """Return the workspace that the options name. It is not loaded yet.
 
-    ``said`` is what :func:`ros_lint.cli.arguments.parse` gives. Raises UsageError, ConfigError and KnowledgeError.
+    ``said`` is the result of :func:`ros_lint.cli.arguments.parse`. Raises UsageError, ConfigError and KnowledgeError.
     """
     return open_session(parse_request(said, environment), progress)
 
 
 def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
-    """Return what the options name. Raises UsageError and ConfigError."""
+    """Return the validated request. Raises UsageError and ConfigError."""
     paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
     for path, written in zip(paths, said.get("paths") or ["."], strict=True):
         if not os.path.exists(path):
@@ -99,7 +99,7 @@ def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Re
 
 
 def open_session(asked: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
-    """Return a workspace that is ready to be loaded, from trees that stand for its base and the machine if need be.
+    """Return a workspace that can be loaded. ``workspace`` and ``machine`` replace the trees on disk.
 
     Raises UsageError and KnowledgeError.
     """
@@ -123,7 +123,7 @@ def open_session(asked: Request, progress: Progress, workspace: Tree | None = No
 
 
 def _kept_by(asked: Request) -> str:
-    """Return the name by which the facts of files are kept: they depend on where links may lead."""
+    """Return the key of cached file facts: they depend on the folders that links may lead into."""
     return asked.base if asked.inside == (asked.base,) else os.pathsep.join((asked.base, *asked.inside))
 
 
@@ -131,17 +131,19 @@ _OF_NO_MATTER = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
     "show-settings", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
-"""Settings that the report does not depend on: it does on what a configuration file says, and not on where it lies."""
+"""Settings that do not change the report.
+
+It depends on the contents of the configuration file, not on its path."""
 
 
 _LIBRARIES = ("libcst", "networkx", "yaml")
-"""What takes part in reading a workspace besides Python and our own code."""
+"""Libraries that take part in reading a workspace, so that their versions invalidate the cache."""
 
 
 def reports(asked: Request) -> ReportCache:
-    """Return the reports that are kept of what is asked for.
+    """Return the cached reports of a request.
 
-    None are while plugins take part: nobody watches all the files that these are made of.
+    There are none if plugins are enabled, because the files that plugins consist of are not watched.
     """
     settings = asked.settings
     if not asked.cache or settings["plugins"]:
@@ -161,7 +163,10 @@ def reports(asked: Request) -> ReportCache:
 def _underlays(
     settings: Settings, distro: str, base: str, machine: Tree | None
 ) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
-    """Return the underlays and warnings. What was asked for must be one; what merely lies in the environment need not."""
+    """Return the underlays and warnings.
+
+    A requested prefix must be valid; one from the environment is skipped.
+    """
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
     if not prefixes:
         return (), ()
@@ -183,7 +188,7 @@ def _underlays(
 
 
 def no_packages(asked: Request | Session) -> str:
-    """Return what to say when there is nothing to work on."""
+    """Return the message for a run without packages."""
     from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (a kept report comes without)
 
     places = ", ".join(root or asked.base for root in asked.roots)
@@ -200,14 +205,14 @@ _MOST_SKIPPED = 3
 
 
 def _command(written: str) -> str:
-    """Return a suggestion for a path that does not exist and resembles the name of a command."""
+    """Return the suggestion for a path that does not exist and resembles the name of a command."""
     return next((f"; did you mean the command '{command}'?" for command in similar_names(written, COMMANDS)), "")
 
 
 def _base(paths: Sequence[str]) -> str:
-    """Return the root of the repository that holds the paths, or their common folder.
+    """Return the root of the repository that contains the paths, or else their common folder.
 
-    What code review shows is relative to the repository, so paths in the output are, too, wherever the tool is called.
+    Paths in the output are relative to the repository, as code review shows them, wherever ros-lint is called.
     """
     common = os.path.commonpath(paths)
     return repository_of(common) or common

@@ -1,6 +1,7 @@
-"""Settings: command line over configuration file over environment over defaults, each with its origin.
+"""Settings with their origins: command line over configuration file over environment over defaults.
 
-The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, at the workspace or above it.
+The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace
+folder or above it.
 """
 
 from __future__ import annotations
@@ -18,28 +19,32 @@ from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
 from ros_lint.errors import UserError
 
 _MOST_BYTES = 256 << 10
-"""Of a configuration file. Many times as much as any has."""
+"""Size limit of a configuration file, much larger than any real one."""
 
 _MOST_SEARCHED = 16 << 20
-"""Of a pyproject.toml, to find out whether it has our table."""
+"""Size limit up to which a pyproject.toml is searched for our table."""
 
 _LONG_KEY = r"""(?:\.[ \t]*(?:[\w-]+|"(?:[^"\\\n]|\\.){0,50}"|'[^'\n]{0,50}')[ \t]*){50}"""
-"""The rest of a key with more than 50 parts. The time that tomllib takes for a key grows with the square of the parts."""
+"""The rest of a key with more than 50 parts.
+
+The time that tomllib takes grows with the square of the parts."""
 
 
 class ConfigError(UserError):
-    """Settings that cannot be used. The message names the place and the way out."""
+    """Invalid settings. The message names the place and the remedy."""
 
 
 class Setting(NamedTuple):
-    """The value of an option, and where it was said."""
+    """The value of an option and its origin."""
 
     value: Any
     origin: str
 
 
 class Settings:
-    """Every option with its value. ``settings["fail-on"]`` is the value, ``settings.origin("fail-on")`` where it was said.
+    """The values of all options: ``settings["fail-on"]``.
+
+    ``settings.origin("fail-on")`` is the origin of a value.
 
     ``warnings`` names settings of the file that have no effect.
     """
@@ -52,21 +57,21 @@ class Settings:
         return self._values[name].value
 
     def origin(self, name: str) -> str:
-        """Return where the value was said: a flag, a file with its path, an environment variable, or "default"."""
+        """Return the origin of a value: a flag, a file with its path, an environment variable, or "default"."""
         return self._values[name].origin
 
     def show(self) -> str:
-        """Return one line an option, for ``--show-settings``."""
+        """Return one line for each option, for ``--show-settings``."""
         width = max(len(name) for name in self._values)
         return "".join(f"{name:{width}} = {toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
 
 
 def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
-    """Return the settings for a run.
+    """Return the settings of a run. Raises ConfigError.
 
-    ``given`` has what the command line said, by option name; ``start`` is the absolute path of the workspace, from which the
-    configuration file is looked for; ``environment`` is read for the variables that the table names and for no others.
-    Raises ConfigError.
+    ``given`` has the values of the command line by option name. ``start`` is the absolute path of the workspace, from
+    which the configuration file is searched upwards. Of ``environment`` only the variables in the table of options are
+    read.
     """
     isolated = bool(given.get("isolated"))
     path = "" if isolated else str(given.get("config") or "") or find(start)
@@ -88,7 +93,7 @@ def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str],
 
 
 def find(start: str) -> str:
-    """Return the path of the nearest configuration file at ``start`` or above, or ""."""
+    """Return the path of the nearest configuration file in ``start`` or above it, or ""."""
     folder = os.path.abspath(start)
     if not os.path.isdir(folder):
         folder = os.path.dirname(folder)
@@ -103,7 +108,7 @@ def find(start: str) -> str:
 
 
 def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Return the settings of a file, checked against the table of options, and warnings. Raises ConfigError."""
+    """Return the validated settings of a file, and warnings. Raises ConfigError."""
     try:
         data = files.read(path, _MOST_BYTES)
     except OSError as error:
@@ -124,7 +129,7 @@ def _without_effect(path: str, text: str, name: str) -> str:
 
 
 def _mentions_us(path: str) -> bool:
-    """Return whether a pyproject.toml has our table, also one that is too large to be read as TOML."""
+    """Return whether a pyproject.toml has our table, even if it is too large to be parsed."""
     try:
         with open(path, "rb") as file:
             head = file.read(_MOST_SEARCHED)
@@ -145,7 +150,7 @@ def _load_toml(path: str, data: bytes) -> dict[str, Any]:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ConfigError(f"{path}: {error}") from error
-    except ValueError as error:  # of int(), which takes 4,300 digits
+    except ValueError as error:  # from int(), which accepts up to 4,300 digits
         raise ConfigError(f"{path}: a number has too many digits") from error
     except RecursionError as error:
         raise ConfigError(f"{path}: nested too deep") from error
@@ -207,7 +212,7 @@ def _place(path: str, text: str, name: str) -> str:
 
 
 def _relative(option: Option, value: Any, path: str) -> Any:
-    """A path in a file is relative to that file."""
+    """Resolve a path in a file relative to that file."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value
@@ -220,7 +225,7 @@ def _from_environment(option: Option, value: str) -> Any:
 
 
 def toml(value: Any) -> str:
-    """Return the value of an option as it is written in a file."""
+    """Return the value of an option in TOML syntax."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, tuple | list):

@@ -1,8 +1,8 @@
 """The start of the process, for the command ``ros-lint`` and for ``python -m ros_lint``.
 
-The current folder is mostly the workspace, and a ``json.py`` in it would run. So it leaves the path of modules before anything
-but ``os`` and ``sys`` is imported. What Python itself loads to get here is out of reach: at the start if ``PYTHONPATH`` has
-an empty entry, and for ``python -m``.
+The current folder is usually the workspace, and Python would import a ``json.py`` from it. So the folder is removed
+from the module path before anything but ``os`` and ``sys`` is imported. The imports of Python itself cannot be
+protected: at start-up if ``PYTHONPATH`` has an empty entry, and for ``python -m``.
 """
 
 import os
@@ -10,7 +10,7 @@ import sys
 
 
 def run() -> None:
-    """Run the command of this process and end it."""
+    """Run the command of this process and exit."""
     leave_current_folder()
     from ros_lint.cli import main as cli  # noqa: PLC0415  (imports more, which the current folder must not have)
 
@@ -18,14 +18,14 @@ def run() -> None:
 
 
 def leave_current_folder() -> None:
-    """Take the current folder off the path of modules, also of the processes that this one starts.
+    """Remove the current folder from the module path, also for child processes.
 
-    If this package lies in the current folder, the folder becomes the last entry.
+    If this package is in the current folder, the folder becomes the last entry.
     """
     try:
         here = os.path.realpath(os.curdir)
     except OSError:
-        return  # the folder is gone, and no module is in it
+        return  # the folder does not exist any more and contains no module
     sys.path[:] = _without(here, sys.path)
     home = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
     if here == home:
@@ -36,5 +36,8 @@ def leave_current_folder() -> None:
 
 
 def _without(folder: str, path: list[str]) -> list[str]:
-    """Return the entries of a path that lead elsewhere. An empty entry means the current folder."""
+    """Return the entries of a path that are not the current folder.
+
+    An empty entry means the current folder.
+    """
     return [entry for entry in path if entry and os.path.realpath(entry) != folder]

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 
 
 class OutputError(Exception):
-    """Standard output cannot be written. The message says why."""
+    """Standard output cannot be written. The message has the reason."""
 
 
 class _Output(io.RawIOBase):
-    """Standard output with errors of its own: an OSError does not say which file it is about."""
+    """Standard output with its own error class, because an OSError does not name its file."""
 
     def __init__(self, raw: io.RawIOBase) -> None:
         self._raw = raw
@@ -34,26 +34,26 @@ class _Output(io.RawIOBase):
         try:
             return self._raw.write(data)
         except BrokenPipeError:
-            raise  # the reader has ended, as in `ros-lint | head`
+            raise  # the reader has exited, as in `ros-lint | head`
         except OSError as error:
             raise OutputError(f"standard output: {error.strerror or error}") from error
 
 
 def prepare() -> None:
-    """Replace the standard streams of the process by streams that can always be written to, or fail with OutputError.
+    """Replace the standard streams by streams that can always be written to, or that raise OutputError.
 
-    A character that the encoding of standard output lacks is written as an escape. Text for a closed standard error is lost.
+    Characters that standard output cannot encode are written as escapes. Text for a closed standard error is dropped.
     """
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  (until the process ends)
     if sys.stdout is None:
-        # Takes the number, else the next file that is opened would be standard output; and fails when written to.
+        # Reserves the number, or else the next opened file would be standard output; writing to it fails.
         os.dup2(os.open(os.devnull, os.O_RDONLY), _NUMBER)
         raw: Any = io.FileIO(_NUMBER, "w", closefd=False)
         encoding = "utf-8"
     else:
         buffer = sys.stdout.buffer
-        raw, encoding = getattr(buffer, "raw", buffer), sys.stdout.encoding  # without a buffer where Python runs with -u
+        raw, encoding = getattr(buffer, "raw", buffer), sys.stdout.encoding  # there is no buffer if Python runs with -u
     output = io.BufferedWriter(_Output(raw))
     sys.stdout = io.TextIOWrapper(output, encoding, "backslashreplace", line_buffering=raw.isatty())
 

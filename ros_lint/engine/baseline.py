@@ -1,8 +1,8 @@
-"""Known findings: a file lists them, and only what it does not list is shown.
+"""The baseline: a file that lists known findings, so that only new findings are shown.
 
-A finding is known by its rule, package and subject, which stay the same when lines and files move. Several that share these
-are counted, and are all shown as soon as there are more than the file knows: which of them is the new one, nothing tells.
-So do the suppressions of eslint.
+A finding is known by its rule, package and subject, which stay the same when lines and files move. Findings that share
+these are counted. If there are more than the file lists, all of them are shown, because the new one cannot be
+determined. Bulk suppressions of eslint work the same way.
 """
 
 from __future__ import annotations
@@ -23,32 +23,35 @@ Key = tuple[str, str, str]
 
 
 _MOST_BYTES = 64 << 20
-"""Of a file: half a million findings."""
+"""Size limit of the file, enough for half a million findings."""
 
 
 class BaselineError(UserError):
-    """A file of known findings that cannot be read or written. The message names it, and the way out."""
+    """A baseline that cannot be read or written. The message names the file and the remedy."""
 
 
 class Known(NamedTuple):
-    """What a file says of findings that share a key."""
+    """The entry of findings that share a key."""
 
     number: int
     sure: bool
-    """Whether they are shown without being asked for: of others nothing is known where these are hidden."""
+    """True if they are shown by default.
+
+    Other findings may be hidden, which does not mean that they are fixed."""
 
 
 class Baseline(NamedTuple):
-    """What a file of known findings says."""
+    """The contents of a baseline file."""
 
     folders: tuple[str, ...]
-    """What was checked when it was written, relative to the folder that it lies in."""
+    """The folders that were checked when it was written, relative to the folder of the file."""
     known: Mapping[Key, Known]
 
     def without(self, report: Report, name: str, folders: Sequence[str]) -> Report:
-        """Return a report without what is known, with the number of those, and a warning of what is known and gone.
+        """Return a report without the known findings, and with a warning about those that no longer occur.
 
-        ``name`` is how the file is called, ``folders`` are those that were checked: of others nothing is gone.
+        ``name`` is the name of the file in messages. ``folders`` are the checked folders: findings in others may still
+        occur.
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])
@@ -71,7 +74,7 @@ class Baseline(NamedTuple):
 
 
 def read(path: str) -> Baseline:
-    """Return what a file says. Raises BaselineError."""
+    """Return the baseline in a file. Raises BaselineError."""
     import json  # noqa: PLC0415
 
     try:
@@ -89,7 +92,7 @@ _WAY_OUT = "--write-baseline rewrites it"
 
 
 def write(path: str, report: Report, folders: Sequence[str]) -> None:
-    """Write what a report shows, in one step. Raises BaselineError."""
+    """Write the findings of a report to a file, atomically. Raises BaselineError."""
     try:
         edits.write(path, text(report, folders).encode("utf-8"))
     except edits.EditError as error:
@@ -97,7 +100,7 @@ def write(path: str, report: Report, folders: Sequence[str]) -> None:
 
 
 def text(report: Report, folders: Sequence[str]) -> str:
-    """Return a file that lists what a report shows: a line for each key, sorted, so that it is merged line by line."""
+    """Return the baseline of a report: one line for each key, sorted, so that versions merge well."""
     counts = Counter(map(_key, report.issues))
     unsure = {_key(issue) for issue in report.issues if issue.finding.confidence is not Confidence.HIGH}
     known = [_written(key, count, key not in unsure) for key, count in sorted(counts.items())]
@@ -115,7 +118,7 @@ def _key(issue: Issue) -> Key:
 
 
 def _sayable(name: str) -> str:
-    """Return a name as the file can have it: bytes that are in no known encoding look alike."""
+    """Return a name as it is written in the file: bytes that cannot be decoded are replaced."""
     return name.encode("utf-8", "replace").decode("utf-8")
 
 

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 
 class Context(NamedTuple):
-    """What a report contains besides findings, and the rules that suppressions may name."""
+    """The contents of a report besides its findings, and the rules that suppressions may name."""
 
     rules: tuple[Rule, ...]
-    """Every rule there is."""
+    """All rules, selected or not."""
     data_date: str
-    """Of the data of the released world, as YYYY-MM-DD."""
+    """The date of the package index, as YYYY-MM-DD."""
     folder: str
-    """The checked folder relative to the base, "" if it is the base or if there are several."""
+    """The checked folder relative to the base; "" for the base itself or for several folders."""
     warnings: tuple[str, ...]
 
 

@@ -1,4 +1,4 @@
-"""Apply edits to texts, and write files whole or not at all."""
+"""Application of edits to texts, and atomic writing of files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ros_lint.base.tree import Tree
 
 
 class EditError(Exception):
-    """A file that cannot be written as wanted. The message names it. ``written`` are the files that were written before."""
+    """A file that cannot be written. The message names it. ``written`` lists the files written before."""
 
     def __init__(self, message: str, written: Sequence[str] = ()) -> None:
         super().__init__(message)
@@ -27,12 +27,15 @@ class EditError(Exception):
 
 
 def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
-    """Return the fixes that can be made together: one that touches the place of an earlier one is left for the next round."""
+    """Return the fixes that can be made together.
+
+    A fix that overlaps an earlier one waits for the next round.
+    """
     chosen: list[Fix] = []
     taken: list[Edit] = []
     for fix in fixes:
         new = [edit for edit in fix.edits if edit not in taken]
-        if any(_collide(edit, other) for edit in new for other in taken):
+        if any(_collide(edit, chosen_fix) for edit in new for chosen_fix in taken):
             continue
         chosen.append(fix)
         taken += new
@@ -40,9 +43,9 @@ def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
 
 
 def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
-    """Return the new text of every file that changes. The fixes do not collide, see :func:`choose`.
+    """Return the new text of every file that changes. The fixes do not overlap, see :func:`choose`.
 
-    Raises EditError for a text that has no such place.
+    Raises EditError if a text does not have the place of an edit.
     """
     edits: dict[str, list[Edit]] = {}
     for fix in fixes:
@@ -54,7 +57,10 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
 
 
 def text_of(tree: Tree, path: str) -> Text:
-    """Return the text of a file to edit, the empty text for one that an edit creates. Raises EditError for what is no file."""
+    """Return the text of a file to edit, or an empty text for a file that an edit creates.
+
+    Raises EditError.
+    """
     try:
         return read(path, tree.read(path))
     except FileNotFoundError:
@@ -64,7 +70,7 @@ def text_of(tree: Tree, path: str) -> Text:
 
 
 def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:
-    """Return the changed texts as bytes in each file's own encoding. Raises EditError."""
+    """Return the changed texts as bytes in the encoding of each file. Raises EditError."""
     result = {}
     for path, text in changed.items():
         try:
@@ -75,7 +81,10 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
 
 
 def write(path: str, data: bytes) -> None:
-    """Replace or create one file whole or not at all; to a FIFO or a device it is written. Raises EditError."""
+    """Replace or create one file atomically; write to it directly if it is a FIFO or a device.
+
+    Raises EditError.
+    """
     try:
         if os.path.exists(path) and not os.path.isfile(path):
             with open(path, "wb") as stream:
@@ -89,10 +98,11 @@ def write(path: str, data: bytes) -> None:
 
 
 def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, bytes]) -> None:
-    """Replace or create files, each in one step.
+    """Replace or create files, each of them atomically.
 
-    ``before`` has what the changes were made of, and nothing for files that they create. A file that no longer has these
-    bytes is not written. Raises EditError: when a file is seen to be read-only or changed, before anything is written.
+    ``before`` has the content on which the changes are based; files that do not exist are missing in it. A file with
+    another content is not written. Raises EditError, before anything is written if a file is known to be read-only or
+    changed.
     """
     targets = {path: os.path.realpath(os.path.join(base, path)) for path in changed}
     for path, target in targets.items():
@@ -119,7 +129,7 @@ def _so_far(written: Sequence[str], left: Sequence[str]) -> str:
 
 
 def _is_still(target: str, before: bytes | None) -> bool:
-    """Return whether a file has some bytes, or for None does not exist."""
+    """Return whether a file has this content; None means that it does not exist."""
     try:
         return files.read(target) == before
     except FileNotFoundError:
@@ -133,7 +143,7 @@ def _no_write(path: str, error: OSError) -> EditError:
 
 
 def _ask(path: str, target: str) -> None:
-    # Permission bits are asked as well as the system, which lets root write everywhere.
+    # The permission bits are checked, too, because root may write everywhere.
     folder = os.path.dirname(target)
     try:
         for place in (target, folder) if os.path.lexists(target) else (folder,):
@@ -146,9 +156,10 @@ def _ask(path: str, target: str) -> None:
 
 
 def _replace(path: str, target: str, data: bytes, may_be: Callable[[], bool] = lambda: True) -> None:
-    """Write a file beside the target and rename it. Permissions are kept, and a link stays a link.
+    """Write a temporary file in the folder of the target and rename it. Permissions and links are kept.
 
-    ``may_be`` is asked when all but the rename is done. Raises EditError, with the target as it was.
+    ``may_be`` is called just before the renaming; if it returns False, the target is not replaced. Raises EditError,
+    with the target unchanged.
     """
     folder = os.path.dirname(target)
     temporary = ""
@@ -175,12 +186,12 @@ def _replace(path: str, target: str, data: bytes, may_be: Callable[[], bool] = l
 _PREFIX, _SUFFIX = ".ros-lint-", ".part"
 _LEFT_OVER = re.compile(rf"{re.escape(_PREFIX)}[a-z0-9_]{{8}}{re.escape(_SUFFIX)}")
 _OLD = 3600
-"""Seconds after which no run is still writing a file."""
+"""Age in seconds from which a temporary file belongs to no running process."""
 _NEW_MODE = 0o644
 
 
 def _remove_left_over(folder: str) -> None:
-    """Remove the files of runs that were killed while they wrote into a folder."""
+    """Remove the temporary files of runs that were killed while they wrote into a folder."""
     with os.scandir(folder) as entries:
         mine = [entry for entry in entries if _LEFT_OVER.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
     for entry in mine:
@@ -195,7 +206,7 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     in_order = sorted(edits, key=lambda edit: (edit.span[1:], edit.kind, edit.order))
     if any(edit.span.end_line > source.line_count for edit in in_order):
         raise EditError(f"{source.path}: {_CHANGED}")
-    # From the end, so that earlier offsets stay true.
+    # From the end, so that earlier offsets stay valid.
     for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
         start = source.offset(span.line, span.column)
         end = source.offset(span.end_line, span.end_column)
@@ -206,7 +217,7 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
 
 
 def _indented(put: str, text: str, start: int) -> str:
-    """Indent new lines by tabs where the line before them is: who makes an edit counts characters, whatever they are."""
+    """Indent new lines with tabs if the line before them has tabs, because edits are indented with spaces."""
     line = text[text.rfind("\n", 0, start) + 1 : start]
     indent = line[: len(line) - len(line.lstrip(" \t"))]
     return put.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else put
@@ -216,7 +227,7 @@ _BLANK = re.compile(r"\r\n|\n|\r")
 
 
 def _joined(edits: Sequence[Edit]) -> str:
-    """Return what is put to one place: what belongs together is set off once, and nothing by two blank lines."""
+    """Return the joined text of edits of one place, without double blank lines."""
     whole, kind = "", 0
     for edit in edits:
         text, same = edit.text, edit.kind == kind != 0

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 _MOST_TRIALS = 2
-"""Trials that are kept besides the workspace on disk: a trial that succeeded is asked for again at once."""
+"""Number of trials that are kept, because a successful trial is needed again at once."""
 
 
 class Trial(NamedTuple):
@@ -54,7 +54,7 @@ class FixTrials:
         self._unsafe = unsafe
         self._trials: list[Trial] = []
         self._held: set[str] = set()
-        """Files that fixes edit. The loader holds the bytes that it read."""
+        """Files that fixes edit. The loader keeps the bytes that it read."""
 
     @cached_property
     def _writable(self) -> Writable:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ros_lint.engine.report import Issue
 
 _MOST_ROUNDS = 100
-"""A fix can depend on another one, and of conflicting fixes one is made in each round. No workspace needs as many rounds."""
+"""Largest number of rounds: of fixes that conflict or depend on each other, each round makes one."""
 
 
 class FixResult(NamedTuple):

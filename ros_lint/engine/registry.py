@@ -1,8 +1,8 @@
-"""Find the rules: ours and those of plugins, by the same door, the entry point group ``ros_lint.rules``.
+"""Discovery of rules: built-in ones and plugins, by the entry point group ``ros_lint.rules``.
 
-An entry names a module or a package; every ``RULE`` in it and in the modules directly below it is taken. Our own
-entry is known without asking for it, because ``importlib.metadata`` takes longer than most runs; it is asked only
-when the settings enable plugins.
+An entry names a module or a package; every ``RULE`` in it and in its direct submodules is loaded. The built-in entry is
+known without a search, because ``importlib.metadata`` takes longer than most runs. It is only searched if the settings
+enable plugins.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ BUILTIN = "ros_lint_rules"
 
 
 class PluginError(UserError):
-    """A plugin that cannot be loaded, or that brings a name or code which is taken."""
+    """A plugin that cannot be loaded, or whose rule has a name or code that another rule has."""
 
 
 @lru_cache(maxsize=2)
 def load(plugins: bool = False) -> tuple[Rule, ...]:
-    """Return every rule, sorted by code. Raises PluginError."""
+    """Return all rules, sorted by code. Raises PluginError."""
     found = list(_rules_of(importlib.import_module(BUILTIN)))
     if plugins:
         found += _plugin_rules()
@@ -59,7 +59,7 @@ def _rules_of(module: ModuleType) -> Iterator[Rule]:
 
 
 def _inside(folder: str) -> Iterator[str]:
-    """Yield the modules and packages in the folder of a package. ``pkgutil`` would cost more to import than to have."""
+    """Yield the modules and packages in the folder of a package. Importing ``pkgutil`` would take longer."""
     for entry in os.scandir(folder) if os.path.isdir(folder) else ():
         name, dot, suffix = entry.name.partition(".")
         is_module = suffix == "py" or (not dot and os.path.isfile(os.path.join(entry.path, "__init__.py")))
@@ -68,7 +68,7 @@ def _inside(folder: str) -> Iterator[str]:
 
 
 def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
-    """Return the rules that a selector means: ``all``, ``default``, a name, a code, or the beginning of codes (ROS2)."""
+    """Return the rules that match a selector: ``all``, ``default``, a name, a code or a code prefix."""
     if selector == "all":
         return tuple(rules)
     if selector == "default":
@@ -80,6 +80,6 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
 
 
 def no_rule(rules: Sequence[Rule], selector: str) -> str:
-    """Return what to say of a selector that means nothing."""
+    """Return the message for a selector that matches no rule."""
     words = [word for rule in rules for word in (rule.name, rule.code)]
     return f"unknown rule '{selector}'{did_you_mean(similar_names(selector, [*words, 'all', 'default']))}"

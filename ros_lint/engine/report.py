@@ -1,4 +1,4 @@
-"""What a run found, what it did not show, and what it could not see: all that a reporter needs."""
+"""The report of a run: findings, hidden findings and what was not analysed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Issue(NamedTuple):
-    """A finding with the rule that made it and the package that has to change, "" when it is none of the workspace."""
+    """A finding with its rule and the package that has to change, "" if that is outside the workspace."""
 
     rule: Rule
     package: str
@@ -24,7 +24,7 @@ class Issue(NamedTuple):
 
     @property
     def identity(self) -> str:
-        """What stays the same when lines move: rule, package and subject. Two places can share it."""
+        """The rule, package and subject, which stay the same when lines move. Not unique."""
         return f"{self.rule.code}/{self.package}/{self.finding.subject}"
 
 
@@ -32,23 +32,26 @@ UNSURE = "of lower confidence (shown with --pedantic)"
 
 
 class HiddenCount(NamedTuple):
-    """Findings that are not shown. ``reason`` goes on from the count, as :data:`UNSURE` does."""
+    """Number of findings that are hidden.
+
+    ``reason`` continues a sentence after the number, as :data:`UNSURE` does.
+    """
 
     reason: str
     count: int  # type: ignore[assignment]  # a tuple counts things as well
 
 
 class BlindSpot(NamedTuple):
-    """A side of packages that something opaque hides."""
+    """A facet of packages that could not be fully analysed."""
 
     what: str
-    """In words: "executables"."""
+    """The facet in words: "executables"."""
     packages: tuple[str, ...]
-    """The names of those that it concerns, in the order of the workspace."""
+    """The names of the packages, in the order of the workspace."""
 
 
 class Crash(NamedTuple):
-    """A rule that failed, for one package or (``package`` is "") for the workspace."""
+    """A rule that raised an exception, for one package, or for the workspace if ``package`` is ""."""
 
     rule: str
     package: str
@@ -61,32 +64,32 @@ class Crash(NamedTuple):
 
 
 class Report(NamedTuple):
-    """The result of a run. The same input gives the same report, on any machine."""
+    """The result of a run. The same input gives the same report on any machine."""
 
     issues: tuple[Issue, ...]
-    """Those to show, sorted by span, code, message."""
+    """The findings to show, sorted by span, code and message."""
     rules: tuple[Rule, ...]
-    """Those that ran, sorted by code."""
+    """The rules that ran, sorted by code."""
     packages: int
-    """How many were checked. 0 means that nothing was."""
+    """Number of packages checked; 0 if no package was found."""
     target: TargetDistro
     data_date: str
-    """Of what is known about the released world, as YYYY-MM-DD."""
+    """The date of the package index, as YYYY-MM-DD."""
     version: str
-    """Of ros-lint."""
+    """The version of ros-lint."""
     hidden: tuple[HiddenCount, ...] = ()
     not_checked: tuple[UnreadFile, ...] = ()
     unseen: tuple[BlindSpot, ...] = ()
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
-    """The folder that was checked, relative to the base that paths are relative to; "" is the base."""
+    """The checked folder, relative to the base as all paths are; "" for the base itself."""
     warnings: tuple[str, ...] = ()
-    """What is odd about what was asked for: no part of the output, but told all the same."""
+    """Warnings about the command line and settings, which are printed to standard error."""
 
     def count(self, severity: Severity) -> int:
-        """Return how many issues have a severity."""
+        """Return the number of issues with a severity."""
         return sum(issue.severity is severity for issue in self.issues)
 
     def fixable(self, *, safe: bool) -> int:
-        """Return how many issues carry a safe fix, or one that is not."""
+        """Return the number of issues with a safe fix, or with an unsafe one."""
         return sum(issue.finding.fix is not None and issue.finding.fix.safe is safe for issue in self.issues)

@@ -1,4 +1,4 @@
-"""Keep the last reports of a workspace between runs, in the user's cache folder."""
+"""Cache of the last reports of a workspace, in the user's cache folder."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ if TYPE_CHECKING:
 
 
 _MOST_REPORTS = 8
-"""Of one workspace: somebody may check it in different ways by turns."""
+"""Number of reports kept for a workspace, which may be checked with several sets of options."""
 
 
 class ReportCache:
-    """The last reports about a workspace.
+    """The last reports of a workspace.
 
-    ``asked`` and the state of the files in ``data`` are all that a report depends on besides our code and the trees.
+    A report depends on ``asked`` (the options), the state of the files in ``data``, our code and the trees, on nothing
+    else.
     """
 
     def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
@@ -32,11 +33,11 @@ class ReportCache:
         self._state = state_of([*own, *data]) if folder else ""
 
     def __bool__(self) -> bool:
-        """Whether any report is kept at all."""
+        """Return whether reports are cached at all."""
         return bool(self._file)
 
     def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
-        """Return the report that a run would make now, or None when only the run can tell."""
+        """Return the report that a run would produce, or None if only a run can determine it."""
         from ros_lint.engine.report import Report  # noqa: PLC0415  (a module that the command needs anyway)
 
         kept = kept_files.load(self._file, self._state) if self._file else None
@@ -45,11 +46,11 @@ class ReportCache:
         report, *said = kept
         try:
             return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
-        except (TypeError, ValueError):  # no list of questions, answers and paths
+        except (TypeError, ValueError):  # not a list of questions, answers and paths
             return None
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
-        """Keep a report that was made from what some trees said. It loses the functions of its rules."""
+        """Store a report, without the functions of its rules, with the tree answers that it depends on."""
         if not self._file or report.crashes or not all(tree.steady for tree in trees):
             return
         bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
@@ -70,5 +71,5 @@ class ReportCache:
 
 
 def _bare(told: Any) -> Any:
-    """Return stamps and the entries of a directory as plain tuples, which are equal to them and read faster."""
+    """Return stamps and directory entries as plain tuples, which are equal to them and load faster."""
     return [tuple(entry) for entry in told] if isinstance(told, list) else tuple(told) if isinstance(told, tuple) else told

@@ -1,4 +1,4 @@
-"""Run rules over a workspace, and decide what is shown."""
+"""Execution of rules over a workspace, with suppressions applied."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
-    """Return every finding of the rules, sorted by place. A rule that crashes for a package hides nothing else."""
+    """Return all findings of the rules, sorted by place. A rule that crashes hides no other findings."""
     issues: set[Issue] = set()
     crashes: list[Crash] = []
     for rule in rules:
@@ -22,7 +22,7 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
             try:
                 issues.update(_issues(rule, package, workspace))
             except KnowledgeError:
-                raise  # no rule can do its job, and the user must act
+                raise  # no rule can run, and the user must act
             except Exception:
                 import traceback  # noqa: PLC0415
 
@@ -31,7 +31,7 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
-    """Yield what a rule finds: in a package, or in the workspace, for rules that look at it as a whole."""
+    """Yield the findings of a rule: in a package, or in the workspace for workspace rules."""
     if rule.package is not None and package is not None:
         for finding in rule.package(package, workspace):
             yield Issue(rule, package.name, finding)
@@ -41,16 +41,19 @@ def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterat
 
 
 class Checked(NamedTuple):
-    """What rules and comments made of a workspace."""
+    """The issues of a workspace after suppression comments are applied."""
 
     issues: tuple[Issue, ...]
-    """Sorted by place, suppressed ones left out."""
+    """The issues sorted by place, without suppressed ones."""
     suppressed: tuple[Issue, ...]
     crashes: tuple[Crash, ...]
 
 
 def check(workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], known: Sequence[Rule]) -> Checked:
-    """Return what the rules say once comments have been heard. ``known`` are all the rules that a comment can name."""
+    """Return the issues of the rules with suppressions applied.
+
+    ``known`` are all rules that a comment can name.
+    """
     heard = tuple(suppressions)
     issues, crashes = run(workspace, rules)
     ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
@@ -61,7 +64,7 @@ def check(workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Su
         if rule.suppressions
         for finding in rule.suppressions(outcome.use)
     ]
-    spared = suppress.apply(about_comments, heard, known, ran)  # a comment can speak for itself
+    spared = suppress.apply(about_comments, heard, known, ran)  # a comment can suppress findings about itself
     kept = tuple(sorted((*outcome.kept, *spared.kept), key=order))
     return Checked(kept, tuple(issue for issue, _ in (*outcome.suppressed, *spared.suppressed)), crashes)
 
@@ -73,7 +76,7 @@ def order(issue: Issue) -> tuple[object, ...]:
 
 
 def owner(workspace: Workspace, path: str) -> str:
-    """Return the name of the package that a file lies in, or ""."""
+    """Return the name of the package that contains a file, or ""."""
     inside = [
         package
         for package in (*workspace.packages, *workspace.unusable)

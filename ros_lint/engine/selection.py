@@ -1,4 +1,4 @@
-"""Select rules, and decide which of their findings are shown."""
+"""Selection of rules, and of the findings that are shown."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from ros_lint.errors import UserError
 
 
 class SelectionError(UserError):
-    """A rule that is asked for and does not exist."""
+    """A selected rule that does not exist."""
 
 
 class Selection(NamedTuple):
-    """Which rules run, and what of their findings is shown."""
+    """The rules that run, and the findings that are shown."""
 
     rules: tuple[Rule, ...]
     named: frozenset[str]
-    """Rules asked for by name: all their findings are shown, however sure."""
+    """Rules selected by name: their findings are shown with any confidence."""
     severities: Mapping[str, Severity]
     pedantic: bool
     ignores: tuple[tuple[str, frozenset[str]], ...]
-    """Path patterns, each with the names of rules ignored for files that match."""
+    """Path patterns, each with the names of the rules that are ignored for matching files."""
 
 
 def select(
@@ -39,9 +39,9 @@ def select(
     per_path: Mapping[str, Sequence[str]] | None = None,
     pedantic: bool = False,
 ) -> Selection:
-    """Return what to run. Raises SelectionError for a name that means no rule.
+    """Return the selection. Raises SelectionError for a selector that matches no rule.
 
-    A rule whose severity is set in the settings is on, one that is set to off is not.
+    A rule with a severity in the settings is selected; a rule set to off is not.
     """
     on: dict[str, Rule] = {}
     named: set[str] = set()
@@ -70,7 +70,7 @@ def select(
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
-    """Return what is shown, with the severities of the settings, and how much is hidden and why."""
+    """Return the issues to show, with the severities of the settings, and counts of hidden issues."""
     shown: list[Issue] = []
     unsure = ignored = 0
     for issue in issues:
@@ -89,7 +89,7 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
 
 
 def matches(path: str, pattern: str) -> bool:
-    """Whether a pattern of the settings means a path: one of its folders, the file, or the whole path."""
+    """Return whether a pattern matches a path: one of its folders, its file name or the whole path."""
     pattern = pattern.rstrip("/")
     if "/" in pattern:
         return fnmatch.fnmatchcase(path, pattern) or fnmatch.fnmatchcase(path, f"{pattern}/*")

@@ -1,8 +1,8 @@
 """Comments that suppress findings.
 
-``ros-lint: ignore[rule, ...] reason`` speaks for the line it stands on or, when the comment has its lines to itself,
-for the next line that is no comment. ``ros-lint: ignore-file[rule, ...] reason`` stands before everything but comments,
-and speaks for the file. docs/suppressions.md has the whole of it.
+``ros-lint: ignore[rule, ...] reason`` applies to its line. If the line has nothing else, it applies to the next line
+that is no comment. ``ros-lint: ignore-file[rule, ...] reason`` precedes everything except comments and applies to the
+file. For details, see docs/suppressions.md.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ class Outcome(NamedTuple):
 def apply(
     issues: Iterable[Issue], suppressions: Iterable[Suppression], known: Iterable[Rule], ran: Container[str | None]
 ) -> Outcome:
-    """Return which issues stay.
+    """Return which issues are kept.
 
-    ``known`` are all rules there are; ``ran`` has the names of those that looked at everything: only these can leave a
-    suppression unused. To be called before issues are hidden for other reasons, or their suppressions will seem unused,
-    and once more for what rules say about the outcome, of which the issues kept are all that matters.
+    ``known`` are all rules. ``ran`` has the names of the rules that checked everything: only their suppressions can be
+    unused. Call this before issues are hidden for other reasons, or else their suppressions seem unused. Call it again
+    for the issues that rules report about the outcome; then only ``kept`` matters.
     """
     names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
-    judging = {rule.name for rule in known if rule.suppressions}  # they speak later, so what they need is not known
+    judging = {rule.name for rule in known if rule.suppressions}  # they run later
     ordered = sorted(suppressions, key=lambda each: each.span.path)
     whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
     about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
@@ -77,16 +77,16 @@ def apply(
 
 
 class _Heard:
-    """What suppresses one rule in one file, by the lines that it speaks for: there can be thousands of it."""
+    """The suppressions of one rule in one file, indexed by line because there may be thousands."""
 
     def __init__(self, entries: Iterable[tuple[Suppression, Name]]) -> None:
         self._entries = sorted(entries, key=_first_line)
         self._firsts = [_first_line(entry) for entry in self._entries]
-        # Up to the last line that each of them, or one before it, speaks for.
+        # For each entry, the last line to which it or an earlier entry applies.
         self._reach = list(accumulate([math.inf if each.lines is None else each.lines[1] for each, _ in self._entries], max))
 
     def about(self, issue: Issue) -> list[tuple[Suppression, Name]]:
-        """Return what speaks for the place of an issue."""
+        """Return the suppressions that apply to the place of an issue."""
         first, last = lines_of(issue.finding.span)
         near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
         return [entry for entry in near if entry[0].covers(issue.finding.span)]

@@ -1,4 +1,4 @@
-"""Characters on a terminal: colour, width, and what must not reach it as it is."""
+"""Characters on a terminal: colours, widths, and escapes for control characters."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ TAB = 4
 
 
 class Style(NamedTuple):
-    """How to write for people. The caller knows where the text goes."""
+    """The style of text for people. The caller knows the terminal."""
 
     color: bool = False
     ascii: bool = False
-    """Whether whatever reads it can show ASCII only."""
+    """True if only ASCII can be shown."""
     width: int = 120
-    """In columns; longer source lines are shortened. Messages are not."""
+    """Width in columns. Longer source lines are shortened; messages are not."""
     fixes: bool = False
-    """Whether to show what each fix would change."""
+    """True if the changes of each fix are shown."""
 
 
 _CODES = {
@@ -36,17 +36,17 @@ _PLAIN = re.compile(r"[ -~]*\Z")
 
 
 def paint(style: Style, color: str, text: str) -> str:
-    """Return a text in one of the colours of the house, if there is colour."""
+    """Return a text in a named colour, if colours are enabled."""
     return f"\x1b[{_CODES[color]}m{text}\x1b[0m" if style.color and text else text
 
 
 def safe(text: str, style: Style) -> str:
-    """Return a text in which nothing moves the cursor, changes colours, or turns the direction of writing."""
+    """Return a text without characters that move the cursor, change colours or the direction of writing."""
     return text if _PLAIN.match(text) else "".join(glyph(character, style.ascii)[0] for character in text)
 
 
 def cells(line: str, style: Style) -> tuple[list[str], list[int]]:
-    """Return what to show for each code point of a line, and how many columns each takes."""
+    """Return the text to show for each code point of a line, and the width of each in columns."""
     if _PLAIN.match(line):
         return list(line), [1] * len(line)
     pairs = [glyph(character, style.ascii) for character in line]
@@ -55,7 +55,7 @@ def cells(line: str, style: Style) -> tuple[list[str], list[int]]:
 
 @lru_cache(maxsize=1024)
 def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
-    """Return what to show for a code point, and how many columns that takes."""
+    """Return the text to show for a code point, and its width in columns."""
     if " " <= character <= "~":
         return character, 1
     if character == "\t":
@@ -71,5 +71,5 @@ def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
 
 def _escape(code: int) -> str:
     if 0xDC80 <= code <= 0xDCFF:
-        return f"\\x{code - 0xDC00:02x}"  # a byte that is no UTF-8, see text.decode
+        return f"\\x{code - 0xDC00:02x}"  # an undecodable byte, see text.decode
     return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"

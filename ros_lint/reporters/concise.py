@@ -1,4 +1,4 @@
-"""For people and their editors: one line a finding."""
+"""The concise format, for people and editors: one line for each finding."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The hash by which GitHub knows a finding again when lines above it come and go (reference, section 1.2).
+"""The hash by which GitHub recognizes a finding when lines above it change.
 
-It is a polynomial over the first hundred UTF-16 units from the start of the line on, blanks left out, to which a number
-is added that tells equal hashes of one file apart.
+It is the ``primaryLocationLineHash`` of the CodeQL action (src/fingerprints.ts): a polynomial over the first hundred
+UTF-16 units from the start of the line, blanks left out. A number is appended to distinguish equal hashes of one file.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ _END = b"\xff\xff"
 
 
 def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
-    """Return the hash of each of the lines, which count from 1. A line that the file does not have gets none."""
-    # As UTF-8, whatever encoding the file is in: so do all who compute it.
+    """Return the hash of each line by number, from 1. Lines that the file does not have are left out."""
+    # As UTF-8 in any case, like other tools that compute it.
     text = source.encode(source.text).decode("utf-8", "replace").removeprefix("\ufeff")
     text = re.sub(r"[ \t]+", "", re.sub(r"\r\n?", "\n", text))
     units = text.encode("utf-16-le", "surrogatepass") + _END

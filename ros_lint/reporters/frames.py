@@ -1,4 +1,4 @@
-"""Code frames: the lines that a finding is about, with what matters in them underlined."""
+"""Code frames: the lines of a finding, with its places underlined."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 _CUT = "..."
 _CONTEXT = 20
 _LONG = 8_000
-"""How many characters of a line are looked at; no screen shows so many."""
+"""Number of characters of a line that are considered; no screen shows so many."""
 """Columns to keep before a place in a line that is shortened."""
 _HEAD, _TAIL = 3, 2
-"""Lines to show of a place that goes over many."""
+"""Numbers of first and last lines to show of a long place."""
 _MIN_ROOM = 40
 
 
@@ -27,16 +27,16 @@ class Mark(NamedTuple):
 
     span: Span
     label: str
-    """What to say beside it, "" for nothing."""
+    """The text next to the underline, or ""."""
     color: str
     sign: str
-    """``^`` for the place of the finding, ``-`` for related ones."""
+    """``^`` for the place of the finding, ``-`` for related places."""
 
 
 def frame(marks: Sequence[Mark], texts: Texts, style: Style, most: int | None = None) -> tuple[list[str], str]:
-    """Return the rows of a frame over the files of the marks, and the gutter that rows below it start with.
+    """Return the rows of a frame over the files of the marks, and the gutter for further rows.
 
-    The lines of the first ``most`` files are shown; of the marks in others, only where they are and what is said of them.
+    The lines of the first ``most`` files are shown. Marks in other files are shown by place and label only.
     """
     files: dict[str, list[Mark]] = {}
     for mark in marks:
@@ -72,7 +72,7 @@ def _is_in(mark: Mark, source: Text) -> bool:
 
 
 class _Place(NamedTuple):
-    """A mark, cut to what its file really has. Columns are indices from 0, the end exclusive."""
+    """A mark, cut to the lines that its file has. Columns are indices from 0, the end is exclusive."""
 
     line: int
     start: int
@@ -95,7 +95,8 @@ class _File:
             if place.line == place.end_line:
                 self._flat.append(place)
             elif any(place.line <= other.end_line and other.line <= place.end_line for other in self._tall):
-                # There is one column of bars: of two places that overlap, the second is shown by its first line.
+                # There is one column of bars: of two overlapping places, only the first line of the second one is
+                # shown.
                 length = len(source.line(place.line))
                 self._flat.append(place._replace(end_line=place.line, end=max(length, place.start)))
             else:
@@ -121,7 +122,7 @@ class _File:
         return sorted(numbers)
 
     def _line(self, number: int) -> Iterator[str]:
-        """Yield the rows of a line: the source, and below it one row for each place that begins or ends there."""
+        """Yield the rows of a line: the source, and a row for each place that begins or ends in it."""
         line = self._source.line(number)
         shown, widths = cells(line[:_LONG], self._style)
         begins = [place for place in self._tall if place.line == number and not self._opens(place)]
@@ -132,7 +133,7 @@ class _File:
         if (len(line) <= _LONG and sum(widths) <= self._room) or not here:
             views = [(_view(shown, widths, 0, 0, self._room), here)]
         else:
-            # A line too long to be shown whole is shown once for each place in it.
+            # A line that is too long is shown once for each place in it.
             views = [(self._around(line, *_extent(place, number)), [place]) for place in here]
         for view, places in views:
             yield self._row(str(number), side, view.text)
@@ -140,7 +141,7 @@ class _File:
                 yield self._underline(place, number, view)
 
     def _around(self, line: str, start: int, end: int) -> _View:
-        """Return what can be seen of a line around a range, without looking at all of one that goes on for pages."""
+        """Return the part of a line around a range. Only a part of a very long line is considered."""
         skipped = max(start - _LONG // 2, 0) if len(line) > _LONG else 0
         shown, widths = cells(line[skipped : skipped + _LONG], self._style)
         view = _view(shown, widths, start - skipped, min(end - skipped, len(widths)), self._room)
@@ -159,7 +160,7 @@ class _File:
         return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
 
     def _side(self, number: int) -> str:
-        """Return the bar beside a line, along a place of several lines."""
+        """Return the bar next to a line within a place of several lines."""
         for place in self._tall:
             if place.line < number <= place.end_line:
                 return self._paint(place, "|") + " "
@@ -168,7 +169,7 @@ class _File:
         return "  " if self._tall else ""
 
     def _opens(self, place: _Place) -> bool:
-        """Whether nothing stands before a place on its first line."""
+        """Return whether a place is preceded only by blanks on its first line."""
         return not self._source.line(place.line)[: place.start].strip()
 
     def _row(self, number: str, side: str, text: str) -> str:
@@ -179,20 +180,20 @@ class _File:
 
 
 class _View(NamedTuple):
-    """What can be seen of a line."""
+    """The visible part of a line."""
 
     text: str
     columns: tuple[int, ...]
-    """Of each index of the line, and of its end, in the text shown."""
+    """The column in the shown text for each index of the line and for its end."""
     skipped: int = 0
-    """How many characters before them were not looked at."""
+    """Number of characters before them that were not considered."""
 
     def column(self, index: int) -> int:
         return self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
 
 
 def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, room: int) -> _View:
-    """Return the part of a line around the range from ``start`` to ``end`` that has room."""
+    """Return the part of a line around the range ``start`` to ``end`` that fits into ``room`` columns."""
     at = [0]
     for width in widths:
         at.append(at[-1] + width)
@@ -212,7 +213,7 @@ def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, roo
 
 
 def _extent(place: _Place, number: int) -> tuple[int, int]:
-    """Return what to underline on the first or last line of a place, as a range of indices."""
+    """Return the range of indices to underline on the first or last line of a place."""
     if place.line == place.end_line:
         return place.start, place.end
     return (place.start, place.start + 1) if number == place.line else (max(place.end - 1, 0), place.end)

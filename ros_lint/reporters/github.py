@@ -1,4 +1,4 @@
-"""For GitHub Actions: an annotation for each finding, as the runner reads them from the log (reference, section 3)."""
+"""The github format: a workflow command of GitHub Actions for each finding, shown as an annotation."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from ros_lint.reporters import Texts
 
 _SHOWN = 10
-"""Annotations of one level that GitHub shows of a step; the others stand in the log."""
+"""Number of annotations of one level that GitHub shows for a step; others are in the log only."""
 _RELATED = 10
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
 def render(report: Report, texts: Texts, style: Style) -> str:
-    """Return one workflow command a line, the worst findings first, and the summary for who reads the log."""
+    """Return one workflow command for each finding, the worst first, and the summary."""
     texts = cache(texts)
     ranked = sorted(report.issues, key=lambda issue: -issue.severity)
     problems = list(_problems(report))
@@ -34,7 +34,7 @@ def render(report: Report, texts: Texts, style: Style) -> str:
 
 
 def command(name: str, properties: dict[str, str | int], message: str) -> str:
-    """Return a workflow command, escaped as the runner wants it."""
+    """Return a workflow command with the escapes of the GitHub runner (actions/toolkit, command.ts)."""
     pairs = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items() if value != "")
     return f"::{name}{' ' if pairs else ''}{pairs}::{_data(message)}"
 
@@ -64,13 +64,13 @@ def _place(span: Span, texts: Texts) -> dict[str, str | int]:
     path = safe(span.path, Style())
     if source is None or span.line > source.line_count:
         return {"file": path, "line": span.line}
-    # Columns count within one line only, so a place of several lines is annotated by what it has of its first.
+    # Columns are only valid within one line, so a place of several lines is annotated on its first line.
     end = span.end_column if span.end_line == span.line else max(len(source.line(span.line)) + 1, span.column)
     return {"file": path, "line": span.line, "endLine": span.line, "col": span.column, "endColumn": end}
 
 
 def _problems(report: Report) -> Iterator[str]:
-    """Yield what kept the tool from doing its job."""
+    """Yield a command for each problem that made the run incomplete."""
     if not report.packages:
         yield command("error", {"title": "ros-lint"}, "no package found, so nothing was checked")
     for crash in report.crashes:

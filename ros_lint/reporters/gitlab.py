@@ -1,4 +1,4 @@
-"""For GitLab: a report of code quality, which merge requests show (docs.gitlab.com, Code Quality report format)."""
+"""The gitlab format: a Code Quality report for merge requests (docs.gitlab.com)."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _LEVELS = {Severity.ERROR: "critical", Severity.WARNING: "major", Severity.INFO:
 
 
 def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)
-    """Return an entry for each finding, and for what kept the tool from doing its job."""
+    """Return an entry for each finding, and for each problem that made the run incomplete."""
     return encode([*_findings(report), *_problems(report)], 1)
 
 
 def _findings(report: Report) -> Iterator[dict[str, Any]]:
-    # GitLab makes one of entries with the same fingerprint, so the second of its kind in a file is told by its number.
+    # GitLab merges entries with the same fingerprint, so repeated ones of a file are numbered.
     seen: Counter[str] = Counter()
     for issue in report.issues:
         finding = issue.finding
@@ -48,7 +48,7 @@ def _problems(report: Report) -> Iterator[dict[str, Any]]:
 
 
 _NOWHERE = "package.xml"
-"""Every entry needs a file."""
+"""The file of entries without a place, because GitLab requires one."""
 
 
 def _entry(same: str, name: str, description: str, severity: str, path: str, line: int) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""For programs: everything the run found out, in the shape of docs/output.md and report.schema.json."""
+"""The json format, for programs: the whole report, see docs/output.md and report.schema.json."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ros_lint.reporters.ansi import Style
 
 SCHEMA_VERSION = 1
-"""Goes up when a key changes its meaning or goes away. New keys may come without notice."""
+"""Increased when a key changes its meaning or is removed. New keys may be added at any time."""
 
 
 def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)

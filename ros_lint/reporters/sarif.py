@@ -1,4 +1,4 @@
-"""For code review: SARIF 2.1.0, as GitHub takes it (reference, section 1).
+"""The sarif format, for code review: SARIF 2.1.0 within the limits of GitHub code scanning.
 
 The same findings give the same bytes: no time, no random identifier, no absolute path. Suppressed findings are left
 out, because GitHub shows them as open.
@@ -30,12 +30,12 @@ Object = dict[str, Any]
 Group = tuple["Issue", ...]
 
 _RESULTS = 25_000
-"""GitHub refuses a run with more."""
+"""Number of results in a run from which GitHub refuses it."""
 _RELATED = 100
-"""GitHub shows as many locations of a result."""
+"""Number of locations of a result that GitHub shows."""
 _LINKS = 10
 _CONTEXT = 1000
-"""Characters around a place to quote."""
+"""Number of characters to quote around a place."""
 _ROOT = "%SRCROOT%"
 
 
@@ -67,13 +67,13 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
         "automationDetails": {"id": f"ros-lint/{report.workspace}/" if report.workspace else "ros-lint/"},
         "columnKind": "unicodeCodePoints",
         "originalUriBaseIds": {_ROOT: {"description": {"text": "The root of the checkout that was checked."}}},
-        # Which repository that is, is not looked up; paths are relative to its root all the same.
+        # The repository is not looked up, but paths are relative to its root.
         "versionControlProvenance": [
             {"repositoryUri": "sarif:/runs/0/originalUriBaseIds/%25SRCROOT%25", "mappedTo": {"uriBaseId": _ROOT}}
         ],
         "invocations": [
             {
-                # GitHub takes no run that says it failed: what went wrong stands in the notes.
+                # GitHub rejects a run that is marked as failed, so errors are only in the notifications.
                 "executionSuccessful": True,
                 "toolExecutionNotifications": [*_notes(report, codes), *_cut(groups, kept)],
             }
@@ -91,7 +91,7 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
 
 
 def _groups(issues: Sequence[Issue]) -> list[Group]:
-    """Put together what one rule says about one line: GitHub would take it for one alert, and show but one message."""
+    """Group the findings of one rule in one line, because GitHub shows them as one alert."""
     groups: dict[tuple[str, str, int], Group] = {}
     for issue in issues:
         span = issue.finding.span
@@ -154,12 +154,12 @@ def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tupl
     if finding.steps:
         result["codeFlows"] = [{"threadFlows": [{"locations": list(_steps(finding))}]}]
     if fixes := dict.fromkeys(issue.finding.fix for issue in group if issue.finding.fix):
-        result["fixes"] = [_fix(fix) for fix in fixes]  # each once: the schema asks for it, and one edit may mend several
+        result["fixes"] = [_fix(fix) for fix in fixes]  # each once: the schema requires it, and one edit may fix several findings
     return result
 
 
 def _message(message: str, related: Sequence[tuple[str, Span]], others: int) -> str:
-    """Return the message with a link to each related place: without one, GitHub does not show it."""
+    """Return the message with a link to each related place, because GitHub does not show other ones."""
     links = [f"[{_link(text)}]({number})" for number, (text, _) in enumerate(related[:_LINKS], 1)]
     parts = [_escape(sentence(message))]
     if links[:others]:
@@ -176,7 +176,7 @@ def _escape(text: str) -> str:
 
 
 def _link(text: str) -> str:
-    # A link ends at the first closing bracket, escaped or not, for more than one reader of SARIF.
+    # Several SARIF viewers end a link at the first closing bracket, escaped or not.
     return text.translate({ord("["): "(", ord("]"): ")", ord("\\"): "/"})
 
 
@@ -198,7 +198,7 @@ def _location(span: Span) -> Object:
 
 
 def _uri(path: str) -> str:
-    """Return the reference that a relative path is in a URI."""
+    """Return a relative path as a URI reference."""
     return quote(to_bytes(path), safe="/!$&'()*+,;=@") or "."
 
 
@@ -212,7 +212,7 @@ def _region(span: Span) -> Object:
 
 
 def _primary(span: Span, source: Text | None) -> Object:
-    """Return the place of a result: of its first line only, for GitHub annotates a change that has all lines of it."""
+    """Return the place of a result, cut to its first line: GitHub skips places that are partly unchanged."""
     if source is None or span.line > source.line_count:
         return _location(span.start())
     line = source.line(span.line)
@@ -225,7 +225,7 @@ def _primary(span: Span, source: Text | None) -> Object:
 
 
 def _context(span: Span, source: Text) -> Object:
-    """Return the region of the lines around a place in one line, or of a part of the line when they are long."""
+    """Return the region of the lines around a place in one line, or of a part of a long line."""
     first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
     around = Span(span.path, first, 1, last, len(source.line(last)) + 1)
     text = source.slice(around)
@@ -234,7 +234,7 @@ def _context(span: Span, source: Text) -> Object:
         around = Span(span.path, span.line, max(span.column - _CONTEXT // 4, 1), span.line, end)
         text = source.slice(around)
     if around == span:
-        # All there is in the file. A context has to be larger: the end of the file counts as a character.
+        # It is the whole file. A context has to be larger, and the end of the file counts as a character.
         around = around._replace(end_column=around.end_column + 1)
     return {**_region(around), "snippet": {"text": text}}
 
@@ -259,7 +259,7 @@ def _fix(fix: Fix) -> Object:
 
 
 def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
-    """Yield what the results do not tell."""
+    """Yield the notifications: what the results do not contain."""
     if not report.packages:
         yield _note("NoPackage", "error", "no package was found, so nothing was checked")
     for entry in report.not_checked:
@@ -287,7 +287,7 @@ def _note(name: str, level: str, message: str) -> Object:
 
 
 def _semantic(version: str) -> str:
-    """Return a version of Python's as one of Semantic Versioning: 1.2rc1 becomes 1.2.0-rc1."""
+    """Return a Python version as a Semantic Version: 1.2rc1 becomes 1.2.0-rc1."""
     numbers = re.match(r"\d+(?:\.\d+){0,2}", version)
     core = (numbers[0] if numbers else "0").split(".")
     rest = version[numbers.end() if numbers else 0 :].strip(".+-")

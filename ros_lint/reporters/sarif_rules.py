@@ -1,4 +1,4 @@
-"""What a SARIF file says about rules, and about the kinds of notes that a run can leave."""
+"""The descriptions of rules and of notifications in a SARIF file."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 _PROBLEMS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "recommendation"}
 _TAGS = {"1": "workspace", "2": "dependencies", "3": "build", "4": "install", "5": "launch", "9": "ros-lint"}
 _LONGEST = 1024
-"""Of a description that GitHub takes."""
+"""Largest length of a description that GitHub accepts."""
 
 
 def descriptor(rule: Rule, index: int) -> dict[str, Any]:
-    """Return the papers of a rule, which is the ``index``-th of its file."""
+    """Return the SARIF descriptor of a rule, which is the ``index``-th in its file."""
     summary = capital(rule.summary)
     markdown = rule.doc.strip()
     return {
@@ -27,11 +27,11 @@ def descriptor(rule: Rule, index: int) -> dict[str, Any]:
         "shortDescription": {"text": summary[:_LONGEST]},
         "fullDescription": {"text": _found(markdown) or summary[:_LONGEST]},
         "help": {"text": _plain(markdown) or summary, "markdown": markdown or summary},
-        # The help stands in this very file, wherever it is read.
+        # The help is part of this file and may be read anywhere.
         "helpUri": f"sarif:/runs/0/tool/driver/rules/{index}/help",
         "defaultConfiguration": {"level": LEVELS[rule.severity], "enabled": rule.default},
         "properties": {
-            # Rules that run by default are held to being right 99 times in 100, see Confidence.
+            # Rules that run by default are right at least 99 times in 100, see Confidence.
             "precision": "very-high" if rule.default else "medium",
             "problem.severity": _PROBLEMS[rule.severity],
             "tags": ["ros2", *filter(None, (_TAGS.get(rule.code[3:4]),))],
@@ -40,14 +40,14 @@ def descriptor(rule: Rule, index: int) -> dict[str, Any]:
 
 
 def sentence(text: str) -> str:
-    """Return a message of the house, which has no full stop, as a sentence. Names in it stay as they are."""
+    """Return a message, which has no full stop, as a sentence. Names in it are unchanged."""
     if text.endswith("?"):
         return f"{text} See the help of the rule."
     return text if text.endswith(".") else f"{text}."
 
 
 def capital(text: str) -> str:
-    """Return a text that begins with no name as a sentence."""
+    """Return a text that does not begin with a name as a sentence."""
     return sentence(f"{text[:1].upper()}{text[1:]}")
 
 
@@ -56,7 +56,7 @@ def _plain(markdown: str) -> str:
 
 
 def _found(markdown: str) -> str:
-    """Return the first paragraph of the documentation, which says what the rule finds, on one line."""
+    """Return the first paragraph of the documentation, the section "What it finds", on one line."""
     paragraphs = [part for part in re.split(r"\n\s*\n", markdown) if part.strip() and not part.lstrip().startswith("#")]
     text = " ".join(paragraphs[0].replace("`", "'").split()) if paragraphs else ""
     return sentence(text[: _LONGEST - 1].rstrip(":,;")) if text else ""
@@ -104,9 +104,9 @@ TOPICS = [
         "Nothing was checked. Pass the path of a workspace or package: a folder with a package.xml in it or below it.",
     ),
 ]
-"""Kinds of notes."""
+"""The kinds of notifications."""
 
 
 def topic(name: str) -> dict[str, Any]:
-    """Return the reference to a kind of note. Raises StopIteration for a name that none has."""
+    """Return the reference to a kind of notification. Raises StopIteration for an unknown name."""
     return next({"id": known["id"], "index": index} for index, known in enumerate(TOPICS) if known["name"] == name)

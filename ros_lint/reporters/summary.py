@@ -1,4 +1,4 @@
-"""The last lines of what people read: how much was found, what is not shown, and what was not seen."""
+"""The summary at the end of text output: counts, hidden findings and what was not analysed."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ if TYPE_CHECKING:
     from ros_lint.workspace.target import UnreadFile
 
 _LISTED = 10
-"""Entries of a list to show; the json format has all."""
+"""Number of entries of a list to show; the json format has all."""
 
 _NAMED = 5
-"""Packages to name in a sentence, before the others are only counted."""
+"""Number of packages to name in a sentence; the others are only counted."""
 
 _FEW = 10
-"""Findings that need no overview by rules."""
+"""Number of findings that need no table of rules."""
 
 
 def summary(report: Report, style: Style) -> str:
-    """Return the summary, a line or more."""
+    """Return the summary: one or more lines."""
     return "".join(f"{line}\n" for line in _lines(report, style))
 
 
 def count(number: int, noun: str) -> str:
-    """Return a number with a noun that takes an s: "1 error", "2 errors"."""
+    """Return a number with its noun in singular or plural: "1 error", "2 errors"."""
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
@@ -40,12 +40,12 @@ def and_list(words: Sequence[str]) -> str:
 
 
 def some(packages: Sequence[str]) -> str:
-    """Return the names of packages, or how many there are."""
+    """Return the names of packages, shortened to a number if there are many."""
     return and_list(packages) if len(packages) <= _NAMED else count(len(packages), "package")
 
 
 def blind_spots(report: Report) -> Iterator[str]:
-    """Yield, as sentences without a full stop, what the findings shown do not tell."""
+    """Yield sentences without a full stop about everything that was not analysed or not shown."""
     if report.hidden:
         yield f"Hidden: {'; '.join(map(hidden_findings, report.hidden))}"
     if report.unseen:
@@ -58,12 +58,12 @@ def blind_spots(report: Report) -> Iterator[str]:
 
 
 def hidden_findings(hidden: HiddenCount) -> str:
-    """Return how many findings are hidden, and why."""
+    """Return the number of hidden findings, with the reason."""
     return f"{count(hidden.count, 'finding')} {hidden.reason}"
 
 
 def told(entry: UnreadFile) -> str:
-    """Return what was not checked, where, and why."""
+    """Return the place that was not checked, with the reason."""
     span = entry.span
     if span is None or span.path == entry.what:
         return f"{entry.what}: {entry.reason}"
@@ -71,7 +71,7 @@ def told(entry: UnreadFile) -> str:
 
 
 def crashed(crash: Crash) -> str:
-    """Return which rule failed, for what, and how."""
+    """Return a sentence about a crash: the rule, the package and the error."""
     return f"{crash.rule}{f' for {crash.package}' if crash.package else ''}: {crash.error}"
 
 
@@ -97,13 +97,13 @@ _TITLES = {Severity.ERROR: "Errors", Severity.WARNING: "Warnings", Severity.INFO
 
 
 def _by_rule(report: Report, style: Style) -> Iterator[str]:
-    """Yield which rules found how much, those with most first, where that is more than can be seen at a glance."""
+    """Yield a table of rules by number of findings, if there are many findings."""
     if len(report.issues) <= _FEW:
         return
     for severity, title in _TITLES.items():
-        found = Counter(issue.rule.name for issue in report.issues if issue.severity is severity)
-        if found:
-            counted = ", ".join(f"{number} {name}" for name, number in found.most_common())
+        numbers = Counter(issue.rule.name for issue in report.issues if issue.severity is severity)
+        if numbers:
+            counted = ", ".join(f"{number} {name}" for name, number in numbers.most_common())
             yield f"{paint(style, str(severity), title)}: {counted}."
 
 

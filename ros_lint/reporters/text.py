@@ -1,4 +1,4 @@
-"""For people: findings by package, with the code they are about, and what the run did not see."""
+"""The text format, for people: findings by package with code frames, and what was not analysed."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 _PLAIN = Style()
 _RELATED = 8
-"""Related places to show; the json format has all."""
+"""Number of related places to show; the json format has all."""
 _FILES = 2
-"""Files to show lines of. The third place where the same is used tells nothing new; the steps of a cycle do."""
+"""Number of files to show lines of: a third use adds nothing. All steps of a cycle are shown."""
 
 
 def render(report: Report, texts: Texts, style: Style) -> str:
@@ -38,7 +38,7 @@ def render(report: Report, texts: Texts, style: Style) -> str:
 
 
 def render_issues(issues: Iterable[Issue], texts: Texts, style: Style = _PLAIN) -> str:
-    """Return issues as text, an empty line between two of them."""
+    """Return issues as text, separated by empty lines."""
     return "\n".join("".join(f"{row}\n" for row in _issue(issue, texts, style)) for issue in issues)
 
 
@@ -71,7 +71,7 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
 
 
 def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]:
-    """Yield what a fix would change, as a diff beside the gutter of a frame."""
+    """Yield the changes of a fix as a diff, next to the gutter of a frame."""
     from ros_lint.base.diff import unified  # noqa: PLC0415
     from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (diffs are shown on demand)
 
@@ -82,7 +82,7 @@ def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]
     bar = paint(style, "gutter", f"{gutter} |")
     try:
         texts_after = apply([fix], known.__getitem__)
-    except EditError:  # the file changes while it is looked at
+    except EditError:  # the file has changed in the meantime
         return
     for path, changed in texts_after.items():
         yield f"{gutter}{paint(style, 'gutter', ':::')} {safe(path, style)}"

@@ -29,7 +29,7 @@ Said = Mapping[str, Any]
 
 
 def run(said: Said) -> int:
-    """Check what the options name, print the findings, return the exit code."""
+    """Check the requested workspace, print the findings, return the exit code."""
     if said.get("version"):
         print(f"ros-lint {__version__}")
         return 0
@@ -57,7 +57,7 @@ def run(said: Said) -> int:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
     _warn((*report.warnings, *_alone(asked)))
-    if asked.settings["diff"]:  # standard output holds a patch and nothing else
+    if asked.settings["diff"]:  # standard output is the patch and nothing else
         return max(code, exit_code(report, asked.settings["fail-on"]))
     return max(code, _print(report, asked))
 
@@ -68,7 +68,10 @@ def _warn(warnings: Iterable[str]) -> None:
 
 
 def _known(settings: Settings) -> Baseline | None:
-    """Return what the file of known findings says, None without one. Raises BaselineError, and UsageError for nonsense."""
+    """Return the baseline, or None if there is none.
+
+    Raises BaselineError, and UsageError for conflicting options.
+    """
     path, write = settings["baseline"], settings["write-baseline"]
     if write and not path:
         raise opening.UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
@@ -82,7 +85,7 @@ def _known(settings: Settings) -> Baseline | None:
 
 
 def _keep(report: Report, asked: Request) -> int:
-    """Write what was found to the file of known findings, unless it is not all that there is. Raises BaselineError."""
+    """Write the findings to the baseline, unless the report is incomplete. Raises BaselineError."""
     from ros_lint.engine import baseline  # noqa: PLC0415
 
     path = asked.settings["baseline"]
@@ -97,13 +100,13 @@ def _keep(report: Report, asked: Request) -> int:
 
 
 def _folders(asked: Request, path: str) -> list[str]:
-    """Return what was asked for, relative to the folder of a file."""
+    """Return the requested paths, relative to the folder of a file."""
     folder = os.path.dirname(os.path.realpath(path))
     return [os.path.relpath(os.path.join(asked.base, root), folder).replace(os.sep, "/") for root in asked.roots]
 
 
 def _alone(asked: Request) -> Iterator[str]:
-    """Yield what to say of a single package of a workspace or repository: the others are not known then."""
+    """Yield a warning if a single package of a workspace is checked: its siblings are unknown then."""
     root = os.path.join(asked.base, asked.roots[0]) if asked.roots[0] else asked.base
     manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
     if len(asked.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
@@ -117,7 +120,7 @@ def _alone(asked: Request) -> Iterator[str]:
 
 
 def _checked(asked: Request, progress: Progress) -> Report:
-    """Return the report of a run, or the one of an earlier run if nothing that it depends on has changed."""
+    """Return the report of a run, or the cached one if nothing that it depends on has changed."""
     reports = opening.reports(asked)
     disks = asked.disk, Machine()
     recorded = [RecordedTree(disk) for disk in disks]
@@ -151,7 +154,7 @@ def _selection(settings: Settings) -> Selection:
 
 
 def exit_code(report: Report, fail_on: str) -> int:
-    """Return 2 when the tool could not do its job, 1 for findings at or above ``fail_on``, else 0."""
+    """Return 2 if the run was incomplete, 1 for findings at or above ``fail_on``, else 0."""
     if not report.packages or report.crashes:
         return 2
     if fail_on == "never":
@@ -194,7 +197,7 @@ def _style(settings: Settings) -> Style:
 
 
 def _wants_color(settings: Settings) -> bool:
-    """Return whether to colour: the flag, then NO_COLOR, then FORCE_COLOR, then whether a terminal reads along."""
+    """Return whether to use colours: by the flag, NO_COLOR, FORCE_COLOR, or for a terminal, in this order."""
     if settings["color"] != "auto":
         return bool(settings["color"] == "always")
     if os.environ.get("NO_COLOR"):

@@ -1,4 +1,4 @@
-"""``ros-lint explain-package P``: what a package declares, uses, provides and installs, with the line that causes each."""
+"""``ros-lint explain-package P``: the names that a package declares, uses, provides and installs."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class _Row(NamedTuple):
 
 
 def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code.
+    """Return standard output, standard error and the exit code.
 
-    ``form`` is ``text`` or ``json``. The code is 2 when the workspace has no package of that name, otherwise 0.
+    ``form`` is ``text`` or ``json``. The code is 2 if the workspace has no package of that name, otherwise 0.
     """
     packages = workspace.called(name)
     if not packages:
@@ -55,7 +55,7 @@ def _text(package: Package) -> str:
 
 
 def _sections(package: Package, most: int) -> Iterator[tuple[str, list[_Row]]]:
-    """Yield the parts, with at most ``most`` uses of each package."""
+    """Yield the sections, with at most ``most`` uses of each package."""
     yield "declares", list(_declares(package))
     yield "uses", list(_uses(package, most))
     yield "provides", list(_provides(package))
@@ -72,7 +72,7 @@ def _declares(package: Package) -> Iterator[_Row]:
 
 
 def _uses(package: Package, most: int) -> Iterator[_Row]:
-    """Yield the first places of each package used, and how many more there are."""
+    """Yield the first uses of each package, and the number of further ones."""
     places: dict[str, list[_Row]] = {}
     for use in package.uses:
         note = f"{use.what} ({_roles(use.role)}{', optional' if use.optional else ''})"

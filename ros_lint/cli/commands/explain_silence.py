@@ -1,4 +1,4 @@
-"""``ros-lint why A B --explain-silence``: why the rules about dependencies say nothing of A and B."""
+"""``ros-lint why A B --explain-silence``: why the dependency rules report nothing about A and B."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code: 2 when there is no such package."""
+    """Return standard output, standard error and the exit code: 2 if there is no such package."""
     packages = workspace.called(name)
     if not packages:
         return "", f"ros-lint: the workspace has no package '{name}'\n", 2
@@ -20,7 +20,7 @@ def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
 
 
 def _told(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
-    """Return how sure the rules are that say something of a dependency, by their names."""
+    """Return the names of the rules that report a dependency, with their confidence."""
     found: dict[str, Confidence] = {}
     for rule in registry.load():
         if rule.name in RULES and rule.package is not None:

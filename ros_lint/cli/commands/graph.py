@@ -2,11 +2,12 @@
 
 The JSON has ``schema_version`` 1 and, in the order of names:
 
-- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it; and
-  with metrics ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists ways round.
-- ``edges``: ``from`` needs ``to``; ``test_only``; ``certain``, false when it hangs on an unknown condition; ``reasons``, each
-  with ``tag``, ``categories`` (build, run, test, group), ``path``, ``line`` and ``column``.
-- ``cycles``: ``packages`` of the knot, a shortest ``cycle``, the ``cut`` as pairs, and ``certain``.
+- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it;
+  and with metrics ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists longer
+  paths.
+- ``edges``: ``from`` depends on ``to``; ``test_only``; ``certain``, false if it depends on an unknown condition;
+  ``reasons``, each with ``tag``, ``categories`` (build, run, test, group), ``path``, ``line`` and ``column``.
+- ``cycles``: the ``packages``, a shortest ``cycle``, the ``cut`` as pairs, and ``certain``.
 """
 
 from __future__ import annotations
@@ -30,9 +31,9 @@ SCHEMA_VERSION = 1
 
 
 def run(workspace: Workspace, form: Format = "dot", *, metrics: bool = False) -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code, which is 0.
+    """Return standard output, standard error and the exit code, which is 0.
 
-    With metrics, JSON holds them beside the graph; the other formats give way to a table.
+    With metrics, JSON has them next to the graph; in the other formats a table replaces the graph.
     """
     graph = dependency_graph(workspace)
     figures = _measure(graph) if metrics else {}
@@ -63,7 +64,7 @@ def _dot(graph: Graph) -> Iterator[str]:
 
 
 def _quoted(name: str) -> str:
-    # DOT has no escape for a backslash, which must not stand before a quote, but reads the entities of HTML.
+    # DOT cannot escape a backslash, which must not precede a quote, but supports HTML entities.
     text = name.replace("&", "&amp;").replace("\\", "&#92;").replace('"', '\\"')
     return f'"{text}"'
 
@@ -132,11 +133,11 @@ def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:
 
 
 def is_test_only(graph: Graph, edge: Edge) -> bool:
-    """Return whether only tests need what an edge leads to."""
+    """Return whether an edge is only needed for tests."""
     return all(reason.categories == ("test",) for reason in graph.reasons(edge))
 
 
 def _knotted(graph: Graph) -> frozenset[Edge]:
-    """Return the edges that lie in a knot."""
+    """Return the edges that lie in a cycle."""
     member = {name: number for number, names in enumerate(graph.cycles) for name in names}
     return frozenset(edge for edge in graph.edges if edge[0] in member and member[edge[0]] == member.get(edge[1]))

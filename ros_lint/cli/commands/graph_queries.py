@@ -1,4 +1,4 @@
-"""``order``, ``why``, ``graph``, ``overlay`` and ``explain-package``: questions to the model."""
+"""The commands ``order``, ``why``, ``graph``, ``overlay`` and ``explain-package``."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _COMMANDS: Mapping[str, Callable[[Workspace, Said], CommandOutput]] = {
 }
 
 _WITH_SOURCES = ("explain-package", "why")
-"""Questions about what the sources say; manifests answer the others."""
+"""Commands that need the sources; the others need only the manifests."""
 
 
 def run(command: str, said: Said) -> int:
-    """Answer one of the questions, print the answer, return the exit code."""
+    """Run one of the commands, print the answer, return the exit code."""
 
     def answer(opened: Session, workspace: Workspace) -> CommandOutput:
         out, err, code = _COMMANDS[command](workspace, said)

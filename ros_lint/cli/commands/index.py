@@ -1,4 +1,4 @@
-"""``ros-lint index``: rebuild what is known of the released world, or make the same of an installed prefix."""
+"""``ros-lint index``: rebuild the data of the released world, or create data of an installed prefix."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Refreshed(NamedTuple):
-    """A data file that was written, and what became of its lines."""
+    """A data file that was written, with the numbers of changed lines."""
 
     path: str
     lines: int
@@ -36,7 +36,7 @@ class Refreshed(NamedTuple):
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Run the command as the command line gives it. Returns the exit code: 2 when something could not be read."""
+    """Run the command with its options. Returns the exit code: 2 if something could not be read."""
     try:
         if options["action"] == "refresh":
             to = options["to"] or user_directory(os.environ)
@@ -56,12 +56,14 @@ def run(options: Mapping[str, Any]) -> int:
 def refresh(
     source: str, distros: Sequence[str], to: str, rosdep_files: Sequence[str] = (), date: str = ""
 ) -> tuple[Refreshed, ...]:
-    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` when rule files are given; return what has changed.
+    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` if rule files are given.
 
-    ``source`` is upstream's ``index-v4.yaml``, and like ``rosdep_files`` a path or a URL; no distribution named means all
-    ROS 2 distributions that are not at their end of life; ``to`` is a folder; ``date`` is that of the data, today by
-    default. Nothing is written before everything has been read. Raises KnowledgeError when something cannot be read,
-    and OSError when it cannot be written.
+    Return the changes.
+
+    ``source`` is the ``index-v4.yaml`` of rosdistro, a path or a URL as are ``rosdep_files``. Without ``distros`` all
+    active ROS 2 distributions are written. ``to`` is a folder. ``date`` is the date of the data, by default today.
+    Everything is read before anything is written. Raises KnowledgeError if something cannot be read, and OSError if it
+    cannot be written.
     """
     date = date or _today()
     found = upstream.sources(source)
@@ -78,7 +80,7 @@ def refresh(
 
 
 def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str]:
-    """Return the ``.idx`` and ``.prov`` files of what is installed. The first of several prefixes with a package wins.
+    """Return the ``.idx`` and ``.prov`` files of installed prefixes. The first prefix with a package wins.
 
     Raises underlay.UnderlayError for a folder that is no prefix.
     """
@@ -97,14 +99,14 @@ def _provided(installed: Installed) -> ReleasedContents:
         known = installed.known(facet)
         names = (*known.names, *(f"{name}?" for name in known.maybe))
         if facet == "modules" and installed.known("interfaces").names:
-            # The module of an interface package is made from its interfaces, and goes without saying.
+            # The module of an interface package is implied by its interfaces.
             names = tuple(name for name in names if name != installed.name)
         if facet == "modules":
-            # What find_packages() takes along of tests is nobody's to import; the shipped data do not name it either.
+            # Test modules that find_packages() includes are not for import; the shipped data do not have them either.
             names = tuple(name for name in names if name not in TEST_FOLDERS)
         if facet == "plugins":
-            names = tuple(name.replace(" ", "") for name in names)  # as the shipped data write them
-        # Other names with a space could not be told apart in a line.
+            names = tuple(name.replace(" ", "") for name in names)  # the notation of the shipped data
+        # Other names with a space would be ambiguous in a line.
         fields[letter] = tuple(sorted(name for name in names if " " not in name))
     return ReleasedContents(installed.name, "=", fields)
 
@@ -119,11 +121,11 @@ def _put(distro: str, to: str, idx: str, prov: str) -> None:
 
 
 def _replace(folder: str, name: str, text: str) -> Refreshed:
-    """Write a data file in one step, so that no reader ever sees half of it."""
+    """Write a data file atomically, so that no reader sees half of it."""
     try:
         before = _by_name(Store((folder,)).lines(name)[1])
     except KnowledgeError:
-        before = {}  # what is damaged is about to be mended
+        before = {}  # a damaged file is about to be replaced
     after = _by_name(text.split("\n")[1:-1])
     path = os.path.join(folder, name)
     handle, temporary = tempfile.mkstemp(dir=folder, prefix=f".{name}.")

@@ -1,4 +1,4 @@
-"""``rules``, ``rule``, ``schema`` and ``completion``: what the tool says about itself."""
+"""The commands ``rules``, ``rule``, ``schema`` and ``completion``: information about ros-lint."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.engine import registry
 
 
 def run(command: str, said: Mapping[str, Any]) -> int:
-    """Print what was asked for and return the exit code."""
+    """Print the requested information and return the exit code."""
     match command:
         case "rules":
             rules = registry.load()

@@ -1,4 +1,4 @@
-"""``ros-lint order``: the names of the packages, one a line, in an order in which they can be built."""
+"""``ros-lint order``: the names of the packages in build order, one on each line."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 def run(workspace: Workspace) -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code.
+    """Return standard output, standard error and the exit code.
 
-    The code is 1 when colcon would refuse the workspace: for a cycle, or for a name that several packages have. What
-    can be ordered is printed all the same.
+    The code is 1 if colcon would refuse the workspace: for a cycle, or for duplicate package names. The packages that
+    can be ordered are printed anyway.
     """
     graph = dependency_graph(workspace)
     said = [*_cycles(graph), *_left_out(graph), *_twice(graph)]

@@ -1,4 +1,4 @@
-"""``ros-lint overlay``: which package wins where several layers have one of the name (reference, section B4)."""
+"""``ros-lint overlay``: which layer provides a package that several layers have."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ class _Place(NamedTuple):
     version: str
     layer: str
     colcon_name: str = ""
-    """By which colcon orders it, for a package of the workspace."""
+    """The name by which colcon orders it, for a package of the workspace."""
 
 
 def run(workspace: Workspace) -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code, which is 0.
+    """Return standard output, standard error and the exit code, which is 0.
 
-    The topmost layer wins: the workspace, then the underlays in their order, then what the distribution has released.
-    Raises KnowledgeError.
+    The topmost layer wins: the workspace, then the underlays in their order, then the released packages. Raises
+    KnowledgeError.
     """
     lines: list[str] = []
     names = {*workspace.by_name, *(name for underlay in workspace.world.underlays for name in underlay.packages)}

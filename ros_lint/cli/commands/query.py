@@ -1,4 +1,4 @@
-"""Commands that answer a question about a workspace: open it, load it, print the answer."""
+"""Shared code of the commands that answer a question: open and load a workspace, print the answer."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.model import Workspace
 
 CommandOutput = tuple[str, str, int]
-"""What goes to standard output, what to standard error, and the exit code."""
+"""Standard output, standard error and the exit code."""
 
 
 def run_query(said: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
-    """Print what is answered about the workspace that the options name. Returns the exit code, 2 when there is no answer.
+    """Print the answer about the requested workspace. Returns the exit code, 2 if there is no answer.
 
     Without ``sources`` only manifests are read.
     """
@@ -42,21 +42,25 @@ def run_query(said: Mapping[str, Any], answer: Callable[[Session, Workspace], Co
 
 
 def current_workspace() -> str:
-    """Return the workspace that the current folder lies in, if it is in a package; else the current folder."""
+    """Return the workspace around the current folder if that is in a package, else the current folder."""
     in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in upwards(os.path.realpath(os.curdir)))
     return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir
 
 
 def enclosing_workspace(file: str) -> str:
-    """Return the workspace that a file lies in.
+    """Return the workspace that contains a file.
 
-    That is the folder whose ``src`` holds the file's package, if the repository goes so far up or colcon has built there;
-    else the repository; else the current folder, if the file is below it; else the package, or the folder of the file.
+    The candidates, in order:
+    - the folder whose ``src`` contains the file's package, if the repository reaches so far up or colcon has built
+      there,
+    - the repository,
+    - the current folder, if the file is below it,
+    - the package, or else the folder of the file.
     """
     folders = list(upwards(os.path.dirname(os.path.realpath(file))))
     repository = repository_of(folders[0])
     inside = folders[: folders.index(repository) + 1] if repository else folders
-    # The outermost: colcon looks into no package for further ones.
+    # The outermost package, because colcon does not look for packages inside of packages.
     packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
     start = packages[-1] if packages else folders[0]
     for folder in folders[folders.index(start) + 1 :]:

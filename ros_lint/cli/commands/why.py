@@ -1,4 +1,4 @@
-"""``ros-lint why A B``: every way in which one package needs another, with the line of each edge and what it is for."""
+"""``ros-lint why A B``: all paths by which one package depends on another, with the line of each edge."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ class _Line(NamedTuple):
 
 
 def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code.
+    """Return standard output, standard error and the exit code.
 
-    Inside the workspace every dependency counts that orders packages; from packages outside only what comes along at
-    run time is followed. At most ``most`` ways are told, the shortest first. The code is 0 when there is a way, 1 when
-    there is none, 2 when a name is known to nobody. Raises KnowledgeError.
+    In the workspace, every dependency that orders packages counts; outside of it, only run-time dependencies. At most
+    ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is none, 2 if a name is
+    unknown. Raises KnowledgeError.
     """
     unknown = [name for name in (start, end) if not _is_known(workspace, name)]
     if unknown:
@@ -54,7 +54,7 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
 
 
 class _Model:
-    """Who needs whom, in the workspace and outside."""
+    """The dependencies of packages in the workspace and outside of it."""
 
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
@@ -70,7 +70,7 @@ class _Model:
         return self._needs[name]
 
     def lines(self, name: str, other: str) -> Iterator[_Line]:
-        """Yield what makes an edge."""
+        """Yield the reasons of an edge."""
         graph = dependency_graph(self.workspace)
         if other in graph.needs.get(name, ()):
             for reason in graph.reasons((name, other)):
@@ -88,13 +88,13 @@ class _Model:
             yield from (_Line(tag, place) for tag in tags)
 
     def uses(self, name: str, other: str) -> list[tuple[str, Span]]:
-        """Return the places in the sources that need it, sorted."""
+        """Return the places in the sources that use the dependency, sorted."""
         found = {use.span: use.what for package in self._packages(name) for use in package.uses if other in use.providers}
         return [(found[span], span) for span in sorted(found)]
 
     def _declared(self, name: str) -> Iterator[Declared]:
         for package in self._packages(name):
-            if package.type.startswith("ros."):  # otherwise nobody looks into the manifest
+            if package.type.startswith("ros."):  # otherwise the manifest is not read
                 yield from package.declared
 
     def _packages(self, name: str) -> Sequence[Package]:

@@ -35,7 +35,7 @@ _MOST_UNKNOWN = 20
 
 
 class Found(NamedTuple):
-    """What is to be told."""
+    """The data to print."""
 
     file: LaunchFile
     expansion: Expansion
@@ -54,7 +54,7 @@ def _value(texts: Iterable[str]) -> str:
 
 
 def _full_name(started: Started) -> str:
-    """Return the name in its namespace, as far as a launch file says it."""
+    """Return the name with its namespace, as far as the launch file sets it."""
     spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
     if not started.name:
         return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))
@@ -62,7 +62,7 @@ def _full_name(started: Started) -> str:
 
 
 def _condition(condition: LaunchCondition) -> str:
-    """Return what must hold, "" when nobody knows what."""
+    """Return the condition as text, or "" if it is unknown."""
     if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
         return ""
     text = _text(condition.texts)
@@ -170,7 +170,7 @@ def _summary(expansion: Expansion) -> str:
 
 
 def json(found: Found) -> str:
-    """Return the expansion for programs."""
+    """Return the expansion as JSON."""
     import json as library  # noqa: PLC0415  (only where it is asked for)
 
     expansion = found.expansion
@@ -245,7 +245,7 @@ def _list(texts: Iterable[str]) -> list[str]:
 
 
 def mermaid(found: Found) -> str:
-    """Return the expansion as a flow chart: files, what they start, and what they include; dotted is perhaps."""
+    """Return the expansion as a flow chart of files, processes and includes; dotted if conditional."""
     lines = ["flowchart LR", f'  n0["{label(found.file.path.rpartition("/")[2])}"]']
     above = ["n0"]
     for number, started in enumerate(found.expansion.started, 1):

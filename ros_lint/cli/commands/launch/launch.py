@@ -1,7 +1,9 @@
 """``ros-lint launch FILE [name:=value ...]``: what a launch file would start, without starting it.
 
-The exit code is 0 when launching would go through, as far as can be seen; 1 when it would stop, with the reasons on
-standard error; 2 when the question makes no sense: no such file, package or argument, no launch file.
+The exit code is:
+- 0 if launching would succeed, as far as can be determined,
+- 1 if it would fail, with the reasons on standard error,
+- 2 for an invalid request: a missing file, package or argument, or a file that is no launch file.
 """
 
 from __future__ import annotations
@@ -26,16 +28,16 @@ if TYPE_CHECKING:
 
 
 class Asked(NamedTuple):
-    """What the words of the command line mean."""
+    """The parsed words of the command line."""
 
     package: str
-    """"" when the file is named by its path."""
+    """The package, or "" if the file is given by its path."""
     file: str
     given: Mapping[str, str]
 
 
 def run(said: Mapping[str, Any]) -> int:
-    """Answer the question, print the answer, return the exit code."""
+    """Run the command, print the answer, return the exit code."""
     try:
         asked = understood(said["words"], os.path.isfile)
         paths = said.get("paths") or [current_workspace() if asked.package else enclosing_workspace(asked.file)]
@@ -51,7 +53,10 @@ def run(said: Mapping[str, Any]) -> int:
 
 
 def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
-    """Return what the words mean: FILE or PACKAGE FILE, and arguments, as ``ros2 launch`` takes them. Raises UsageError."""
+    """Return the request in words: FILE or PACKAGE FILE, and arguments, as ``ros2 launch`` takes them.
+
+    Raises UsageError.
+    """
     places = [word for word in words if ":=" not in word]
     given: dict[str, str] = {}
     for word in words:
@@ -72,9 +77,9 @@ def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
 
 
 def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:
-    """Return what goes to standard output and to standard error, and the exit code.
+    """Return standard output, standard error and the exit code.
 
-    ``path`` is that of the file, relative to the base of the workspace, if no package is named. Raises UsageError.
+    ``path`` is the path of the file relative to the base of the workspace, if no package is given. Raises UsageError.
     """
     if asked.package:
         file, place = look_up.installed_file(asked.package, asked.file)
@@ -89,7 +94,7 @@ def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form:
 
 
 def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
-    """Yield doubts about arguments that nothing seems to take. Raises UsageError where there is hardly any."""
+    """Yield warnings about arguments that are not used. Raises UsageError if they are certainly not."""
     takes = look_up.takes(file)
     declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
     known = {*takes.known, *declared, *look_up.used(file)}
@@ -104,7 +109,7 @@ def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapp
 
 
 def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:
-    """Yield why launching stops."""
+    """Yield the reasons why launching fails."""
     for one in (file, *look_up.followed):
         for problem in one.problems:
             yield f"{problem.span}: {problem.message}"

@@ -1,4 +1,4 @@
-"""Where the launch files are that a launch file names: in the workspace, or installed in an underlay."""
+"""Lookup of launch files by path or package: in the workspace, or installed in an underlay."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 
 class Absent(NamedTuple):
-    """Why a launch file could not be read."""
+    """The reason why a launch file could not be read."""
 
     reason: str
     surely: bool
-    """Whether it will not be there when the launch file runs, either."""
+    """True if it will certainly not exist when the launch file runs."""
 
 
 class LookUp:
-    """Finds launch files, and remembers which were followed and why others were not."""
+    """Finds launch files, and records the included files and those that could not be read."""
 
     def __init__(self, workspace: Workspace, tree: Tree) -> None:
         self._workspace = workspace
@@ -44,15 +44,15 @@ class LookUp:
 
     @property
     def followed(self) -> tuple[LaunchFile, ...]:
-        """Return the files that were included, in the order in which they were met."""
+        """Return the included files in the order in which they were read."""
         return tuple(file for file in self._found.values() if not isinstance(file, Absent))
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
-        """Return what a file, and those of the workspace that it includes, do with launch configurations."""
+        """Return the launch configurations that a file and its includes in the workspace accept."""
         return self._links.takes(file)
 
     def used(self, file: LaunchFile) -> frozenset[str]:
-        """Return the launch configurations that a file, or one that was followed from it, asks for."""
+        """Return the launch configurations that a file or one of its includes reads."""
         found: set[str] = set()
         for one in (file, *self.followed):
             for action in walk_actions(one.actions):
@@ -62,7 +62,7 @@ class LookUp:
         return frozenset(found)
 
     def absent(self, path: str) -> Absent | None:
-        """Return why an included file was not followed, None for one that was, or that was never asked for."""
+        """Return why an included file could not be read, or None if it was read or never requested."""
         found = self._found.get(path)
         return found if isinstance(found, Absent) else None
 
@@ -74,9 +74,10 @@ class LookUp:
         return self._launchable(found, path)
 
     def installed_file(self, package: str, name: str) -> tuple[LaunchFile, str]:
-        """Return the launch file of a package that has a name, and where it lies when installed.
+        """Return the launch file of a package by its name, and its install path.
 
-        Like ``ros2 launch`` (reference, section G1.1): anywhere below share/<package>, by the exact name. Raises UsageError.
+        As ``ros2 launch`` (ros2launch/api), it searches below share/<package> for the exact file name. Raises
+        UsageError.
         """
         packages = self._workspace.by_name.get(package, ())
         below = self._workspace.world.installed(package)
@@ -121,7 +122,7 @@ class LookUp:
     # --- files that are included ----------------------------------------------------------------------------------
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return a launch file by the path that an include has, None if it cannot be had; see :meth:`absent`."""
+        """Return a launch file by the path in an include, or None if it cannot be read; see :meth:`absent`."""
         found = self._found.get(path)
         if found is None:
             found = self._found[path] = self._find(path)
