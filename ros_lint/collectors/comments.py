@@ -1,7 +1,7 @@
-"""Find the comments of a file, in the languages that a workspace is written in.
+"""Comments of a file, in the languages of a workspace.
 
-Only files that hold a certain word are looked at, so this is exact rather than fast. A string that looks like a comment
-is none. What cannot be told apart, because the file is broken, is left out.
+Only files with a certain word are searched, so this is exact rather than fast. A string that looks like a comment is
+none. In a broken file, whatever may be a comment or a string is left out.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 Ranges = Iterator[tuple[int, int]]
-"""Offsets of comments, from the first character of the opening mark to the last of the closing one."""
+"""Offsets of comments, from the start of the opening mark to the end of the closing one."""
 
 _XML = {"xml", "launch", "urdf", "xacro", "sdf", "world", "srdf", "rdf", "model", "config"}
 _CXX = {*(suffix[1:] for suffix in (*HEADERS, *SOURCES)), "idl", "java", "rs"}
@@ -28,7 +28,7 @@ _TEMPLATE = (".in", ".em", ".template")
 
 
 def comments(text: Text) -> tuple[tuple[int, int], ...]:
-    """Return the ranges of the comments of a file, as offsets, in order. Empty for a language that is not known."""
+    """Return the offset ranges of the comments of a file, in order. Empty for an unknown language."""
     find = _finder(text)
     return tuple(find(text.text)) if find else ()
 
@@ -63,12 +63,12 @@ def _matched(pattern: re.Pattern[str], text: str) -> Ranges:
 
 @cache
 def _pattern(*parts: str) -> re.Pattern[str]:
-    """Return a pattern of the strings of a language, which hide comments, and of its comments."""
+    """Return a pattern for the strings of a language, which may contain comment marks, and its comments."""
     return re.compile("|".join(parts), re.DOTALL | re.MULTILINE)
 
 
 def _in_xml(text: str) -> Ranges:
-    # "<!--" opens a comment wherever "<" may stand as itself, which is nowhere in attributes or character data.
+    # "<!--" opens a comment wherever a plain "<" would be invalid, that is outside of attributes and character data.
     return _matched(_pattern(r"<!\[CDATA\[.*?\]\]>", r"<\?.*?\?>", r"(?P<comment><!--.*?-->)"), text)
 
 
@@ -80,7 +80,7 @@ def _in_cmake(text: str) -> Ranges:
 def _in_cxx(text: str) -> Ranges:
     comment = r"(?P<comment>//(?:\\\r?\n|[^\r\n])*|/\*.*?\*/)"
     raw = r'R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)"'
-    character = r"'(?:\\[^\r\n]{1,10}?|[^'\\\r\n])'"  # and not the quotes in 1'000'000
+    character = r"'(?:\\[^\r\n]{1,10}?|[^'\\\r\n])'"  # not the quotes in 1'000'000
     return _matched(_pattern(comment, raw, r'"(?:\\.|[^"\\\r\n])*"', character), text)
 
 
@@ -90,7 +90,7 @@ def _after_hash(text: str) -> Ranges:
 
 
 def _in_cfg(text: str) -> Ranges:
-    # configparser, as setuptools uses it: a comment has its line to itself.
+    # configparser, as setuptools uses it: a comment is alone on its line.
     return _matched(_pattern(r"^[ \t]*(?P<comment>[\#;][^\r\n]*)"), text)
 
 
@@ -114,6 +114,6 @@ def _in_yaml(text: str) -> Ranges:
         return
     at = 0
     for start, end in (*ranges, (len(text), len(text))):
-        # Between two tokens there are but space and comments.
+        # Between two tokens there are only space and comments.
         yield from (found.span() for found in _TO_LINE_END.finditer(text, at, start))
         at = max(at, end)

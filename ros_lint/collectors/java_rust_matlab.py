@@ -1,7 +1,8 @@
-"""Sources in other languages that have ROS 2 bindings: Java, Rust and MATLAB.
+"""Sources in other languages with ROS 2 bindings: Java, Rust and MATLAB.
 
-Their generators give every package of interfaces a name space of its own, as those of C++ do: ``std_msgs.msg.String``
-in Java, ``std_msgs::msg::String`` in Rust (reference, section C7). All mentions are ``via="symbol"``.
+Their generators put the interfaces of each package into a namespace of their own, as in C++: ``std_msgs.msg.String`` in
+Java (rosidl_generator_java), ``std_msgs::msg::String`` in Rust (rosidl_generator_rs). All mentions are
+``via="symbol"``.
 """
 
 from __future__ import annotations
@@ -20,16 +21,16 @@ _STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 _JAVA_TYPE = re.compile(r"(?<![\w.])([a-z]\w*)\.(?:msg|srv|action)\.[A-Z*]\w*")
 _RCLJAVA = re.compile(r"^[ \t]*import[ \t]+(?:static[ \t]+)?(org\.ros2\.rcljava(?:\.(\w+))?)\b", re.MULTILINE)
 _OF_JAVA = (".msg.", ".srv.", ".action.", "org.ros2.rcljava")
-"""Something of this a Java source has that is of any interest: to look for it is much faster than to blank out comments."""
+"""Texts of which a relevant Java source has at least one: a test before comments are blanked out."""
 _RCLJAVA_COMMON = frozenset({"common", "exceptions", "interfaces"})
-"""Parts of org.ros2.rcljava that the package rcljava_common has."""
+"""Parts of org.ros2.rcljava that are in the package rcljava_common."""
 
 _CRATE = re.compile(r"(?<![\w:])(?:use\s+|extern\s+crate\s+)(rclrs|rosidl_runtime_rs)\b")
 _RUST_TYPE = re.compile(r"(?<![\w:])(?:::)?(?P<type>(?P<package>[a-z]\w*)::(?:msg|srv|action)::\w*)")
 _OF_RUST = ("::msg::", "::srv::", "::action::", "rclrs", "rosidl_runtime_rs")
-"""The same of a Rust source."""
+"""Texts of which a relevant Rust source has at least one."""
 _OF_CRATE = re.compile(r"\buse\s[^;]*::\s*\{[^;]*\Z")
-"""Before a name that is one of another crate: ``use ros_env::{std_msgs::msg::String}``."""
+"""Matches the text before a name of another crate: ``use ros_env::{std_msgs::msg::String}``."""
 _SECTION = re.compile(r"^[ \t]*\[+([^\]\n]+)\]+", re.MULTILINE)
 _ENTRY = re.compile(r"^[ \t]*([\w-]+)(?:\.\w+)?[ \t]*=[ \t]*([^\n#]*)", re.MULTILINE)
 _FROM_WORKSPACE = re.compile(r'"\*"|\bpath[ \t]*=')
@@ -54,7 +55,7 @@ def java(source: Text) -> FileFacts:
 def rust(source: Text) -> FileFacts:
     """Return the packages of the interfaces that a Rust source names, and those of the client library.
 
-    What stands in the unit tests of the source serves tests.
+    Names in the unit tests of the source count for tests only.
     """
     if not any(word in source.text for word in _OF_RUST):
         return FileFacts()
@@ -69,15 +70,15 @@ def rust(source: Text) -> FileFacts:
     tests = source.text.find("#[cfg(test)]")
     if tests < 0:
         return facts
-    begin = source.span(tests, tests)  # they stand at the end
+    begin = source.span(tests, tests)  # they are at the end
     return facts._replace(mentions=tuple(mention._replace(test=mention.span > begin) for mention in facts.mentions))
 
 
 def cargo(source: Text) -> FileFacts:
-    """Return what a Cargo.toml depends on.
+    """Return the dependencies in a Cargo.toml.
 
-    Crates of the workspace have the version ``*`` or a path, for which colcon-ros-cargo puts the installed package;
-    those with another version may come from elsewhere and are optional.
+    Crates of the workspace have the version ``*`` or a path, which colcon-ros-cargo replaces by the installed package.
+    Crates with another version may come from elsewhere and are optional.
     """
     return FileFacts(tuple(_crates(source)))
 
@@ -103,7 +104,7 @@ def _crates(source: Text) -> Iterator[Mention]:
 
 
 def matlab(source: Text) -> FileFacts:
-    """Return the packages of the interfaces for which a MATLAB script makes publishers, clients and the like.
+    """Return the packages of the interfaces with which a MATLAB script creates publishers and the like.
 
     They are optional: MATLAB builds its own copy of them, and the script runs outside of the workspace.
     """
@@ -118,7 +119,7 @@ def matlab(source: Text) -> FileFacts:
 
 
 COLLECTORS: Mapping[str, Callable[[Text], FileFacts]] = {"java": java, "rust": rust, "cargo": cargo, "matlab": matlab}
-"""By the kind of file, see :mod:`ros_lint.workspace.collect`."""
+"""The collectors by kind of file, see :mod:`ros_lint.workspace.collect`."""
 
 
 def _spaces(match: re.Match[str]) -> str:

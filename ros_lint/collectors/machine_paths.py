@@ -1,7 +1,9 @@
-"""Paths below somebody's home directory, written out in a file: they are there on one machine only.
+"""Paths in files that exist on one machine only.
 
-And those into the sources from where the workspace is, which are there for whoever starts something in that folder, and into
-``/opt/ros``, which are there with one distribution.
+These are:
+- paths below a home directory,
+- paths into the sources relative to the workspace, which only work in that folder,
+- paths into ``/opt/ros``, which only work with one distribution.
 """
 
 from __future__ import annotations
@@ -31,21 +33,24 @@ _WRITES = re.compile(
     r"|\b\w*(?:output|save)_(?:path|dir|directory|folder|file)[\"']?\s*[,:=]\s*(?:std::string\()?f?[\"']?\Z"
 )
 _BESIDE = re.compile(r"\b(?:mesh|texture|asset)dir\s*=\s*[\"']\Z")
-"""Attributes of models for MuJoCo, which seeks what is relative from the folder of the model."""
+"""Attributes of MuJoCo models whose values are relative to the folder of the model."""
 _DEFAULT = re.compile(r"\bdeclare_parameter(?:<[\w:]+>)?\(\s*[\"'][\w./-]+[\"']\s*,\s*(?:std::string\(|\{)?\s*[\"']\Z")
 _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
-"""What RViz keeps in a display of a robot whose description comes from a topic."""
+"""Matches a file that RViz stores in a display but does not read: the description is from a topic."""
 
 
 def collect(text: Text) -> tuple[MachinePath, ...]:
-    """Return the paths of a file that lie in a home directory, below ``~`` those into a workspace, in ``src`` or ``/opt/ros``.
+    """Return the machine-specific paths of a file: in a home directory, in ``src`` or in ``/opt/ros``.
 
-    Comments and docstrings are left out, and so is what RViz keeps and does not read. A path ends where something is filled
-    in. One that is put together (``"/home/" + user``, ``join(root, "src/robot")``) is none, nor are the folders of all users.
+    Paths below ``~`` count only if they lead into a workspace. A path ends where a value is substituted. Left out are:
+    - comments and docstrings,
+    - paths that RViz stores but does not read,
+    - computed paths (``"/home/" + user``, ``join(root, "src/robot")``),
+    - folders that all users have.
     """
     content = text.text
     hits = [*_PATH.finditer(content), *_OF_DISTRIBUTION.finditer(content)] if _ANY.search(content) else []
-    if "~" in content:  # one letter is found ten times as fast as two
+    if "~" in content:  # one letter is searched ten times as fast as two
         hits += _OF_WORKSPACE.finditer(content)
     if "src/" in content and any(start in content for start in _SOURCES):
         hits += [hit for hit in _RELATIVE.finditer(content) if not _JOINED.search(content, hit.start() - _NEAR, hit.start() + 1)]
@@ -70,7 +75,7 @@ def _found(text: Text, hit: re.Match[str]) -> MachinePath:
 
 
 def _docstrings(text: Text) -> list[tuple[int, int]]:
-    """Return the ranges of strings that stand alone: documentation, and code that is set aside."""
+    """Return the ranges of strings that are statements: documentation, and disabled code."""
     import ast  # noqa: PLC0415
 
     from ros_lint.collectors.python.source_errors import NotPythonError  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""Read the comments that suppress findings: where they are, what they speak for, and how to take them out again."""
+"""Suppression comments: their places, the lines to which they apply, and the edits that remove them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _suppressions(text: Text) -> Iterator[Suppression]:
     lines = {start: (text.position(start)[0], text.position(end)[0]) for start, end in ranges}
     alone = {start for start, end in ranges if _is_alone(whole, start, end)}
     own_lines = {line for start in alone for line in range(lines[start][0], lines[start][1] + 1)}
-    below: dict[int, int] = {}  # a line that a comment has to itself -> the next that none has
+    below: dict[int, int] = {}  # a line with only a comment -> the next line without one
     for line in sorted(own_lines, reverse=True):
         below[line] = below.get(line + 1, line + 1)
     leading = True
@@ -55,7 +55,7 @@ def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leadin
         opens = _OPENING.fullmatch(whole, start, mark.start()) is not None
         problem = _problem(mark, leading)
         if problem is None or (not opens and mark["word"] not in ("ignore", "ignore-file")):
-            continue  # a sentence that speaks of ros-lint
+            continue  # a sentence that mentions ros-lint
         stop = _reason_end(whole, mark.end(), marks[number].start() if number < len(marks) else end)
         sole = opens and len(marks) == 1 and _CLOSING.fullmatch(whole, stop, end) is not None
         cut = _cut_comment(whole, start, end) if sole else _cut_mark(whole, start, mark.start(), stop, end)
@@ -72,7 +72,7 @@ def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leadin
 
 
 def _problem(mark: re.Match[str], leading: bool) -> str | None:
-    """Return what is wrong with a suppression, "" when nothing is, or None if it may be no suppression at all."""
+    """Return the error in a suppression, "" if it is valid, or None if it may not be a suppression at all."""
     if mark["word"] not in ("ignore", "ignore-file"):
         return f"'{mark[0].strip()}' has no effect; {_HOW}" if mark["word"] else None
     if mark["names"] is not None and not mark["close"]:
@@ -95,18 +95,18 @@ def _is_alone(whole: str, start: int, end: int) -> bool:
 
 
 def _says_nothing(between: str) -> bool:
-    """Whether what stands between two comments leaves them the first: space, and the declarations of XML."""
+    """Return whether a comment is still leading: only space and XML declarations precede it."""
     return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
 
 
 def _reason_end(whole: str, start: int, limit: int) -> int:
-    """Return where the reason ends: with the line, the comment, or the sign of another comment within it."""
+    """Return where the reason ends: at the end of the line or comment, or at another comment sign."""
     line = _REASON.match(whole, start, limit)
     return start + len(_CLOSING.sub("", line[0] if line else "").rstrip("#/ \t"))
 
 
 def _cut_comment(whole: str, start: int, end: int) -> tuple[int, int]:
-    """Return what to cut to be rid of a comment: its lines, or with it the space before it."""
+    """Return the range that removes a comment: its lines, or the comment with the space before it."""
     lines = _BLANK.match(whole, end) if _is_alone(whole, start, end) else None
     while start and whole[start - 1] in " \t":
         start -= 1
@@ -114,7 +114,7 @@ def _cut_comment(whole: str, start: int, end: int) -> tuple[int, int]:
 
 
 def _cut_mark(whole: str, comment: int, start: int, stop: int, end: int) -> tuple[int, int]:
-    """Return what to cut to be rid of a mark in a comment that says more: with it, one comment sign."""
+    """Return the range that removes a suppression from a longer comment, with one comment sign."""
     if _OPENING.fullmatch(whole, comment, start):
         following = _SIGN.match(whole, stop, end)
         return start, following.end() if following else stop
@@ -124,5 +124,5 @@ def _cut_mark(whole: str, comment: int, start: int, stop: int, end: int) -> tupl
 
 
 def _joint(whole: str, start: int, end: int) -> str:
-    """Return a space where a cut would glue two words together."""
+    """Return a space if a cut would join two words."""
     return " " if start and end < len(whole) and not (whole[start - 1].isspace() or whole[end].isspace()) else ""

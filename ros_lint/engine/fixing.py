@@ -1,4 +1,4 @@
-"""Choose the fixes to apply: each is verified in trials before it is kept (docs/architecture.md, principle 6).
+"""Choose the fixes to apply: each is verified in trials before it is kept.
 
 A fix is kept if the workspace with it, loaded and checked again, no longer has its finding and has no finding that was not
 there before. Findings that further fixes of the next round resolve do not count: a launch file that a fix installs can need a
@@ -38,7 +38,7 @@ class Regression(NamedTuple):
     subject: str | None = None
 
     def suspects(self, group: Sequence[Issue]) -> list[Issue]:
-        """Return the issues whose fixes most likely cause it: they removed what is missing, or added what is there twice."""
+        """Return the issues whose fixes most likely cause it, by package and subject."""
         same_package = [issue for issue in group if issue.package == self.package]
         same_subject = [issue for issue in group if issue.finding.subject == self.subject]
         both = [issue for issue in same_package if issue in same_subject]

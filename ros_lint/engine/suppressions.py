@@ -40,7 +40,7 @@ def apply(
     for the issues that rules report about the outcome; then only ``kept`` matters.
     """
     names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
-    judging = {rule.name for rule in known if rule.suppressions}  # they run later
+    judging = {rule.name for rule in known if rule.suppressions}  # run later: not judged yet
     ordered = sorted(suppressions, key=lambda each: each.span.path)
     whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
     about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 _CUT = "..."
 _CONTEXT = 20
+"""Number of columns to keep before a place in a shortened line."""
 _LONG = 8_000
 """Number of characters of a line that are considered; no screen shows so many."""
-"""Columns to keep before a place in a line that is shortened."""
 _HEAD, _TAIL = 3, 2
 """Numbers of first and last lines to show of a long place."""
 _MIN_ROOM = 40

@@ -1,1 +1,1 @@
-"""What colcon reads where a package has no manifest: CMakeLists.txt, setup.py, colcon.pkg and colcon.meta."""
+"""Files that colcon reads besides manifests: CMakeLists.txt, setup.py, colcon.pkg, colcon.meta."""

@@ -1,8 +1,8 @@
-"""A ``CMakeLists.txt`` read as colcon reads it where there is no usable manifest: by pattern, not by meaning.
+"""A ``CMakeLists.txt`` without a usable manifest, read by the patterns of colcon.
 
-What CMake makes of the file is another collector's business; here only counts what can be seen while packages are looked
-for. That is what colcon sees, its oversights included, since it decides which packages there are and in which order.
-Source: colcon-cmake, package identification (reference, section A6.10).
+CMake itself is evaluated by :mod:`ros_lint.collectors.cmake`. This module reads what colcon reads when it looks for
+packages, errors included, because that determines the packages and their order. Source: package identification of
+colcon-cmake.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span, Text
 
-# colcon looks for these words anywhere, so my_project(x) counts as project(x).
+# colcon searches these words anywhere, so my_project(x) counts as project(x).
 _PROJECT = re.compile(r"""project\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s[^)]*)?\)""", re.IGNORECASE)
 _FIND_PACKAGE = re.compile(r"""find_package\s*\(\s*("?)([a-zA-Z0-9_-]+)\1(?:\s[^)]*)?\)""", re.IGNORECASE)
 _PKG_CONFIG = re.compile(
@@ -37,12 +37,12 @@ _VERSION = re.compile(r"[<>=]")
 
 
 class Project(NamedTuple):
-    """What colcon takes from a ``CMakeLists.txt``."""
+    """The data that colcon reads from a ``CMakeLists.txt``."""
 
     name: str
-    """Of the first literal project(), or "" when there is none."""
+    """The name in the first literal project(), or ""."""
     toplevel: bool
-    """Whether it is the file that catkin_make puts into src/, which makes no package."""
+    """True for the file that catkin_make puts into src/, which defines no package."""
 
 
 def project(text: Text) -> Project:
@@ -54,9 +54,9 @@ def project(text: Text) -> Project:
 
 
 def depends(text: Text) -> tuple[ColconDepend, ...]:
-    """Return what colcon orders before a plain CMake package, from one of its ``CMakeLists.txt`` and ``*.cmake``.
+    """Return the dependencies by which colcon orders a plain CMake package, from one of its CMake files.
 
-    Names that the package itself has are in it too.
+    The files are ``CMakeLists.txt`` and ``*.cmake``. Names of the package itself are included.
     """
     if "find_package" not in (lower := text.text.lower()) and "pkg_" not in lower:
         return ()
@@ -68,9 +68,9 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
 
 
 def subdirectories(text: Text) -> frozenset[str]:
-    """Return the folders that a ``CMakeLists.txt`` takes into its build, as literally written, relative to it.
+    """Return the literal folders that a ``CMakeLists.txt`` adds to its build, relative to it.
 
-    Functions that wrap add_subdirectory() are called like it, with a word put in.
+    Calls of functions that wrap add_subdirectory() count if their name is add_subdirectory with a word inserted.
     """
     return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_Bare(text).content))
 
@@ -82,7 +82,7 @@ def _modules(content: str) -> Iterator[tuple[str, int, int]]:
 
 
 class _Bare:
-    """A text without its comments and without quotes that do not close on their line."""
+    """A text without comments, and without quotes that are not closed on their line."""
 
     def __init__(self, text: Text) -> None:
         self._text = text
@@ -104,7 +104,7 @@ class _Bare:
         self.content = "".join(pieces)
 
     def closed(self) -> str:
-        """Return the content up to its last closing parenthesis: without one behind it, each opening one costs a search."""
+        """Return the content up to its last closing parenthesis, because each unclosed one costs a search."""
         return self.content[: self.content.rfind(")") + 1]
 
     def span(self, start: int, end: int) -> Span:

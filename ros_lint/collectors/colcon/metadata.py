@@ -1,6 +1,6 @@
-"""``colcon.pkg`` and ``colcon.meta``: names, types and ordering edges set beside the manifest.
+"""``colcon.pkg`` and ``colcon.meta``: names, types and dependencies that complement the manifest.
 
-Source: colcon-metadata, and ``update_descriptor`` of colcon-core (reference, section A6.8).
+Source: colcon-metadata, and ``update_descriptor`` of colcon-core.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _CATEGORIES = {
 
 
 class ColconYamlError(ValueError):
-    """The file is no YAML mapping; colcon leaves it unread. ``span`` says where."""
+    """The file is no YAML mapping, so colcon ignores it. ``span`` is the place."""
 
     def __init__(self, reason: str, span: Span) -> None:
         super().__init__(reason)
@@ -34,12 +34,12 @@ class ColconYamlError(ValueError):
 
 
 def package(text: Text) -> ColconSettings:
-    """Return what a ``colcon.pkg`` sets. Raises ColconYamlError."""
+    """Return the settings of a ``colcon.pkg``. Raises ColconYamlError."""
     return _settings(text, _top(text))
 
 
 def meta(text: Text) -> ColconMeta:
-    """Return what a ``colcon.meta`` sets. Raises ColconYamlError."""
+    """Return the settings of a ``colcon.meta``. Raises ColconYamlError."""
     top = _top(text)
     return ColconMeta(text.path, _sections(text, top.get("names")), _sections(text, top.get("paths")))
 
@@ -71,14 +71,14 @@ def _kind(node: yaml.Node) -> str:
 
 
 def _mapping(node: yaml.Node | None) -> Mapping[str, yaml.Node]:
-    # The last of equal keys counts, as for every loader of PyYAML.
+    # The last of equal keys counts, as in every loader of PyYAML.
     if node is None or _kind(node) != "mapping":
         return {}
     return {key.value: value for key, value in node.value if _kind(key) == "scalar"}
 
 
 def _items(node: yaml.Node | None) -> Iterator[tuple[str, yaml.Node]]:
-    # colcon loops over the value: over the keys, where someone wrote a mapping instead of a list.
+    # colcon iterates over the value: over the keys of a mapping in place of a list.
     if node is None or _kind(node) == "scalar":
         return
     for item in node.value:

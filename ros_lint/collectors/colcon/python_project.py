@@ -1,8 +1,8 @@
-"""``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a folder without a usable manifest, as far as colcon uses them.
+"""Setup scripts of a folder without a usable manifest, as colcon reads them.
 
-That is the name of the package, and what it is ordered after. colcon runs setup.py for this. Here it is read: a name
-that is not written down literally is said to be unknown.
-Source: package identification and augmentation of colcon-core and colcon-python-setup-py (reference, section A6.10).
+The result is the name of the package and its dependencies. colcon runs setup.py to get them. Here the file is read, so
+a name that is not a literal is unknown. Source: package identification and augmentation of colcon-core and
+colcon-python-setup-py.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ _REQUIREMENT = re.compile(r"\s*([\w.-]+)")
 
 
 class PythonProject(NamedTuple):
-    """What colcon takes from the scripts of a Python project."""
+    """The data that colcon reads from the scripts of a Python project."""
 
     name: str
-    """"" when there is none, or when it is not known."""
+    """The name of the package, or "" if there is none or it is unknown."""
     unknown: str
-    """Why the name is not known, as a clause; "" when it is known, or known to be missing."""
+    """The reason why the name is unknown, as a clause; "" if it is known, or known to be missing."""
     depends: tuple[ColconDepend, ...]
 
 
@@ -42,12 +42,12 @@ NO_PROJECT = PythonProject("", "", ())
 
 
 def needs_no_run(setup_py: Text) -> bool:
-    """Return whether colcon leaves a setup.py alone and reads setup.cfg instead."""
+    """Return whether colcon does not run a setup.py, and reads setup.cfg instead."""
     return "setup()" in setup_py.text or "setup(cmdclass=cmdclass)" in setup_py.text
 
 
 def from_setup_cfg(setup_cfg: Text) -> PythonProject:
-    """Return what a ``setup.cfg`` says by itself."""
+    """Return the project that a ``setup.cfg`` alone defines."""
     parser = RawConfigParser(strict=False)
     try:
         parser.read_string(setup_cfg.text)
@@ -72,7 +72,7 @@ def _cfg_depends(text: Text, options: Mapping[str, str], roles: Mapping[str, Rol
 
 
 def from_setup_py(setup_py: Text, setup_cfg: Text | None, pyproject: Text | None) -> PythonProject:
-    """Return what running a ``setup.py`` would give, as far as that can be read off it."""
+    """Return the project that running a ``setup.py`` would define, as far as it can be read."""
     try:
         module = parse(setup_py)
     except TooDeepError as error:
@@ -117,7 +117,7 @@ def _pyproject_name(pyproject: Text | None) -> str:
 
 
 class _Script:
-    """The names that a module gives a value once, and for good."""
+    """The names to which a module assigns exactly once."""
 
     def __init__(self, text: Text, module: ast.Module) -> None:
         self._text = text
@@ -131,7 +131,7 @@ class _Script:
                     self._values[target.id] = statement.value
 
     def arguments(self, call: ast.Call) -> tuple[dict[str, ast.expr], bool]:
-        """Return the keyword arguments of a call, and whether these are all."""
+        """Return the keyword arguments of a call, and whether they are complete."""
         found: dict[str, ast.expr] = {}
         complete = True
         for keyword in call.keywords:
@@ -161,7 +161,7 @@ class _Script:
         return node
 
     def value(self, node: ast.expr) -> object:
-        """Return the constant that an expression gives, or None."""
+        """Return the constant value of an expression, or None."""
         node = self._resolved(node)
         if isinstance(node, ast.Constant):
             return node.value

@@ -1,1 +1,1 @@
-"""C++ sources: includes, types, look-ups and registrations."""
+"""C++ sources: includes, types, lookups and registrations."""

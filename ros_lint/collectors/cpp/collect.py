@@ -1,4 +1,4 @@
-"""Read C and C++ sources: which headers they include, and which packages they look up by name."""
+"""Reader of C and C++ sources: included headers, and packages that are looked up by name."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ _place = operator.itemgetter(Mention._fields.index("span"))
 
 
 def collect(source: Text) -> FileFacts:
-    """Return the includes, look-ups and registered classes of a C or C++ file, standard headers left out.
+    """Return the includes, lookups and registered classes of a C or C++ file, without standard headers.
 
-    An include is a mention ``via="include"`` whose ``what`` tells ``#include "a"`` from ``#include <a>``.
-    Types of messages whose package is not included are ``via="symbol"``.
-    Look-ups by ament_index_cpp and pluginlib with a literal are ``via="package"`` (reference, section E2, rows 23 and 24).
+    - An include is a mention ``via="include"``; its ``what`` distinguishes ``#include "a"`` from ``#include <a>``.
+    - Interface types whose package is not included are ``via="symbol"``.
+    - Lookups by ament_index_cpp and pluginlib with a literal are ``via="package"``.
     """
     found = mentions(source)
     included, code = found.mentions, found.code
-    known = {mention[0].partition("/")[0] for mention in included}  # by index: there are ten thousands
+    known = {mention[0].partition("/")[0] for mention in included}  # by index: there are tens of thousands
     packages, files = look_ups(source, code)
     loading = loaders(source, code) if not known.isdisjoint(_LOADERS) or _implements(source.path, included) else ()
     packages += [
@@ -48,7 +48,7 @@ def collect(source: Text) -> FileFacts:
 
 
 def _implements(path: str, included: Iterable[Mention]) -> bool:
-    """Whether a source includes the header of its own name, which may declare what the source loads plugins with."""
+    """Return whether a source includes the header of its own name, which may declare its plugin loaders."""
     name = path.rpartition("/")[2]
     stem = name[: name.rfind(".") + 1]
     return name.endswith(SOURCES) and any(header[header.rfind("/") + 1 :].startswith(stem) for header, *_ in included)

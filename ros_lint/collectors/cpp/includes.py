@@ -1,8 +1,8 @@
-"""The include directives of C and C++, and which of them depend on how the source is compiled.
+"""The include directives of C and C++, and which of them depend on the build.
 
-Exact with respect to comments, raw strings, line continuations and ``#if 0`` without lexing every file: a scan for
-directives is trusted as long as none of them lies where a comment or a raw string might be. Otherwise comments and
-raw strings are blanked out first, and the same scan is run again.
+Comments, raw strings, line continuations and ``#if 0`` are handled exactly, without lexing every file. A scan for
+directives is sufficient if none of them is where a comment or a raw string might be. Otherwise comments and raw strings
+are blanked out, and the scan is repeated.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Text
 
-# "#" first: the regular expression engine looks for a literal much faster than for the start of a line.
-# Groups: 1 an empty one if "#" is not just the first of a line that continues none; 2 quote and 3 name of an include,
-# 4 the macro that gives the name; 5 word and 6 condition of a conditional.
+# "#" first: the regular expression engine searches a literal much faster than the start of a line.
+# Groups: 1 is empty if characters precede "#" on its line, or the line is a continuation; 2 quote and 3 name of an include;
+# 4 macro that expands to the name; 5 word and 6 condition of a conditional.
 _DIRECTIVE = re.compile(
     r"""\#(?:(?<=[^\\\r]\n\#)|())[ \t]*
     (?:(?:include(?:_next)?|import)\b[ \t]*(?:([<"])([^<>"\n]+)[>"]|([A-Za-z_][^\n]*))
     |(if(?:n?def)?|el(?:if(?:n?def)?|se)|endif)\b([^\n]*))""",
     re.VERBOSE,
 )
-_NAMED, _COMPUTED, _CONDITIONAL = 3, 4, 6  # the last group that takes part
+_NAMED, _COMPUTED, _CONDITIONAL = 3, 4, 6  # the last group that matches
 
 _HIDING = re.compile(
     r"""//(?:[^\\\n]|\\(?:\r\n|.))*
@@ -47,7 +47,7 @@ _COMMENT = re.compile(r"\*(?<=/\*)")
 _DEFINE = re.compile(r"#[ \t]*define[ \t]+(\w+)")
 _DEFINED = re.compile(r"(!?)\s*defined\s*\(?\s*(\w+)\s*\)?")
 
-# What every C++ compiler takes the same way, whatever the build defines. Only Qt's moc, no compiler, has Q_MOC_RUN.
+# Macros that have one value in every C++ compiler and build. Only Qt's moc, no compiler, has Q_MOC_RUN.
 _ALWAYS_DEFINED = frozenset({"__cplusplus"})
 _NEVER_DEFINED = frozenset({"Q_MOC_RUN"})
 
@@ -66,7 +66,7 @@ _STANDARD = (
     "string.h tgmath.h threads.h time.h uchar.h wchar.h wctype.h"
 )
 STANDARD = frozenset(_STANDARD.split())
-"""Headers of the C and C++ standard libraries: they belong to no package, and half of all includes name them."""
+"""Headers of the C and C++ standard libraries, which half of all includes name."""
 
 
 _NONE: frozenset[int] = frozenset()
@@ -74,42 +74,41 @@ _make = tuple.__new__
 
 
 class Include(NamedTuple):
-    """An include directive that the preprocessor can meet."""
+    """An include directive that the preprocessor may reach."""
 
     start: int
-    """Offset of the name."""
+    """The offset of the name."""
     name: str
-    """As written, without quotes or brackets; the macro when that gives it."""
+    """The name without quotes or brackets, or the macro that expands to it."""
     quote: str
-    """``"`` or ``<``, "" when a macro gives the name."""
+    """``"`` or ``<``, or "" if a macro expands to the name."""
     optional: bool
 
 
 class Found(NamedTuple):
-    """What the directives of a source say."""
+    """The result of scanning the directives of a source."""
 
     mentions: list[Mention]
-    """Its includes in order."""
+    """The includes in order."""
     code: list[int]
-    """Their offsets: places that no comment and no string hides."""
+    """Their offsets, which are known to be code: neither in a comment nor in a string."""
     computed: list[Include]
-    """Includes that a macro names."""
+    """Includes whose name is a macro."""
     directives: list[re.Match[str]]
-    """All that :func:`branches` needs, empty when nothing but a guard is conditional."""
+    """The directives for :func:`branches`; empty if only an include guard is conditional."""
 
 
 def mentions(source: Text) -> Found:
-    """Return the includes of a C or C++ source.
+    """Return the includes of a C or C++ source, without standard headers and without those in ``#if 0``.
 
-    Those of standard headers and those in ``#if 0`` are left out. Optional are those in a conditional, unless each of
-    its branches includes the same folder; conditions that hold in every build, include guards above all, are none.
-    Reference, section E3.9.
+    An include in a conditional is optional, unless each branch includes the same folder. Conditions that hold in every
+    build, such as include guards, do not count.
     """
     return _plain(source) or exact(source)
 
 
 def exact(source: Text) -> Found:
-    """Return what :func:`mentions` does, in the way that is right for every text."""
+    """Return the result of :func:`mentions` by the slower method that is exact for every text."""
     text = blanked(source.text)
     directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
     guarded = _is_guarded(text, directives)
@@ -130,7 +129,7 @@ def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
 
 
 def _plain(source: Text) -> Found | None:
-    """Return what is found in one go, None where something may hide one or a macro names one."""
+    """Return the result of one scan, or None if a directive may be hidden or a macro names an include."""
     text, path = source.text, source.path
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
@@ -173,9 +172,9 @@ def _plain(source: Text) -> Found | None:
 
 @cache
 def _told(directive: str) -> tuple[str, str, int, int]:
-    """Return the name in an include directive, how to quote it, its column and its length; no name for standard headers.
+    """Return the name in an include directive ("" for standard headers), its text, column and length.
 
-    Packages include the same headers again and again: their names are held once.
+    Packages include the same headers repeatedly, so their names are cached.
     """
     match = _DIRECTIVE.match(directive)
     assert match is not None
@@ -189,7 +188,7 @@ def _told(directive: str) -> tuple[str, str, int, int]:
 def _sorted_out(
     text: str, directives: list[re.Match[str]], found: list[Mention], starts: list[int]
 ) -> tuple[list[Mention], list[int]]:
-    """Return the includes, and their offsets, that are reached at all, with those marked that are optional."""
+    """Return the reachable includes, with the optional ones marked, and their offsets."""
     skipped, optional = _conditional(text, directives)
     rows = [
         (mention._replace(optional=True) if start in optional else mention, start)
@@ -216,12 +215,18 @@ def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list
 
 
 def blanked(text: str) -> str:
-    """Return the text with blanks for comments and raw strings, and with continued lines joined. Offsets stay."""
+    """Return the text with blanks for comments and raw strings, and continued lines joined.
+
+    Offsets are unchanged.
+    """
     return _HIDING.sub(_blank, text)
 
 
 def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
-    """Return whether a comment or a raw string may hide an offset. ``code`` are offsets known to be code, sorted."""
+    """Return whether an offset may be in a comment or a raw string.
+
+    ``code`` are sorted offsets known to be code.
+    """
     before = bisect_left(code, at)
     clear = code[before - 1] if before else 0
     return (
@@ -235,12 +240,12 @@ def _blank(match: re.Match[str]) -> str:
     token = match[0]
     if match["raw"]:
         return '"' * len(token)
-    # A block comment is one space to the preprocessor, its line ends included.
+    # A block comment is one space for the preprocessor, including its line ends.
     return " " * len(token) if token[0] in "/\\" else token.replace("\n", " ")
 
 
 def _before(text: str, at: int) -> str:
-    """Return what stands before an offset in its line."""
+    """Return the text before an offset in its line."""
     return text[text.rfind("\n", 0, at) + 1 : at]
 
 
@@ -250,7 +255,7 @@ def _bare(line: str) -> str:
 
 
 def _stands(text: str, at: int) -> bool | None:
-    """Return whether a directive can be at an offset, None when a comment before it or a continued line is in the way."""
+    """Return whether a directive can be at an offset, or None after a comment or a continued line."""
     before = _before(text, at)
     if before and not before.isspace():
         return None if before.rstrip().endswith("*/") else False
@@ -260,7 +265,7 @@ def _stands(text: str, at: int) -> bool | None:
 
 
 def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
-    """Return whether there are no conditionals but an include guard."""
+    """Return whether an include guard is the only conditional."""
     conditionals = [match for match in directives if match.lastindex == _CONDITIONAL]
     if len(conditionals) != 2:
         return not conditionals
@@ -269,7 +274,7 @@ def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
 
 
 def _may_hide(text: str, starts: Sequence[int]) -> bool:
-    """Return whether a comment or a raw string may hide one of the offsets."""
+    """Return whether one of the offsets may be in a comment or a raw string."""
     if not starts:
         return False
     last = starts[-1]
@@ -277,7 +282,7 @@ def _may_hide(text: str, starts: Sequence[int]) -> bool:
     while raw:
         if _any_between(starts, raw.start(), text.find(f'){raw[1]}"', raw.end())):
             return True
-        # Not past the end, here and below: what looks like a string or a comment may be none, and hide no other.
+        # Not beyond the end, here and below: an apparent string or comment may be none, and hide no other.
         raw = _RAW.search(text, raw.start() + 1, last)
     opened = _COMMENT.search(text, 0, last)
     while opened:
@@ -288,31 +293,31 @@ def _may_hide(text: str, starts: Sequence[int]) -> bool:
 
 
 def _any_between(starts: Sequence[int], begin: int, end: int) -> bool:
-    """Return whether one of the starts, which are sorted, lies behind ``begin`` and before ``end``, -1 for no end."""
+    """Return whether one of the sorted starts is between ``begin`` and ``end``, where -1 means no end."""
     at = bisect_right(starts, begin)
     return at < len(starts) and (end < 0 or starts[at] < end)
 
 
 class _Conditional:
-    """A conditional that is open, and what its branches include so far."""
+    """An open conditional, and the includes of its branches so far."""
 
     __slots__ = ("common", "complete", "folders", "includes", "live")
 
     def __init__(self, value: bool | None) -> None:
         self.includes: list[tuple[int, str]] = []  # start and folder
-        self.folders: set[str] = set()  # that the present branch includes whenever it is taken
-        self.common: set[str] | None = None  # that every branch before does
-        self.live = value is not False  # whether the present branch can be taken
-        self.complete = value is True  # whether some branch is always taken
+        self.folders: set[str] = set()  # included by the current branch whenever it is taken
+        self.common: set[str] | None = None  # included by every earlier branch
+        self.live = value is not False  # whether the current branch can be taken
+        self.complete = value is True  # whether a branch is always taken
 
     def branch(self, value: bool | None) -> None:
-        """Go to the next branch. The value of its condition is None when it depends on the build."""
+        """Go to the next branch. ``value`` is None if its condition depends on the build."""
         self._close()
         self.live = value is not False and not self.complete
         self.complete |= value is True
 
     def end(self) -> set[str]:
-        """Return the folders that are included whatever the build."""
+        """Return the folders that are included in every build."""
         self._close()
         return self.common if self.common and self.complete else set()
 
@@ -323,7 +328,7 @@ class _Conditional:
 
 
 def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], Set[int]]:
-    """Return the starts of those include directives that are never reached, and of those that depend on the build."""
+    """Return the starts of unreachable include directives, and of those that depend on the build."""
     skipped: set[int] = set()
     optional: set[int] = set()
     stack: list[_Conditional] = []
@@ -357,7 +362,7 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
 
 
 def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
-    """Return the offsets that are compiled in some builds only, or in none."""
+    """Return the ranges of offsets that are compiled in some builds only, or in none."""
     found = []
     stack: list[tuple[bool, int]] = []  # whether the branch is always taken, and where it begins
     for match in directives:
@@ -375,7 +380,10 @@ def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
 
 
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
-    """Return whether a condition is true, None when that depends on the build. ``first``: no directive before it."""
+    """Return the value of a condition, or None if it depends on the build.
+
+    ``first``: no directive precedes it.
+    """
     word, condition = match[5], _bare(match[6])
     if word in ("if", "elif"):
         bare = condition.strip("() ")
@@ -393,6 +401,6 @@ def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
         return not negated
     if macro in _NEVER_DEFINED:
         return negated
-    # An include guard: what it holds is compiled once whatever the build, also when the two names differ by a slip.
+    # An include guard: its content is compiled once in every build, even if the two names differ by mistake.
     defined = _DEFINE.search(text, match.end(), match.end() + 400) if negated else None
     return True if defined and (first or defined[1] == macro) else None

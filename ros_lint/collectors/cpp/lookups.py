@@ -1,4 +1,4 @@
-"""Packages that a C++ source looks up with ament_index_cpp, files in their share folders that it makes paths of, and plugins."""
+"""Lookups in C++ sources: packages and their files by ament_index_cpp, and plugin loaders."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ if TYPE_CHECKING:
 
 _LOOK_UP = re.compile(r'(get_package_(?:share_directory|share_path|prefix))\s*\(\s*"([^"\\\n]+)"')
 _LOADER = re.compile(r'oader\w*(?:<[^;{}()"]*>)?\s*\w*\s*[({]\s*"([\w.-]+)"\s*,\s*"([\w:]*\w::\w[^"\\\n]*)"')
-# What is added to a path: only literals count, and only when nothing else is added behind them.
+# Text that is added to a path: only literals count, and only if nothing follows them.
 _ADDED = re.compile(r'((?:\s*[/+]\s*"[^"\\\n]*")+)(?!\s*[/+]\s*[\w("])')
 _PIECE = re.compile(r'([/+])\s*"([^"]*)"')
 _CLOSED = re.compile(r"\s*\)+")
 _MAY_CLOSE = re.compile(r"\s*\)?")
 _ASSIGNED = re.compile(r"\b([A-Za-z_]\w*)\s*[=({]\s*(?:[\w:]+\s*[({]\s*)?(?:\w+::)*\Z")
 _FARTHEST = 200
-"""How far before a look-up the variable is looked for that gets what it gives."""
+"""Number of characters before a lookup in which the variable for its result is searched."""
 
 
 def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
-    """Return the packages that a source names in look-ups, and the files that it looks up.
+    """Return the packages and the files that a source looks up.
 
-    ``code`` are offsets known to be code, sorted. Reference, section E2, row 23.
+    ``code`` are sorted offsets known to be code.
     """
     text = source.text
     if "get_package_" not in text:
@@ -49,7 +49,7 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
 
 
 def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
-    """Return the plugin loaders of a source that includes what declares them, or may. Reference, section E2, row 24."""
+    """Return the plugin loaders of a source that includes their header, or may include it (pluginlib)."""
     if "oader" not in source.text:
         return ()
     matches = list(_LOADER.finditer(source.text))
@@ -60,7 +60,7 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
 
 
 def _tried(text: str) -> list[range]:
-    """Return the blocks after which somebody goes on who has caught that a package is not there."""
+    """Return the try blocks whose handler catches that a package does not exist."""
     found = []
     for catch in _CATCH.finditer(text):
         handler = text[catch.end() : _closing(text, catch.end())]
@@ -76,7 +76,7 @@ _BRACE = re.compile(r"[{}]")
 
 
 def _closing(text: str, at: int) -> int:
-    """Return where the block ends that is open at an offset."""
+    """Return where the block ends that contains an offset."""
     depth = 1
     for brace in _BRACE.finditer(text, at):
         depth += 1 if brace[0] == "{" else -1
@@ -86,7 +86,7 @@ def _closing(text: str, at: int) -> int:
 
 
 def _opening(text: str, end: int) -> int:
-    """Return where the block begins that a closing brace ends, -1 if it is not one of try."""
+    """Return where the block begins that a closing brace ends, or -1 if it is no try block."""
     depth = 0
     at = end + 1
     while (at := max(text.rfind("{", 0, at), text.rfind("}", 0, at))) >= 0:
@@ -118,13 +118,13 @@ def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, i
 
 
 def _statement(text: str, at: int) -> int:
-    """Return where the statement begins, or where to stop looking for that."""
+    """Return where the statement begins, or where the search for it stops."""
     farthest = max(0, at - _FARTHEST)
     return max(farthest, text.rfind(";", farthest, at) + 1)
 
 
 def _uses(text: str, name: str) -> Iterator[int]:
-    """Yield the ends of the places where a variable is used, closing brackets included."""
+    """Yield the ends of the uses of a variable, closing brackets included."""
     start = text.find(name)
     while start >= 0:
         end = start + len(name)

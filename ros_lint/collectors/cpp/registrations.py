@@ -1,4 +1,4 @@
-"""Macros in C++ that make classes loadable: components (rclcpp_components) and plugins (pluginlib, class_loader)."""
+"""C++ macros that register classes: components (rclcpp_components), plugins (pluginlib, class_loader)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ _CONTINUED = re.compile(r"\\\r?\n")
 
 
 def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration, ...]:
-    """Return the classes that a C++ file makes loadable, in order. ``code`` are offsets known to be code, sorted."""
+    """Return the classes that a C++ file registers, in order.
+
+    ``code`` are sorted offsets known to be code.
+    """
     text = source.text
     if not ("_REGISTER_" in text or "PLUGINLIB_EXPORT_CLASS" in text):
         return ()
@@ -41,9 +44,10 @@ _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\
 
 
 def wrapped(source: Text) -> tuple[Opaque, ...]:
-    """Return where a C++ file defines a macro of its own that makes components loadable: which ones, its calls say.
+    """Return where a C++ file defines a macro that registers components: its calls determine which ones.
 
-    Plugins are looked for by the names in their descriptions, see :func:`ros_lint.workspace.usage.textual_mentions.unwritten`.
+    Plugins are searched by the names in their descriptions, see
+    :func:`ros_lint.workspace.usage.textual_mentions.unwritten`.
     """
     text = source.text
     if "define" not in text or _OF_COMPONENTS not in text:
@@ -56,9 +60,9 @@ def wrapped(source: Text) -> tuple[Opaque, ...]:
 
 
 def _matches(text: str) -> Iterator[re.Match[str]]:
-    """Yield the calls at the beginning of a line, those in the definition of a macro left out.
+    """Yield the calls at the beginning of a line, except those in macro definitions.
 
-    Literal searches are many times faster than one of the pattern.
+    Literal searches are many times faster than a search for the pattern.
     """
     places = sorted(place for name in _NAMES for place in _places(text, name))
     for place in places:
@@ -76,5 +80,5 @@ def _places(text: str, name: str) -> Iterator[int]:
 
 
 def class_name(written: str) -> str:
-    """Return the name of a class in the one form in which names of classes are compared: no blanks, no leading ``::``."""
+    """Return the name of a class in a canonical form for comparison: no blanks, no leading ``::``."""
     return "".join(written.split()).removeprefix("::")

@@ -1,8 +1,8 @@
-"""Names in C++ code that tell of a package without an include: types of messages, and a few namespaces.
+"""Names in C++ code that imply a package without an include: interface types and a few namespaces.
 
-The generators give every package of messages a namespace of its own name, ``pkg::msg::Type`` (reference, section C4), so
-that such a name says as much as an include. Nothing but a custom ties other namespaces to a package: those that count
-are known to be of one package only.
+The generators put the interfaces of each package into a namespace of the package's name, ``pkg::msg::Type``
+(rosidl_generator_cpp), so such a name is as good as an include. Other namespaces have the name of a package only by
+convention: those that count are known to belong to one package only.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ _NAMESPACES = (
     "ament_index_cpp", "cv_bridge", "image_transport", "message_filters", "pluginlib", "rclcpp_action", "rclcpp_lifecycle",
     "tf2_ros",
 )  # fmt: skip
-"""Packages that have a namespace of their name for themselves, and that others bring along more often than not."""
+"""Packages with a namespace of their own name, which other packages usually provide transitively."""
 
-# "::" first, as that is looked for fast; of what may stand before it the last letter is looked at before the rest.
+# "::" first, because it is searched fast. Of the text before it, the last letter is checked first.
 _LAST = "".join(sorted({name[-1] for name in _NAMESPACES}))
 _BEFORE = "|".join(f"(?<={name}::)" for name in _NAMESPACES)
 _KIND = re.compile(rf"::(?:(?:msg|srv|action)::|(?<=[{_LAST}]::)(?:{_BEFORE}))")
@@ -34,17 +34,17 @@ _WORD = string.ascii_letters + string.digits + "_"
 _INSIDE = frozenset(_WORD)
 _make = tuple.__new__
 _LONGEST = 64
-"""How many characters of a name are looked at."""
+"""Number of characters of a name that are considered."""
 
 
 def symbols(source: Text, known: Collection[str], directives: Found) -> list[Mention]:
-    """Return the packages whose interfaces or namespaces a C++ file names, each at its first place in the code.
+    """Return the packages whose interfaces or namespaces a C++ file names, each at its first place.
 
-    Those that are ``known`` are left out. Optional is what is named only where it depends on the build. All mentions
-    are ``via="symbol"``, of the package.
+    Packages in ``known`` are left out. A mention is optional if all its uses depend on the build. All mentions have
+    ``via="symbol"`` and the name of the package.
     """
     text = source.text
-    *pieces, _ = _KIND.split(text)  # faster than to look at each match
+    *pieces, _ = _KIND.split(text)  # faster than checking each match
     ends = {piece[-_LONGEST:] for piece in pieces}
     names = {end[len(end.rstrip(_WORD)) :] for end in ends}.difference(known)
     if not names:
@@ -59,9 +59,10 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
 
 
 def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool, str] | None:
-    """Return start and end of the first name of a package in plain code, whether it depends on the build, and the package.
+    """Return the first name of a package in plain code: start, end, whether optional, package.
 
-    Lines that may be comments, strings or directives are passed over: what a source needs it mostly names more than once.
+    Lines that may be comments, strings or directives are skipped, because a source usually names a package more than
+    once.
     """
     optional = None
     written = f"{package}::"
@@ -70,7 +71,7 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
     while start >= 0:
         name = pattern.match(text, start + len(package))
         if name and _is_code(text, start) and not in_doubt(text, start, code):
-            if not conditional or not any(start in each for each in conditional):
+            if not conditional or not any(start in index for index in conditional):
                 return start, name.end(), False, package
             optional = optional or (start, name.end(), True, package)
         start = text.find(written, start + 1)
@@ -78,9 +79,9 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
 
 
 def _is_code(text: str, at: int) -> bool:
-    """Return whether a qualified name may begin at an offset, going by what stands before it in its line."""
+    """Return whether a qualified name may begin at an offset, judged by the text before it in its line."""
     line = text.rfind("\n", 0, at) + 1
-    before = text[line:at].removesuffix("::")  # of no namespace: ::pkg::msg::Type
+    before = text[line:at].removesuffix("::")  # global namespace: ::pkg::msg::Type
     if before[-1:] in _INSIDE or before.count('"') % 2 or text[max(line - 3, 0) : line].rstrip("\r\n")[-1:] == "\\":
         return False
     bare = before.strip()

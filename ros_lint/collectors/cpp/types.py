@@ -1,4 +1,4 @@
-"""Names of types in C++ code: which it declares, which of messages it makes known, and where a bare name stands for one."""
+"""Names of types in C++ code: declarations, aliases of interface types, and unqualified uses."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ _OWN = (
     (re.compile(rb"\bnamespace\s+(?:\w+::)*\Z"), re.compile(rb"\s*\{")),
     (re.compile(rb"\btypedef\s[^;{}]*\Z"), re.compile(rb"\s*;")),
 )
-"""What stands before and after a name where code gives it a meaning of its own."""
+"""Characters around a name that give it a meaning of its own."""
 _MESSAGE = rb"(?:::)?(\w+)::(?:msg|srv|action)::"
 _USING = re.compile(rb"\busing\s+" + _MESSAGE + rb"(\w+)\s*;")
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?" + _MESSAGE + rb"\w+")
 _CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
 _NEAR = 120
-"""How many bytes before a name are looked at."""
+"""Number of bytes before a name that are considered."""
 _NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 _SHORTEST = 4
-"""Of shorter names too many mean something else."""
+"""Length of the shortest name considered, because shorter names are too often ambiguous."""
 
 
 def declared(text: bytes) -> frozenset[bytes]:
-    """Return the names of the types that C++ code declares, forward declarations left out."""
+    """Return the names of the types that C++ code declares, without forward declarations."""
     return frozenset(name for name in _TYPE.findall(text) if len(name) >= _SHORTEST)
 
 
 def introduced(text: bytes) -> Mapping[str, set[bytes]]:
-    """Return the names under which C++ code makes messages known, by package: ``using pkg::msg::T;``, ``using X = ...``."""
+    """Return the aliases of interface types by package: ``using pkg::msg::T;``, ``using X = ...``."""
     found: dict[str, set[bytes]] = {}
     if b"using " in text:
         alias = [(package, name) for name, package in _ALIAS.findall(text)]
@@ -54,7 +54,7 @@ def namespaces(text: bytes) -> frozenset[bytes]:
 
 
 def code(text: bytes) -> bytes:
-    """Return C++ code with blanks for comments and strings, each character at its offset."""
+    """Return C++ code with blanks for comments and strings. Offsets are unchanged."""
     return _NO_CODE.sub(_blank, text)
 
 
@@ -63,10 +63,10 @@ def _blank(match: re.Match[bytes]) -> bytes:
 
 
 def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
-    """Return the first place where a name stands for what is in some namespaces: alone or behind them.
+    """Return the first place where a name, unqualified or qualified, means a member of some namespaces.
 
-    None where the code means something else by it, or takes it from elsewhere as well. Of a namespace itself it is the first
-    place where something is taken from it.
+    None if the code defines the name itself, or takes it from elsewhere as well. For a namespace, it is the first place
+    where one of its members is used.
     """
     found: Span | None = None
     for path, text in texts:
@@ -84,7 +84,7 @@ def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[byt
 
 
 def _places(text: bytes, name: bytes) -> Iterator[int]:
-    """Yield where a word stands that is no member of something."""
+    """Yield the offsets of a word that is no member of another name."""
     start = text.find(name)
     while start >= 0:
         before, after = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]
@@ -94,4 +94,4 @@ def _places(text: bytes, name: bytes) -> Iterator[int]:
 
 
 _JOINED = (b"_", b".", b">")
-"""What joins a name to what stands before it."""
+"""Endings of the text before a name that is part of a longer name."""

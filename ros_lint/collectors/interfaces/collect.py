@@ -1,4 +1,4 @@
-"""Read interface definitions: .msg, .srv, .action and .idl."""
+"""Reader of interface definitions: .msg, .srv, .action and .idl."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Text
 
-# A type of another package comes first in its line; what follows it may be a bound, a name or a default.
+# The type of another package is first in its line; it is followed by a bound, a name or a default.
 _FIELD = re.compile(r"^[ \t]*([A-Za-z]\w*(?:/\w+)+)(?=[\[\s<])", re.MULTILINE)
 _IDL_INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])(\w+)/\w+/(\w+)\.idl[">]', re.MULTILINE)
 _IDL_NAME = re.compile(r"\b([a-z]\w*)::(?:msg|srv|action)::(\w+)")
@@ -22,10 +22,10 @@ _IDL_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 
 
 def collect(source: Text) -> FileFacts:
-    """Return the foreign types that an interface file uses, as ``package/Type``; reference, section C4.5.
+    """Return the types of other packages that an interface file uses, as ``package/Type``.
 
-    A .msg field names them ``package/Type``, and with more slashes, which the generator rejects, means the same. An .idl
-    file includes ``package/msg/Type.idl`` and names ``package::msg::Type``, those of its own package among them.
+    A .msg field names them ``package/Type``; more slashes mean the same, but the generator rejects them. An .idl file
+    includes ``package/msg/Type.idl`` and names ``package::msg::Type``, also for its own package.
     """
     if source.path.endswith(".idl"):
         return FileFacts(tuple(_idl(source)))

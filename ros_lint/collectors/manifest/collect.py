@@ -1,4 +1,4 @@
-"""Read ``package.xml``: what it says, and why catkin_pkg would not take it."""
+"""Reader of ``package.xml``: its contents, and the reasons why catkin_pkg would reject it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ros_lint.facts.manifest import DEPENDENCY_KINDS, Depend, Element, Manifest
 from ros_lint.facts.visibility import Problem
 
 DEPENDENCY_TAGS: Final = frozenset(DEPENDENCY_KINDS)
-"""The tags that become a :class:`Depend`, whatever the format of the manifest (reference, section A1.4)."""
+"""The tags that become a :class:`Depend`, in any format of the manifest."""
 
 _NEWEST_FORMAT = 3
-"""Taken for a manifest whose format is not known: it has the most tags."""
+"""The format that is assumed for a manifest of unknown format, because it has the most tags."""
 
 _ASIDE = re.compile(r"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|[^\s<]+(?:[^\S\r\n]+[^\s<]+)*", re.DOTALL)
 
@@ -30,14 +30,14 @@ _new = tuple.__new__  # half the time of calling a named tuple
 
 
 def collect(source: Text) -> Manifest:
-    """Return what a ``package.xml`` says. Never raises.
+    """Return the contents of a ``package.xml``. Never raises.
 
-    ``problems`` holds everything for which ``catkin_pkg.package.parse_package`` rejects the file, and is empty when it takes
-    it (reference, sections A1 and A2); a rejected file gives the facts that can be read all the same. For safety two things
-    are refused that catkin_pkg would take: entity declarations, and elements nested more than 200 levels deep.
+    ``problems`` lists everything for which ``catkin_pkg.package.parse_package`` rejects the file, and is empty if it
+    accepts the file. The readable facts of a rejected file are returned, too. For safety, two things are rejected that
+    catkin_pkg accepts: entity declarations, and elements nested more than 200 levels deep.
     """
     document = read(source)
-    text = Text(source.path, document.text)  # as the tools read it, should the declared encoding have led astray
+    text = Text(source.path, document.text)  # as the tools read it, if the declared encoding is wrong
     root = document.root
     if root is None or root.tag != "package":
         return _no_package(text, document)
@@ -75,7 +75,7 @@ def collect(source: Text) -> Manifest:
 
 
 class _Found:
-    """What stands in ``<package>``. ``doubtful``: some element has attributes or children that it may not have."""
+    """The contents of ``<package>``. ``doubtful``: an element may have invalid attributes or children."""
 
     __slots__ = ("asides", "depends", "doubtful", "elements", "exports", "strays")
 
@@ -101,7 +101,7 @@ def _read_children(path: str, document: Document, root: Node, allowed: Mapping[s
         if start != done and not (gap := text[done:start]).isspace():
             _read_asides(gap, done, found, place)
         if plain_lines and not attributes and at + 1 < last and isinstance(close := events[at + 1], int):
-            # Most elements have nothing but text in them, on one line. They are read here, at a third of the cost.
+            # Most elements contain only text, on one line. They are read here, at a third of the cost.
             inner = start + len(tag) + 2
             done = close + len(tag) + 3
             raw = text[inner:close]
@@ -120,7 +120,7 @@ def _read_children(path: str, document: Document, root: Node, allowed: Mapping[s
                     add_element(_new(Element, (tag, raw, (), span, name_span)))
                 continue
         node, at = child(document, at)
-        done = node.end if node.end >= 0 else len(text)  # else the file breaks off in it
+        done = node.end if node.end >= 0 else len(text)  # else the file ends in it
         rich = node.tag in ("description", "export")
         if (node.children and not rich) or not allowed.get(node.tag, _NONE).issuperset(node.attributes):
             found.doubtful = True
@@ -157,7 +157,7 @@ def _depend(text: str, node: Node, place: _Place) -> Depend:
 
 
 def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Element:
-    """``rich`` elements have their markup as text, as catkin_pkg has it."""
+    """Return an element. The text of ``rich`` elements includes their markup, as in catkin_pkg."""
     span = place(node.start, node.end)
     if rich:
         found = markup(text, node) if node.tag != "export" else ""
@@ -170,7 +170,7 @@ def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Ele
 
 
 def _placer(source: Text) -> _Place:
-    """Return :meth:`Text.span` for places whose starts come in order, which then costs a third."""
+    """Return :meth:`Text.span` for places in ascending order, at a third of the cost."""
     path, text = source.path, source.text
     if "\r" in text:
         return source.span
@@ -191,7 +191,7 @@ def _placer(source: Text) -> _Place:
 
 
 def _no_package(text: Text, document: Document) -> Manifest:
-    """Return the manifest of a file that has no ``<package>``."""
+    """Return the manifest of a file without ``<package>``."""
     faults = list(document.faults)
     root = document.root
     start = root.start + 1 if root else 0

@@ -1,7 +1,7 @@
-"""Conditions of package.xml elements: parse, and evaluate with three truth values (REP 149; reference, section A3).
+"""Conditions of package.xml elements: parser, and evaluation with three truth values (REP 149).
 
-The grammar is the one that catkin_pkg accepts, its looseness included: ``and`` and ``or`` need no space after them, and
-quoted strings may be empty.
+The grammar is that of catkin_pkg (condition.py), including its leniency: ``and`` and ``or`` need no space after them,
+and quoted strings may be empty.
 """
 
 from __future__ import annotations
@@ -17,11 +17,14 @@ from ros_lint.facts.manifest import Element, Manifest
 from ros_lint.facts.visibility import Problem
 
 MOST_DEPTH = 20
-"""Parentheses nested deeper are refused: catkin_pkg needs time exponential in their depth."""
+"""Largest depth of parentheses, because catkin_pkg needs exponential time for deeper ones."""
 
 
 class ConditionError(ValueError):
-    """A condition that does not parse. ``offset`` counts code points, from 0 to the length of the condition."""
+    """A condition that cannot be parsed.
+
+    ``offset`` counts code points, from 0 to the length of the condition.
+    """
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -30,14 +33,14 @@ class ConditionError(ValueError):
 
 
 class Operand(NamedTuple):
-    """A side of a comparison: the value of a variable, or a text."""
+    """An operand of a comparison: the value of a variable, or a text."""
 
     text: str
     variable: bool
 
 
 class Comparison(NamedTuple):
-    """Two strings, compared as strings: "10" is less than "9"."""
+    """A comparison of two strings as strings: "10" is less than "9"."""
 
     left: Operand
     operator: str
@@ -45,7 +48,7 @@ class Comparison(NamedTuple):
 
 
 class Junction(NamedTuple):
-    """Conditions joined by ``and`` (every) or by ``or``."""
+    """Conditions joined by ``and`` (all have to hold) or by ``or``."""
 
     every: bool
     parts: tuple[Condition, ...]
@@ -67,14 +70,14 @@ _OPERAND = re.compile(
     r"""\$(?P<variable>[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+)|"(?P<double>[^"\n\r]*)"|'(?P<single>[^'\n\r]*)'"""
 )
 _ESCAPES = re.compile(r"\\(?:([tnfr])|([0-7]3|0|x[0-9a-fA-F]2|u[0-9a-fA-F]4))")
-"""What pyparsing takes for escapes, since 3.1 also of numbers: one digit and how many it means to take."""
+"""Escapes of pyparsing; since version 3.1 also numeric ones."""
 _BLANKS = {"t": "\t", "n": "\n", "f": "\f", "r": "\r"}
 
 
 @lru_cache(maxsize=1024)
 def parse(text: str) -> Condition:
-    """Return a condition. Raises ConditionError where catkin_pkg.condition does not parse, too."""
-    expanded = text.expandtabs()  # as pyparsing does first of all
+    """Return the parsed condition. Raises ConditionError if catkin_pkg.condition cannot parse it either."""
+    expanded = text.expandtabs()  # pyparsing expands tabs first
     try:
         condition, at = _junction(expanded, 0, 0)
         if at < len(expanded):
@@ -82,14 +85,14 @@ def parse(text: str) -> Condition:
     except ConditionError as error:
         if expanded == text:
             raise
-        # Tabs have moved the place.
+        # The tabs have shifted the offset.
         offset = next((i for i in range(len(text)) if len(text[: i + 1].expandtabs()) > error.offset), len(text))
         raise ConditionError(error.message, offset) from None
     return condition
 
 
 def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
-    """Return whether a condition holds, None if that depends on a variable that the context has not."""
+    """Return whether a condition holds, or None if it depends on a variable that is not in the context."""
     if isinstance(condition, Junction):
         found = [evaluate(part, context) for part in condition.parts]
         if condition.every:
@@ -102,14 +105,14 @@ def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
 
 
 def always(text: str) -> bool:
-    """Return whether an element with this condition, or without one, counts in every environment of ROS 2."""
+    """Return whether an element with this condition, or without one, counts in every ROS 2 environment."""
     return truth(text, ROS_2) is True
 
 
 def truth(text: str, context: Mapping[str, str]) -> bool | None:
-    """Return whether an element with this condition counts: True without a condition, None if that cannot be known.
+    """Return whether an element with this condition counts: True without a condition, None if unknown.
 
-    A text that does not parse gives None, too; see :func:`problems`.
+    A condition that cannot be parsed gives None, too; see :func:`problems`.
     """
     if not text:
         return True
@@ -127,7 +130,7 @@ def variables(condition: Condition) -> frozenset[str]:
 
 
 def of(element: Element) -> str:
-    """Return the condition of a child of ``<export>``: "" when there is none, " " when it is empty."""
+    """Return the condition of a child of ``<export>``: "" for none, " " for an empty one."""
     for name, text in element.attributes:
         if name == "condition":
             return text or " "
@@ -135,16 +138,17 @@ def of(element: Element) -> str:
 
 
 def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[str, bool | None], ...]:
-    """Return the build types that are not switched off, each with its truth: True, or None when that cannot be known.
+    """Return the build types whose condition is not false, each with its truth: True, or None if unknown.
 
-    None at all means "catkin"; with two that are true, colcon takes the folder for no ROS package (reference, section A5.4).
+    An empty result means "catkin". With two true build types, colcon does not treat the folder as a ROS package
+    (colcon-ros, package identification).
     """
     found = [(element.text, truth(of(element), context)) for element in manifest.exports if element.tag == "build_type"]
     return tuple([(name, active) for name, active in found if active is not False])
 
 
 def problems(manifest: Manifest) -> tuple[Problem, ...]:
-    """Return the conditions that do not parse: colcon takes a folder with one for no ROS package (reference, section A3.5)."""
+    """Return the conditions that cannot be parsed: to colcon, such a folder is no ROS package."""
     return tuple(_unparsable(manifest))
 
 
@@ -166,7 +170,7 @@ def _value(operand: Operand, context: Mapping[str, str]) -> str | None:
 
 
 def _junction(text: str, at: int, depth: int) -> tuple[Condition, int]:
-    """``or`` binds less than ``and``."""
+    """Parse a junction; ``or`` has a lower precedence than ``and``."""
     alternatives: list[Condition] = []
     while True:
         parts, at = _conjunction(text, at, depth)

@@ -1,8 +1,8 @@
-"""Edits of ``package.xml``: minimal, in the file's own style, comments kept.
+"""Edits of ``package.xml``: minimal, in the style of the file, comments kept.
 
-They are computed from the places in a :class:`Manifest` alone, for rules have no text. What stands between the elements
-comes from ``Manifest.asides``, so lines on which nothing stands are known to be blank. Every edit is meant for the text
-that the manifest was read from; of a text that is not well-formed the edits are as good as what could be read.
+They are computed from the places in a :class:`Manifest` alone, because rules do not have the text. What is between the
+elements is known from ``Manifest.asides``, so all other lines are known to be blank. Every edit applies to the text
+that the manifest was read from. If the text is not well-formed, the edits are based on the part that could be read.
 """
 
 from __future__ import annotations
@@ -20,46 +20,46 @@ _HABIT: Final = (
     *("buildtool_depend", "buildtool_export_depend", "depend", "build_depend", "build_export_depend", "exec_depend"),
     *("run_depend", "test_depend", "doc_depend", "conflict", "replace", "group_depend", "member_of_group"),
 )
-"""The order of dependencies in most manifests. The schemas only want the last two after the others."""
+"""The order of dependency tags in most manifests. The schemas only require the last two to be last."""
 
 _GROUPS = ("group_depend", "member_of_group")
 
 SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license", "url", "author", "", *_GROUPS, "export")
-"""The order of the schemas; "" stands for the dependency tags, in any mix (reference, section A1.7)."""
+"""The order of tags in the schemas of REP 127, 140 and 149; "" is the place of all dependency tags."""
 
 
 def schema_rank(tag: str) -> int:
-    """Return the place of a tag in :data:`SCHEMA_ORDER`."""
+    """Return the position of a tag in :data:`SCHEMA_ORDER`."""
     return SCHEMA_ORDER.index(tag) if tag in SCHEMA_ORDER else SCHEMA_ORDER.index("")
 
 
 def add(manifest: Manifest, tag: str, name: str) -> Edit:
     """Return the edit that declares a dependency without attributes.
 
-    It goes among the tags of its kind, at its place if they are sorted; else to where the usual order wants it, set off by
-    a blank line if that is the habit of the file.
+    The new tag is added to the tags of its kind, in alphabetical order if these are sorted. If there are none, it is
+    placed by the usual order of kinds, separated by a blank line if the file does so.
     """
     return _put(_Layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
 
 
 def _put(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
-    """Return the edit that puts an element for a dependency where its like is among others, and in its order beside them."""
+    """Return the edit that inserts an element for a dependency next to those of its kind."""
     order = name if _is_sorted(depends, tag) else ""
     return _place(layout, depends, tag, order, element)._replace(kind=_HABIT.index(tag) + 1, order=order)
 
 
 def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
-    """Whether the dependencies of a kind are sorted by name; of a kind with less than two, whether those of all others are."""
+    """Return whether the dependencies of a kind are sorted by name, or all others if it has less than two."""
     names: dict[str, list[str]] = {}
     for depend in depends:
         names.setdefault(depend.tag, []).append(depend.name)
-    several = {kind: found for kind, found in names.items() if len(found) > 1}
+    several = {kind: names_of_kind for kind, names_of_kind in names.items() if len(names_of_kind) > 1}
     asked = [several[tag]] if tag in several else list(several.values())
-    return bool(asked) and all(found == sorted(found) for found in asked)
+    return bool(asked) and all(names_of_kind == sorted(names_of_kind) for names_of_kind in asked)
 
 
 def _place(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, element: str) -> Edit:
-    """``order``: the name, where names are sorted."""
+    """Return the edit for an element at the place of ``order``, the name if names are sorted, else ""."""
     manifest = layout.manifest
     siblings = [depend for depend in depends if depend.tag == tag]
     if siblings:
@@ -84,22 +84,26 @@ def _place(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, ele
 
 
 def remove(manifest: Manifest, depend: Depend) -> Edit:
-    """Return the edit that takes a dependency out: its line, if nothing else is on it. Comments stay."""
+    """Return the edit that removes a dependency, with its line if nothing else is on it.
+
+    Comments are kept.
+    """
     return _Layout(manifest).removal(depend.span)
 
 
 def rename(depend: Depend, name: str) -> Edit:
-    """Return the edit that puts another name into a dependency."""
+    """Return the edit that changes the name in a dependency."""
     if not depend.name:
         return Edit(depend.span, _written(depend._replace(name=name)))
     return Edit(depend.name_span, escaped(name))
 
 
 def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that make another kind of dependency of one; it is of another kind so far.
+    """Return the edits that change the kind of a dependency. It must have another kind before.
 
-    It goes to those of its new kind where the file keeps kinds together. Otherwise it stays where it is: so does a row of one
-    kind that changes as a whole, where there are none of the new one; ``alike`` are those that change to the same kind.
+    If the file groups dependencies by kind, it is moved to its new kind. Otherwise its place is kept. The place is also
+    kept if a whole group changes to a kind that does not exist yet; ``alike`` are the dependencies that change to the
+    same kind.
     """
     depends = manifest.depends
     runs = [list(run) for _, run in groupby(depends, key=lambda each: each.tag)]
@@ -114,7 +118,7 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
 
 
 def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
-    """Return the edits that make another kind of dependency of one, where it is."""
+    """Return the edits that change the kind of a dependency without moving it."""
     span, old = depend.span, len(depend.tag)
     if not depend.close:
         return (Edit(span, _written(depend._replace(tag=tag))),)
@@ -126,7 +130,7 @@ def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
 
 
 def set_build_type(manifest: Manifest, build_type: str) -> Edit:
-    """Return the edit that gives a manifest without a build type one: in its ``<export>``, or in a new one."""
+    """Return the edit that adds a build type to a manifest without one, in ``<export>``."""
     layout, newline, indent = _Layout(manifest), manifest.newline, manifest.indent
     element = f"<build_type>{escaped(build_type)}</build_type>"
     whole = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
@@ -147,7 +151,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
 
 
 def raise_format(manifest: Manifest, form: int) -> Edit:
-    """Return the edit that gives a manifest another format. It has a ``<package>``."""
+    """Return the edit that changes the format of a manifest. It must have a ``<package>``."""
     if manifest.format_span is not None:
         return Edit(manifest.format_span, str(form))
     begin = manifest.begin or manifest.end
@@ -156,10 +160,10 @@ def raise_format(manifest: Manifest, form: int) -> Edit:
 
 
 def sort(manifest: Manifest) -> tuple[Edit, ...]:
-    """Return the edits that bring the children of ``<package>`` into the order of the schemas, as few moves as possible.
+    """Return the edits that sort the children of ``<package>`` by the schemas, with the fewest moves.
 
-    Empty when they are in order, or when something would have to move that cannot be moved without harm: it shares its
-    line, has a comment, or is written in a way that only its text can tell.
+    Empty if they are sorted, or if an element would have to move that shares its line, has a comment, or cannot be
+    written again without its text.
     """
     children: list[Element | Depend] = sorted((*manifest.elements, *manifest.depends), key=lambda child: child.span)
     ranks = [schema_rank(child.tag) for child in children]
@@ -178,14 +182,14 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
 
 
 class _Line(NamedTuple):
-    """What shares the first and the last line of an element with it."""
+    """The items that share the first and the last line of an element."""
 
     before: Span | None
     after: Span | None
 
 
 class _Layout:
-    """Lines, and what is on them."""
+    """The lines of a manifest and the items on them."""
 
     def __init__(self, manifest: Manifest) -> None:
         self.manifest = manifest
@@ -198,25 +202,26 @@ class _Layout:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Line:
-        """Return what ends on the line where an item starts, and what starts on the line where it ends."""
+        """Return the item that ends on the first line of an item, and the item that starts on its last line."""
         at = self.items.index(span)
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
         return _Line(previous if previous.end_line == span.line else None, following if following.line == span.end_line else None)
 
     def alone(self, span: Span) -> bool:
-        """Whether an item has its lines for itself, and no comment right above it."""
+        """Return whether an item shares no line with another one and has no comment directly above it."""
         at = self.items.index(span)
         heading = at > 0 and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1
         return self.neighbours(span) == (None, None) and not heading
 
     def after(self, span: Span, element: str, *, apart: bool = False) -> Edit:
-        """Return the edit that puts an element after an item and the comments on its line."""
+        """Return the edit that inserts an element after an item and the comments on its line."""
         tail = span
         while (following := self.neighbours(tail).after) is not None and following in self.manifest.asides:
             tail = following
         if following is not None:
-            # A line of several of one kind is a habit; one of two kinds is a slip, or all is on one line.
+            # Several elements of one kind on a line are a habit. Two kinds are a mistake, unless everything is on one
+            # line.
             tags = {depend.span: depend.tag for depend in self.manifest.depends}
             slip = self.neighbours(span).before is None and tags.get(span) != tags.get(following)
             return Edit(span.end(), f"{self.manifest.newline}{self._indent(span)}{element}" if slip else element)
@@ -225,7 +230,7 @@ class _Layout:
         return Edit(place, f"{blank}{self._indent(span)}{element}{self.manifest.newline}")
 
     def before(self, span: Span, element: str, *, apart: bool = False) -> Edit:
-        """Return the edit that puts an element before an item."""
+        """Return the edit that inserts an element before an item."""
         if self.neighbours(span).before is not None:
             return Edit(span.start(), element)
         blank = self.manifest.newline if apart else ""
@@ -233,7 +238,7 @@ class _Layout:
         return Edit(place, f"{self._indent(span)}{element}{self.manifest.newline}{blank}")
 
     def last(self, element: str) -> Edit:
-        """Return the edit that puts an element into a package that has none."""
+        """Return the edit that inserts an element into a package without any."""
         end, newline = self.manifest.end, self.manifest.newline
         if end.line == self.begin.line:
             return Edit(end, f"{newline}{self.manifest.indent}{element}{newline}")
@@ -241,7 +246,7 @@ class _Layout:
         return Edit(place, f"{self.manifest.indent}{element}{newline}")
 
     def removal(self, span: Span) -> Edit:
-        """Return the edit that takes an item out without leaving a trace."""
+        """Return the edit that removes an item without a trace."""
         before, after = self.neighbours(span)
         path = self.path
         if before is not None:
@@ -251,7 +256,7 @@ class _Layout:
         return self._lines_out(span.line, span.end_line)
 
     def removals(self, spans: Iterable[Span]) -> Iterator[Edit]:
-        """Yield the edits that take out items that have their lines for themselves, in the order of the file."""
+        """Yield the edits that remove items that share no lines, in the order of the file."""
         runs: list[list[int]] = []
         for span in spans:
             if runs and runs[-1][1] == span.line - 1:
@@ -261,7 +266,7 @@ class _Layout:
         return (self._lines_out(first, last) for first, last in runs)
 
     def _lines_out(self, first: int, last: int) -> Edit:
-        """Return the edit that removes lines, and blank ones beside them that then have nothing to set apart."""
+        """Return the edit that removes lines, with adjacent blank lines that have nothing left to separate."""
         end = last + 1
         while self._is_blank(first - 1) and self._is_blank(end):
             end += 1
@@ -270,7 +275,7 @@ class _Layout:
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
-        """Return the first of the comments that stand right above an item, or the item."""
+        """Return the span from the first of the comments directly above an item to the item."""
         at = self.items.index(span)
         while at and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:
@@ -280,13 +285,13 @@ class _Layout:
         return span
 
     def blank_after(self, span: Span) -> bool:
-        """Whether a blank line follows an item and the comments on its line."""
+        """Return whether a blank line follows an item and the comments on its line."""
         while (following := self.neighbours(span).after) is not None and following in self.manifest.asides:
             span = following
         return self._is_blank(span.end_line + 1)
 
     def kinds_apart(self) -> bool:
-        """Whether the file sets kinds of dependencies off by blank lines; with one kind only, whether that stands apart."""
+        """Return whether blank lines separate the kinds of dependencies, or the only kind from other elements."""
         depends = self.manifest.depends
         changes = [(one.span, other.span) for one, other in pairwise(depends) if one.tag != other.tag]
         if changes:
@@ -297,7 +302,7 @@ class _Layout:
         return self.begin.line < line < self.manifest.end.line and line not in self.covered
 
     def _indent(self, span: Span) -> str:
-        """Return the white space before an item, the usual one if it does not start its line."""
+        """Return the white space before an item, or the usual indentation if it does not start its line."""
         usual = self.manifest.indent
         width = span.column - 1
         if self.neighbours(span).before is not None or width == len(usual):
@@ -306,7 +311,7 @@ class _Layout:
 
 
 def _written(child: Element | Depend) -> str:
-    """Return an element as it is mostly written."""
+    """Return an element in its usual notation."""
     if isinstance(child, Depend):
         condition = (("condition", child.condition),) if child.condition else ()
         return _tagged(child.tag, (*child.versions, *condition), child.name)
@@ -319,7 +324,7 @@ def _tagged(tag: str, attributes: Iterable[tuple[str, str]], text: str) -> str:
 
 
 def _is_verbatim(child: Element | Depend) -> bool:
-    """Whether :func:`_written` gives a child as it stands, but for quotes and the order of attributes."""
+    """Return whether :func:`_written` reproduces a child, except for quotes and the order of attributes."""
     span = child.span
     if child.tag in ("description", "export") or span.line != span.end_line:
         return False
@@ -327,9 +332,9 @@ def _is_verbatim(child: Element | Depend) -> bool:
 
 
 def _longest_ascent(ranks: list[int]) -> frozenset[int]:
-    """Return the indexes of a longest run, gaps allowed, in which ranks never fall."""
-    chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, and the index before
-    longest: dict[int, int] = {}  # by rank: the index where the longest run ends that ends in this rank
+    """Return the indexes of a longest subsequence in which ranks never decrease."""
+    chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, previous index
+    longest: dict[int, int] = {}  # by rank: the index at which the longest run with this last rank ends
     for at, rank in enumerate(ranks):
         length, previous = max(((chains[i][0], i) for other, i in longest.items() if other <= rank), default=(0, -1))
         chains.append((length + 1, previous))

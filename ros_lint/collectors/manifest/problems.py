@@ -1,4 +1,4 @@
-"""What makes catkin_pkg reject a manifest that is well-formed XML (reference, sections A1 and A2)."""
+"""Errors for which catkin_pkg rejects a manifest that is well-formed XML (catkin_pkg/package.py)."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ros_lint.facts.manifest import Depend, Element
 
 _Elements = Sequence[tuple[Node, Element]]
 _Depends = Sequence[tuple[Node, Depend]]
-"""Children of ``<package>``, each with what it says."""
+"""Children of ``<package>``, each with its parsed dependency."""
 
 VERSIONS: Final = frozenset(("version_lt", "version_lte", "version_eq", "version_gte", "version_gt"))
-"""The attributes that ask for a version of the dependency (reference, section A4)."""
+"""The attributes that restrict the version of a dependency (REP 149)."""
 
 _NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
 _VERSION = re.compile(r"^[0-9]+\.[0-9]+\.[0-9]+$")
@@ -48,19 +48,19 @@ def _allowed(form: int) -> dict[str, frozenset[str]]:
 
 
 ALLOWED: Final = {form: _allowed(form) for form in (1, 2, 3)}
-"""By format, the tags that may stand in ``<package>``, each with its attributes."""
+"""The tags that ``<package>`` may contain, by format, each with its attributes."""
 
 _GENERIC = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
-"""A <depend>, and the tags that it stands for."""
+"""The <depend> tag and the tags that it includes."""
 
 _OF_EXPORT = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
-"""Tags that have a meaning, but in <export> (reference, section A5.6)."""
+"""Tags that have a meaning only in <export>."""
 
 _NOT_ON_ITSELF = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
 
 
 def read_format(root: Node) -> int:
-    """Return the format of a manifest, 0 when it is none that exists."""
+    """Return the format of a manifest, or 0 for an unknown one."""
     try:
         form = int(root.attributes.get("format", "1"))
     except ValueError:
@@ -69,7 +69,7 @@ def read_format(root: Node) -> int:
 
 
 def surely_accepted(root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
-    """Return True if :func:`find_problems` has nothing to say, but perhaps about attributes and children. Costs a fifth."""
+    """Return True if :func:`find_problems` can only report attributes and children. A fifth of its cost."""
     if not form or not root.attributes.keys() <= {"format"}:
         return False
     tags = [element.tag for element in elements]
@@ -92,7 +92,7 @@ def surely_accepted(root: Node, form: int, elements: Sequence[Element], depends:
 
 
 def _sound(element: Element) -> bool:
-    """Return whether the content of an element, and what :func:`find_problems` asks of its attributes, is surely right."""
+    """Return whether the content of an element and its checked attributes are certainly valid."""
     tag = element.tag
     if tag == "name":
         return bool(_NAME.match(element.text))
@@ -113,10 +113,10 @@ def _sound(element: Element) -> bool:
 def find_problems(
     document: Document, root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]
 ) -> Iterator[Fault]:
-    """Yield what is wrong with the content of a manifest, in no order. ``form`` is 0 when the format is unknown.
+    """Yield the errors in the content of a manifest, unordered. ``form`` is 0 if the format is unknown.
 
-    ``elements`` and ``depends`` are what was made of the closed children of the root. Of a file that could not be read to
-    its end, nothing is said to be missing.
+    ``elements`` and ``depends`` are the parsed closed children of the root. If a file could not be read to its end,
+    nothing is reported as missing.
     """
     nodes = [node for node in children(document) if node.end >= 0]
     dependency_tags = {depend.tag for depend in depends}
@@ -147,7 +147,7 @@ def find_problems(
 
 
 def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
-    """Yield the element itself when its format has none of its name, or the attributes and children that it must not have."""
+    """Yield an element that its format does not have, or its invalid attributes and children."""
     allowed = ALLOWED[form].get(node.tag)
     if allowed is None:
         yield _unknown_tag(node, form)
@@ -189,7 +189,7 @@ def _unknown_attribute(text: str, node: Node, name: str, form: int) -> Fault:
 
 
 def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[Fault]:
-    """Yield what is missing, and what is there more than once."""
+    """Yield missing elements, and elements that occur too often."""
     tags = [node.tag for node, _ in elements]
     for tag in ("name", "version", "description", "export"):
         if tags.count(tag) > 1:
@@ -272,7 +272,7 @@ def _alone(depends: _Depends, own_name: str) -> Iterator[Fault]:
 
 
 def _duplicates(depends: _Depends) -> Iterator[Fault]:
-    """Yield the dependencies that an equal <depend> holds already: equal in name, versions and condition, letter by letter."""
+    """Yield dependencies that repeat a <depend> with equal name, versions and condition, letter by letter."""
     kept = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
     if not kept:
         return

@@ -47,11 +47,14 @@ Start = tuple[str, dict[str, str], int]
 """A start tag as expat sees it: name and attributes, namespaces resolved, and offset."""
 
 Event = Start | int
-"""A start tag, or where an element ends as expat sees it: at its end tag, or after ``<a/>``."""
+"""A start tag, or the offset where an element ends for expat: at its end tag, or after ``<a/>``."""
 
 
 class Node(NamedTuple):
-    """An element. ``end`` is -1 when it is never closed; content is from ``inner`` to ``close``, equal in ``<a/>``."""
+    """An element. ``end`` is -1 if it is never closed.
+
+    The content is from ``inner`` to ``close``, empty in ``<a/>``.
+    """
 
     tag: str
     attributes: dict[str, str]
@@ -60,21 +63,21 @@ class Node(NamedTuple):
     close: int
     end: int
     children: tuple[Node, ...] = ()
-    """Grandchildren are not kept."""
+    """The children without their own children."""
 
 
 class Document(NamedTuple):
-    """A file as XML. Without a root, nothing was read."""
+    """A file as XML. Without a root, nothing could be read."""
 
     text: str
-    """As expat read it. Offsets are good for the text that was given, too."""
+    """The text that expat read. Its offsets are valid in the original text, too."""
     events: list[Event]
-    """All tags in order. The first is the root's."""
+    """All tags in order; the root's is the first."""
     root: Node | None
-    """Without its children, see :func:`children`."""
+    """The root without its children, see :func:`children`."""
     faults: tuple[Fault, ...]
     read: int
-    """How far the file could be read: its length, or the offset where it breaks off."""
+    """The length of the part that could be read: the whole file, or up to the offset of the error."""
 
 
 def read(source: Text) -> Document:
@@ -82,7 +85,7 @@ def read(source: Text) -> Document:
     text, faults = _as_utf8(source)
     document = _parse(text)
     if document.faults and (conflicts := _conflicts(text, document.faults[0].start)):
-        # What both sides declare is the best that can be known; what else is wrong follows from the conflict.
+        # The declarations of both sides are the best estimate; other errors result from the conflict.
         document = _parse(_CONFLICT.sub(lambda marker: " " * len(marker[0]), text))
         return document._replace(text=text, faults=(*faults, *conflicts))
     return document._replace(faults=(*faults, *document.faults))
@@ -104,7 +107,7 @@ def attribute(text: str, node: Node, name: str) -> tuple[int, int, int]:
 
 
 def value(text: str, node: Node) -> tuple[str, int, int]:
-    """Return the text directly in an element as catkin_pkg takes it, and the offsets of where it stands.
+    """Return the text directly in an element as catkin_pkg reads it, and its start and end offsets.
 
     Comments, CDATA sections and the text of children do not count.
     """
@@ -130,7 +133,7 @@ def value(text: str, node: Node) -> tuple[str, int, int]:
 
 
 def markup(text: str, node: Node) -> str:
-    """Return the content of an element with its markup, as catkin_pkg takes description and export: "" when nothing is there."""
+    """Return the content of an element with its markup, as catkin_pkg reads description and export, or ""."""
     raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # xml.dom.minidom drops empty ones, too
     if "<" not in raw:
         return value(text, node)[0]
@@ -141,7 +144,7 @@ def markup(text: str, node: Node) -> str:
 
 
 def escaped(text: str) -> str:
-    """Return a text as the content of an element."""
+    """Return a text escaped as the content of an element."""
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
@@ -150,7 +153,7 @@ def _one_newline(text: str) -> str:
 
 
 def _counts(piece: re.Match[str]) -> bool:
-    """Whether a piece of content is something: neither blank text nor an empty CDATA section."""
+    """Return whether a piece of content is neither blank text nor an empty CDATA section."""
     if piece.lastgroup in ("text", "entity"):
         return bool(_resolve(piece).strip(BLANK))
     return piece.lastgroup != "cdata" or bool(piece["cdata"])
@@ -164,7 +167,7 @@ def _resolve(piece: re.Match[str]) -> str:
         return chr(int(f"0{entity[1:]}", 0))
     if entity.startswith("#"):
         return chr(int(entity[1:]))
-    return _ENTITIES.get(entity, "")  # others come from a document type elsewhere, which nobody fetches
+    return _ENTITIES.get(entity, "")  # others are defined in an external document type, which is not fetched
 
 
 def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
@@ -178,7 +181,7 @@ def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
             at = len(data[: error.start].decode(source.codec, "ignore"))
             message = f"the file is {source.codec}, but manifests are read as utf-8; save it as utf-8"
             return text, (Fault("encoding", message, at, min(at + 1, len(text))),)
-        if "\0" not in read_as:  # else expat sees for itself that it is UTF-16
+        if "\0" not in read_as:  # else expat itself detects UTF-16
             text = read_as
     if not text.isascii() and (bad := re.search("[\ud800-\udfff]+", text)):
         message = "not utf-8, the encoding of manifests; save the file as utf-8"
@@ -234,8 +237,8 @@ def child(document: Document, at: int) -> tuple[Node, int]:
 
 
 def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
-    """Return start and end tags with offsets in bytes, what stopped the parser, and the offset in the text where it did."""
-    # Namespaces as in xml.dom.minidom, through which catkin_pkg reads.
+    """Return the tags with byte offsets, the error that stopped the parser, and its offset in the text."""
+    # Namespaces as in xml.dom.minidom, which catkin_pkg uses.
     parser = expat.ParserCreate("utf-8", " ")
     parser.namespace_prefixes = True
     parser.specified_attributes = True
@@ -256,13 +259,14 @@ def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
         message = "declares an entity, which is not resolved here; write its text where it is used"
         fault = Fault("entity", message, stopped, text.find(">", stopped) + 1 or len(text))
     finally:
-        # Parser and handlers hold each other, and the garbage collector may be off: parsers that stay cost more than all else.
+        # Parser and handlers refer to each other, and the garbage collector may be off: unfreed parsers cost more than
+        # the rest.
         parser.StartElementHandler = parser.EndElementHandler = parser.EntityDeclHandler = None
     return events, fault, stopped
 
 
 class _EntityDeclaredError(Exception):
-    """A manifest declares an entity: it could be a bomb, or read other files."""
+    """A manifest declares an entity, which could expand without bound or read other files."""
 
 
 def _refuse_entity(*_: object) -> None:
@@ -270,7 +274,7 @@ def _refuse_entity(*_: object) -> None:
 
 
 def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
-    """Return events whose offsets, which come in order, count code points instead of bytes."""
+    """Return ascending events with their offsets converted from bytes to code points."""
     done = count = 0
     result: list[Event] = []
     for event in events:
@@ -292,7 +296,7 @@ def _too_deep(events: list[Event]) -> int:
 
 
 def _closed(text: str, event: Start, after: int, children: tuple[Node, ...]) -> Node:
-    """Return a closed element. ``after`` is where it ends as expat sees it."""
+    """Return a closed element. ``after`` is the offset where it ends for expat."""
     tag, inner = _start_tag(text, event)
     if text[inner - 2] == "/":
         after = end = inner
@@ -307,7 +311,7 @@ def _unclosed(text: str, event: Start, read: int, children: tuple[Node, ...]) ->
 
 
 def _start_tag(text: str, event: Start) -> tuple[str, int]:
-    """Return the name of a tag as written, and the offset after the tag. expat says only where it starts."""
+    """Return the name of a tag as written, and the offset after the tag. expat only reports its start."""
     name, _, start = event
     inner = start + len(name) + 2
     if text[inner - 1 : inner] == ">" and " " not in name:
@@ -317,20 +321,20 @@ def _start_tag(text: str, event: Start) -> tuple[str, int]:
 
 
 def _names(attributes: dict[str, str]) -> dict[str, str]:
-    """Return attributes under their names as written. expat gives ``uri name prefix``."""
+    """Return the attributes by their names as written. expat reports ``uri name prefix``."""
     if not attributes or " " not in "".join(attributes):
         return attributes
     return {_qualified(name): value for name, value in attributes.items()}
 
 
 def _qualified(name: str) -> str:
-    """Return a name as written, from what expat makes of it: ``uri name`` or ``uri name prefix``."""
+    """Return a name as written, from the notation of expat: ``uri name`` or ``uri name prefix``."""
     parts = name.split(" ")
     return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[-1]
 
 
 def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
-    """Return the merge conflicts that nobody resolved, if the first of them is what broke the file."""
+    """Return the unresolved merge conflicts, if the first of them caused the error."""
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()
@@ -339,7 +343,7 @@ def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
 
 
 _MARKUP = re.compile(r"<!--.*?-->|<\?.*?\?>|<!.*?>|<([^\s>/!?]+)[^>]*>?", re.DOTALL)
-"""Group 1 is the name of an element."""
+"""Matches markup. Group 1 is the name of an element."""
 
 
 _OPENED = re.compile(r"<!--|<!\[CDATA\[|<\?|</?[^\s>]*|")
@@ -347,7 +351,7 @@ _NAME = re.compile(r"[^\s>]*")
 
 
 def _explain(text: str, code: int, at: int) -> Fault:
-    """Return an expat error in words that say how to get out of it. ``at`` is the offset that expat gives."""
+    """Return an expat error as a message with a remedy. ``at`` is the offset that expat reports."""
     start, end = at, min(at + 1, len(text))
     errors = expat.errors.codes
     if code == errors[expat.errors.XML_ERROR_NO_ELEMENTS]:
@@ -388,7 +392,7 @@ def _explain(text: str, code: int, at: int) -> Fault:
 
 
 def _still_open(text: str) -> str:
-    """Return the start tag, without its attributes, that is open where the text stops to be well-formed."""
+    """Return the start tag, without attributes, that is open where the text stops being well-formed."""
     names: list[str] = []
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = lambda name, _: names.append(name)

@@ -1,7 +1,6 @@
 """Models, displays, parameters and plugin descriptions: URDF, xacro, SDF, rviz, YAML, XML.
 
-These name packages in a few fixed forms, whatever the format, so the text is searched and not parsed (reference,
-section E2.20 and E2.21).
+These name packages in a few fixed forms in all formats, so the text is searched and not parsed.
 """
 
 from __future__ import annotations
@@ -19,9 +18,8 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 _NAME = r"([A-Za-z][\w-]*)"
-# package://p/meshes/a.stl of descriptions, $(find p) of xacro, $(find-pkg-share p) of parameters, <include ros_pkg="p"> of
-# behavior trees: these are looked up. Each pattern starts with fixed letters, which the search runs through at the speed of
-# memory.
+# Names that are looked up: package://p/meshes/a.stl in descriptions, $(find p) in xacro, $(find-pkg-share p) in parameters,
+# <include ros_pkg="p"> in behavior trees. Each pattern starts with fixed letters, which are searched fast.
 _LOOK_UPS = tuple(
     map(
         re.compile,
@@ -32,10 +30,10 @@ _LOOK_UPS = tuple(
         ),
     )
 )
-# model://p/a.stl may be a package or a model, and a class is named after its package by habit only: Class: p/Name of
-# rviz and rqt, but what is of rviz_common is built into rviz; type: p/Name of controllers, plugin: "p::Name" of navigation,
-# <plugin>p/Name</plugin>, type="p::Name", moveit_controller_manager: p/Name. What ros1_bridge is to translate has
-# ros2_package_name: p; ros_gz_bridge can only have messages that it brings itself (ros_type_name).
+# Names that are packages by convention only. model://p/a.stl may be a package or a model. Classes have the names of packages:
+# Class: p/Name in rviz and rqt (rviz_common is built into rviz), type: p/Name in controllers, plugin: "p::Name" in navigation,
+# <plugin>p/Name</plugin>, type="p::Name", moveit_controller_manager: p/Name. ros1_bridge translates ros2_package_name: p;
+# ros_gz_bridge translates only messages that it depends on itself (ros_type_name).
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
 _MANAGER = re.compile(rf"""moveit_controller_manager["']?[ \t]*:[ \t]*["']?{_CLASS}""")
 _HABITS = (
@@ -54,7 +52,7 @@ _HABITS = (
 
 
 def collect(source: Text) -> FileFacts:
-    """Return what a resource file says of packages and nodes."""
+    """Return the packages, lookups and parameters in a resource file."""
     facts = _packages(source)
     if source.path.endswith((".yaml", ".yml")):
         return facts._replace(parameters=parameter_files.collect(source))
@@ -62,7 +60,7 @@ def collect(source: Text) -> FileFacts:
 
 
 def loaded(source: Text) -> tuple[Mention, ...]:
-    """Return the packages of the controller managers that a launch file in Python has MoveIt load, as by its parameters."""
+    """Return the packages of controller managers that MoveIt loads by parameters in a Python launch file."""
     found: dict[str, tuple[int, int]] = {}
     _search(_MANAGER, source.text, found)
     spans = source.spans(found.values())
@@ -72,9 +70,9 @@ def loaded(source: Text) -> tuple[Mention, ...]:
 
 
 def _packages(source: Text) -> FileFacts:
-    """Return the packages that a resource file names, each once. Names by habit only are marked optional.
+    """Return the packages that a resource file names, each once. Names by convention only are optional.
 
-    So are those in launch files of ROS 1: nothing looks them up.
+    Names in ROS 1 launch files are optional, too, because nothing looks them up.
     """
     text = source.text
     found: dict[str, tuple[int, int]] = {}
@@ -94,10 +92,10 @@ def _packages(source: Text) -> FileFacts:
     )
 
 
-# A path that goes on with a reference or a variable is none.
+# A path that continues with a reference or a variable is not a file name.
 _FILE = re.compile(rf"(?:package://{_NAME}|\$\(find(?:-pkg-share)?\s+{_NAME}\s*\))/([\w./+-]*[\w+-]\.\w+)(?![\w./${{(@%-])")
 
-# What a behavior tree includes from the share folder of a package (BehaviorTree.CPP, loadDocImpl).
+# Files that a behavior tree includes from the share folder of a package (BehaviorTree.CPP, loadDocImpl).
 _TREE = re.compile(rf"""<include\s(?=[^<>]*\bros_pkg\s*=\s*["']{_NAME}["'])[^<>]*>""")
 _TREE_PATH = re.compile(r"""\spath\s*=\s*["'](\w[\w./+-]*\.\w+)["']""")
 
@@ -107,7 +105,7 @@ def _files(source: Text) -> Iterator[LookUp]:
     places: dict[tuple[str, str], tuple[int, int]] = {}
     for match in _FILE.finditer(source.text):
         key = (match[1] or match[2], normpath(match[3].lstrip("/")))
-        if key[1].startswith("../"):  # it leads out of the package
+        if key[1].startswith("../"):  # it is outside of the package
             continue
         if key not in places and not _in_comment(source.text, match.start()) and not _is_spared(source.text, match.start()):
             places[key] = match.span()
@@ -122,7 +120,7 @@ def _files(source: Text) -> Iterator[LookUp]:
 
 
 def _is_spared(text: str, at: int) -> bool:
-    """Whether a place lies in a tag that does without the file: ``<xacro:include filename="..." optional="true"/>``."""
+    """Return whether a place is in a tag with an optional file: ``<xacro:include optional="true"/>``."""
     opening = text.rfind("<", 0, at)
     return opening >= 0 and _OPTIONAL.match(text, opening) is not None
 
@@ -137,7 +135,7 @@ def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int
 
 
 def _in_class(text: str, at: int) -> bool:
-    """Whether a place lies in a class of a plugin description: it names its own class, and a base that the code includes."""
+    """Return whether a place is in a class of a plugin description, whose names the code includes anyway."""
     return _PLUGIN.match(text, max(text.rfind("<", 0, at), 0)) is not None
 
 

@@ -1,6 +1,6 @@
-"""Which nodes a YAML file has parameters for (``rcl_yaml_param_parser``: names of nodes, then ``ros__parameters``).
+"""The nodes for which a YAML file has parameters, as rcl_yaml_param_parser reads them.
 
-Such files are long, and a few lines of them tell: those with ``ros__parameters`` and, above, those that are indented less.
+Such files are long, but a few lines suffice to find the node names: those with ``ros__parameters``, and the less indented ones above them.
 """
 
 from __future__ import annotations
@@ -17,9 +17,8 @@ if TYPE_CHECKING:
 
 _MARK = "ros__parameters"
 _LINE = re.compile(r"^([ ]*)([\"']?ros__parameters[\"']?[ \t]*:|[^\s#])", re.MULTILINE)
-"""A line that says something, and whether it begins the parameters of a node."""
-# A key ends with a letter or with its quote: were the blanks behind it a part of it as well, a long row of them could be
-# parted in as many ways.
+"""Matches a line with content. Group 2 tells whether it begins the parameters of a node."""
+# A key ends with a letter or its quote. If it could end with blanks, a long row of them would take quadratic time.
 _KEY = re.compile(
     r"""([ ]*)(["'])?
     ((?:[^\s"'\#:{}\[\],&*!|>%@`-]|/?\*\*?)
@@ -37,7 +36,7 @@ _ANY = "/**"
 
 
 def collect(source: Text) -> ParameterFile | None:
-    """Return what a file says, None when it has no keys."""
+    """Return the contents of a parameter file, or None if it has no keys."""
     found = _collected(source)
     if found is None or "$(var" not in source.text:
         return found
@@ -59,7 +58,7 @@ def _collected(source: Text) -> ParameterFile | None:
         name = "/".join(key.strip("/") for _, _, key in keys)
         found.append((f"/{name}", source.span(*keys[-1][:2])))
     if len(found) != marks - _in_comments(text):
-        # Written in another way: it may be for any node.
+        # In another notation, it may be for any node.
         found.append((_ANY, source.span(0, 0)))
     return ParameterFile(source.path, tuple(found), found[0][1] if first is None else source.span(*first.span(1)))
 
@@ -69,7 +68,7 @@ def _in_comments(text: str) -> int:
 
 
 def _headings(text: str) -> Iterator[list[tuple[int, int, str]]]:
-    """Yield the keys that each ``ros__parameters`` stands under, from the top: offsets and key. [] when one cannot be read."""
+    """Yield the keys above each ``ros__parameters``, from the top; [] if a key cannot be read."""
     above: list[tuple[int, int]] = []
     for match in _LINE.finditer(text):
         indent = len(match[1])

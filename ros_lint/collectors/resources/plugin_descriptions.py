@@ -1,4 +1,4 @@
-"""Plugin descriptions of pluginlib: which library has which classes (reference, section C5.8)."""
+"""Plugin descriptions of pluginlib: the classes of each library."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _ROOT = "<_>"
 
 
 def roots(text: str) -> list[Element]:
-    """Return the top-level elements, as tinyxml2 reads them for pluginlib; none of a text that it refuses.
+    """Return the top-level elements, as tinyxml2 reads them for pluginlib; [] for a text that it rejects.
 
-    Several may stand beside each other, and values of attributes may have "<" in them, as types of templates do.
+    There may be several roots, and values of attributes may contain "<", as template types do.
     """
     try:
         return [parse(text)]
@@ -41,7 +41,7 @@ def roots(text: str) -> list[Element]:
 
 
 def collect(path: str, source: Text) -> PluginFile | None:
-    """Return a plugin description, None for a text that is none. ``path`` is relative to the package."""
+    """Return a plugin description, or None if the text is none. ``path`` is relative to the package."""
     if "<library" not in source.text and "<class" not in source.text:
         return None
     found = roots(source.text)
