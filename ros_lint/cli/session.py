@@ -177,14 +177,14 @@ def _underlays(
             return underlay.read(prefixes, distro, machine=machine), ()
         except underlay.UnderlayError as error:
             raise UsageError(str(error)) from error
-    found: list[underlay.Underlay] = []
+    result: list[underlay.Underlay] = []
     warnings: list[str] = []
     for prefix in prefixes:
         try:
-            found += underlay.read([prefix], distro, base, machine)
+            result += underlay.read([prefix], distro, base, machine)
         except underlay.UnderlayError as error:
             warnings.append(f"AMENT_PREFIX_PATH: {error}")
-    return tuple(found), tuple(warnings)
+    return tuple(result), tuple(warnings)
 
 
 def no_packages(asked: Request | Session) -> str:

@@ -205,10 +205,10 @@ def _is_words(value: Any) -> bool:
 
 
 def _place(path: str, text: str, name: str) -> str:
-    found = re.search(
+    match = re.search(
         rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}", text, re.MULTILINE
     )
-    return f"{path}:{text.count(chr(10), 0, found.start()) + 1}" if found else path
+    return f"{path}:{text.count(chr(10), 0, match.start()) + 1}" if match else path
 
 
 def _relative(option: Option, value: Any, path: str) -> Any:

@@ -26,7 +26,7 @@ def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
     text = source.encode(source.text).decode("utf-8", "replace").removeprefix("\ufeff")
     text = re.sub(r"[ \t]+", "", re.sub(r"\r\n?", "\n", text))
     units = text.encode("utf-16-le", "surrogatepass") + _END
-    found: dict[int, str] = {}
+    result: dict[int, str] = {}
     seen: dict[bytes, int] = {}
     last = max(lines, default=0)
     start = 0
@@ -36,11 +36,11 @@ def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
             break
         seen[window] = seen.get(window, 0) + 1
         if number in lines:
-            found[number] = f"{_hash(window):x}:{seen[window]}"
+            result[number] = f"{_hash(window):x}:{seen[window]}"
         start = _next_line(units, start)
         if start < 0:
             break
-    return found
+    return result
 
 
 def _next_line(units: bytes, start: int) -> int:

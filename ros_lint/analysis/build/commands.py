@@ -96,13 +96,13 @@ _FOR_TESTS = frozenset({*_TEST_COMMANDS.values(), "ament_lint_auto", "ament_lint
 
 def unguarded_tests(package: Package) -> dict[str, Call]:
     """Return the test packages that every build uses without declaring them for it, with the first call."""
-    found: dict[str, Call] = {}
+    result: dict[str, Call] = {}
     if package.builds_with != "ament_cmake":
-        return found
+        return result
     for call in package.calls("find_package", *_TEST_COMMANDS):
         provider = _TEST_COMMANDS.get(call.name) or (call.texts[0] if call.args else "")
         stops = call.name != "find_package" or "REQUIRED" in call.texts
         always = stops and not call.test and not call.blocks
-        if always and provider in _FOR_TESTS and provider not in found and not package.declares(provider) & ~Role.TEST:
-            found[provider] = call
-    return found
+        if always and provider in _FOR_TESTS and provider not in result and not package.declares(provider) & ~Role.TEST:
+            result[provider] = call
+    return result

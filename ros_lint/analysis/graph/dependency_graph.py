@@ -184,22 +184,22 @@ def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ..
 
 def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
     """Return the edges reversed."""
-    found: dict[str, set[str]] = {name: set() for name in arcs}
+    result: dict[str, set[str]] = {name: set() for name in arcs}
     for name, others in arcs.items():
         for other in others:
-            found[other].add(name)
-    return {name: frozenset(others) for name, others in found.items()}
+            result[other].add(name)
+    return {name: frozenset(others) for name, others in result.items()}
 
 
 def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]:
     """Return the nodes that can be reached over at least one edge."""
-    found: set[str] = set()
+    result: set[str] = set()
     todo = [start]
     while todo:
-        fresh = set(arcs[todo.pop()]) - found
-        found |= fresh
+        fresh = set(arcs[todo.pop()]) - result
+        result |= fresh
         todo += fresh
-    return frozenset(found)
+    return frozenset(result)
 
 
 def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:

@@ -72,7 +72,7 @@ def _knots(graph: Graph) -> dict[str, str]:
 def _redundant(
     graph: Graph, name: str, knot: Mapping[str, str], below: Mapping[str, int], bits: Mapping[str, int]
 ) -> list[tuple[str, ...]]:
-    found = []
+    result = []
     own = knot[name]
     for other in graph.needs[name]:
         target = knot[other]
@@ -80,8 +80,8 @@ def _redundant(
             third for third in graph.needs[name] if knot[third] not in (own, target) and _leads(knot[third], target, below, bits)
         ]
         if target != own and leading:
-            found.append((name, *_shortest(graph, leading, other, _on_the_way(knot, target, below, bits))))
-    return found
+            result.append((name, *_shortest(graph, leading, other, _on_the_way(knot, target, below, bits))))
+    return result
 
 
 def _leads(start: str, end: str, below: Mapping[str, int], bits: Mapping[str, int]) -> bool:

@@ -50,13 +50,13 @@ def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str
 
 def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
     """Return the first place where a file reads each name, separately with and without a default."""
-    found: dict[tuple[str, bool], Span] = {}
+    result: dict[tuple[str, bool], Span] = {}
     for action in walk_actions(file.actions):
         for text, span in values_of_action(action):
             for name, has_default, _ in configurations(text):
                 if name in names:
-                    found.setdefault((name, bool(has_default)), span)
-    return found
+                    result.setdefault((name, bool(has_default)), span)
+    return result
 
 
 class IncludeTree:

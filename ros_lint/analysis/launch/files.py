@@ -72,12 +72,12 @@ def references_by_name(
     package: Package, kinds: Container[str], *, apart: bool = False
 ) -> dict[tuple[str, str], list[LaunchReference]]:
     """Return the references of some kinds in :func:`package_launch_files`, by package and name."""
-    found: dict[tuple[str, str], list[LaunchReference]] = {}
+    result: dict[tuple[str, str], list[LaunchReference]] = {}
     for launch in package_launch_files(package, apart=apart):
         for reference in launch.file.references:
             if reference.kind in kinds:
-                found.setdefault((reference.package, reference.name), []).append(reference)
-    return found
+                result.setdefault((reference.package, reference.name), []).append(reference)
+    return result
 
 
 def rename_fix(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
@@ -120,8 +120,8 @@ _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 
 def launch_suffix(path: str) -> str:
     """Return the ending that marks a launch file, such as ".launch.py" or "_launch.xml", or ""."""
-    found = _SUFFIX.search(path.rpartition("/")[2])
-    return found[0] if found else ""
+    match = _SUFFIX.search(path.rpartition("/")[2])
+    return match[0] if match else ""
 
 
 def is_excluded_from_install(package: Package, path: str) -> bool:
@@ -153,7 +153,7 @@ def node_references(packages: Iterable[Package], *, kept_back: bool = False) -> 
 
     ``kept_back`` selects launch files that are deliberately not installed; otherwise they are left out.
     """
-    found: dict[str, dict[str, list[LaunchReference]]] = {}
+    result: dict[str, dict[str, list[LaunchReference]]] = {}
     for package in packages:
         installed = package.built.installed if package.launch else ()
         for launch in package.launch:
@@ -161,20 +161,20 @@ def node_references(packages: Iterable[Package], *, kept_back: bool = False) -> 
             if (path not in installed and is_excluded_from_install(package, path)) is not kept_back:
                 continue
             for reference in [reference for reference in launch.references if reference.kind == "node"]:
-                found.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)
-    return found
+                result.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)
+    return result
 
 
 def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
     """Return the files that launch files and models look up in share directories, by package."""
-    found: dict[str, list[LookUp]] = {}
+    result: dict[str, list[LookUp]] = {}
     for package in packages:
         for launch in package_launch_files(package):
             for reference in launch.file.references:
                 if reference.kind in ("file", "include") and not reference.optional:
                     one = LookUp(reference.package, reference.name, reference.span)
-                    found.setdefault(one.package, []).append(one)
+                    result.setdefault(one.package, []).append(one)
         for look_up in package.lookups:
             if not is_auxiliary(strip_folder(package.path, look_up.span.path)):
-                found.setdefault(look_up.package, []).append(look_up)
-    return found
+                result.setdefault(look_up.package, []).append(look_up)
+    return result

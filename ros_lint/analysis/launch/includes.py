@@ -169,12 +169,12 @@ def configurations_read(file: LaunchFile) -> set[str]:
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
     """Return the launch arguments and configurations that a file sets, each with all its values."""
-    found: dict[str, tuple[str, ...]] = {}
+    result: dict[str, tuple[str, ...]] = {}
     for action in walk_actions(file.actions):
         if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
             for name in action.target.texts:
-                found[name] = (*found.get(name, ()), *action.value.texts)
-    return found
+                result[name] = (*result.get(name, ()), *action.value.texts)
+    return result
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:

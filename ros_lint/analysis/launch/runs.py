@@ -152,11 +152,11 @@ _TRUTHS = frozenset({"true", "false"})
 
 def _expressions(text: str, values_of: Callable[[str], tuple[str, ...] | None]) -> list[str]:
     """Return the expressions in a text with the values of configurations, nested ones included."""
-    found: list[str] = []
+    result: list[str] = []
 
     def take(expression: str) -> str:
-        found.append(expression)
+        result.append(expression)
         return UNKNOWN
 
     fill(text, values_of, take)
-    return found
+    return result

@@ -21,9 +21,9 @@ def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
 
 def _told(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
     """Return the names of the rules that report a dependency, with their confidence."""
-    found: dict[str, Confidence] = {}
+    result: dict[str, Confidence] = {}
     for rule in registry.load():
         if rule.name in RULES and rule.package is not None:
             sure = [finding.confidence for finding in rule.package(package, workspace) if finding.subject == name]
-            found.update({rule.name: max(sure)} if sure else {})
-    return found
+            result.update({rule.name: max(sure)} if sure else {})
+    return result

@@ -84,13 +84,13 @@ def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str
 
     Raises underlay.UnderlayError for a folder that is no prefix.
     """
-    found: dict[str, Installed] = {}
+    result: dict[str, Installed] = {}
     for layer in underlay.read(prefixes, distro):
         for name, installed in layer.packages.items():
-            found.setdefault(name, installed)
-    described = (installed.released or index.Released(name, "", "?-", name, {}) for name, installed in found.items())
+            result.setdefault(name, installed)
+    described = (installed.released or index.Released(name, "", "?-", name, {}) for name, installed in result.items())
     idx = index.render_file(distro, "", date or _today(), described)
-    return idx, provides.render_file(distro, (_provided(installed) for installed in found.values()))
+    return idx, provides.render_file(distro, (_provided(installed) for installed in result.values()))
 
 
 def _provided(installed: Installed) -> ReleasedContents:

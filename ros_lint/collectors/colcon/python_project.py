@@ -132,16 +132,16 @@ class _Script:
 
     def arguments(self, call: ast.Call) -> tuple[dict[str, ast.expr], bool]:
         """Return the keyword arguments of a call, and whether they are complete."""
-        found: dict[str, ast.expr] = {}
+        result: dict[str, ast.expr] = {}
         complete = True
         for keyword in call.keywords:
             if keyword.arg is not None:
-                found[keyword.arg] = keyword.value
+                result[keyword.arg] = keyword.value
                 continue
             items = self._items(keyword.value)
             complete = complete and items is not None
-            found.update(items or {})
-        return found, complete
+            result.update(items or {})
+        return result, complete
 
     def _items(self, node: ast.expr) -> dict[str, ast.expr] | None:
         node = self._resolved(node)

@@ -134,7 +134,7 @@ def _plain(source: Text) -> Found | None:
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
     count = text.count
-    found: list[Mention] = []
+    result: list[Mention] = []
     starts: list[int] = []
     directives: list[re.Match[str]] = []
     conditional = False
@@ -154,7 +154,7 @@ def _plain(source: Text) -> Found | None:
                 at = sharp
                 column = lead + (len(_before(text, sharp)) if odd else 0)
                 span = _make(Span, (path, line, column, line, column + width))
-                found.append(_make(Mention, (name, "include", span, what, False, False, "")))
+                result.append(_make(Mention, (name, "include", span, what, False, False, "")))
                 starts.append(sharp)
         elif match.lastindex == _CONDITIONAL:
             conditional = True
@@ -164,10 +164,10 @@ def _plain(source: Text) -> Found | None:
     if starts and not guarded:
         if _may_hide(text, [match.start() for match in directives]):
             return None
-        return Found(*_sorted_out(text, directives, found, starts), [], directives)
+        return Found(*_sorted_out(text, directives, result, starts), [], directives)
     if _may_hide(text, starts):
         return None
-    return Found(found, starts, [], [] if guarded else directives)
+    return Found(result, starts, [], [] if guarded else directives)
 
 
 @cache
@@ -200,7 +200,7 @@ def _sorted_out(
 
 def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list[Include]:
     skipped, optional = (_NONE, _NONE) if guarded else _conditional(text, directives)
-    found = []
+    result = []
     for match in directives:
         at = match.start()
         if match[_NAMED]:
@@ -210,8 +210,8 @@ def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list
         else:
             continue
         if name not in STANDARD and at not in skipped:
-            found.append(Include(start, name, quote, at in optional))
-    return found
+            result.append(Include(start, name, quote, at in optional))
+    return result
 
 
 def blanked(text: str) -> str:
@@ -363,7 +363,7 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
 
 def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
     """Return the ranges of offsets that are compiled in some builds only, or in none."""
-    found = []
+    result = []
     stack: list[tuple[bool, int]] = []  # whether the branch is always taken, and where it begins
     for match in directives:
         if match.lastindex != _CONDITIONAL:
@@ -373,10 +373,10 @@ def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
         elif stack:
             always, begin = stack.pop()
             if not always:
-                found.append(range(begin, match.start()))
+                result.append(range(begin, match.start()))
             if match[5] != "endif":
                 stack.append((False, match.end()))
-    return [*found, *(range(begin, len(text)) for always, begin in stack if not always)]
+    return [*result, *(range(begin, len(text)) for always, begin in stack if not always)]
 
 
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:

@@ -61,13 +61,13 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
 
 def _tried(text: str) -> list[range]:
     """Return the try blocks whose handler catches that a package does not exist."""
-    found = []
+    result = []
     for catch in _CATCH.finditer(text):
         handler = text[catch.end() : _closing(text, catch.end())]
         begin = _opening(text, catch.start())
         if begin >= 0 and not _GIVES_UP.search(handler):
-            found.append(range(begin, catch.start()))
-    return found
+            result.append(range(begin, catch.start()))
+    return result
 
 
 _CATCH = re.compile(r"\}\s*catch\s*\([^()]*\bPackageNotFoundError\b[^()]*\)\s*\{")

@@ -31,13 +31,13 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     if any(in_doubt(text, match.start(), code) for match in matches):
         matches = list(_matches(blanked(text)))
     spans = source.spans([match.span(1) for match in matches])
-    found = []
+    result = []
     for match, span in zip(matches, spans, strict=True):
         name, _, base = (part.strip() for part in _CONTINUED.sub("", match[2]).partition(","))
         kind: Literal["component", "plugin"] = "component" if match[1] == _OF_COMPONENTS else "plugin"
         if name and (base or kind == "component"):
-            found.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))
-    return tuple(found)
+            result.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))
+    return tuple(result)
 
 
 _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\.)*)", re.MULTILINE)

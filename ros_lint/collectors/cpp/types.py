@@ -39,13 +39,13 @@ def declared(text: bytes) -> frozenset[bytes]:
 
 def introduced(text: bytes) -> Mapping[str, set[bytes]]:
     """Return the aliases of interface types by package: ``using pkg::msg::T;``, ``using X = ...``."""
-    found: dict[str, set[bytes]] = {}
+    result: dict[str, set[bytes]] = {}
     if b"using " in text:
         alias = [(package, name) for name, package in _ALIAS.findall(text)]
         for package, name in (*_USING.findall(text), *alias):
             if len(name) >= _SHORTEST:
-                found.setdefault(package.decode(), set()).add(name)
-    return found
+                result.setdefault(package.decode(), set()).add(name)
+    return result
 
 
 def namespaces(text: bytes) -> frozenset[bytes]:
@@ -68,7 +68,7 @@ def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[byt
     None if the code defines the name itself, or takes it from elsewhere as well. For a namespace, it is the first place
     where one of its members is used.
     """
-    found: Span | None = None
+    result: Span | None = None
     for path, text in texts:
         for start in _places(text, name):
             end = start + len(name)
@@ -78,9 +78,9 @@ def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[byt
             chain = _CHAIN.search(before)
             if chain and not any(part.strip() in spaces for part in chain[0].split(b"::")):
                 return None
-            if not found and (name not in spaces or text.startswith(b"::", end)):
-                found = span_in(path, text, start, end)
-    return found
+            if not result and (name not in spaces or text.startswith(b"::", end)):
+                result = span_in(path, text, start, end)
+    return result
 
 
 def _places(text: bytes, name: bytes) -> Iterator[int]:

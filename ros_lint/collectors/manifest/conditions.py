@@ -209,14 +209,14 @@ def _comparison(text: str, at: int, depth: int) -> tuple[Condition, int]:
 
 
 def _operand(text: str, at: int) -> tuple[Operand, int]:
-    found = _OPERAND.match(text, at)
-    if not found:
+    match = _OPERAND.match(text, at)
+    if not match:
         raise ConditionError("expected a $variable, a word or a quoted string", at)
-    kind = found.lastgroup or ""
-    written = found[kind]
+    kind = match.lastgroup or ""
+    written = match[kind]
     if kind in ("double", "single"):
         written = _ESCAPES.sub(_escaped, written)
-    return Operand(written, kind == "variable"), found.end()
+    return Operand(written, kind == "variable"), match.end()
 
 
 def _escaped(escape: re.Match[str]) -> str:

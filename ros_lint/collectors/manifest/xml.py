@@ -1,7 +1,7 @@
-"""The XML of a manifest: elements with offsets, read by expat as catkin_pkg reads them and hardened against bombs.
+"""The XML of a manifest: elements with offsets, read by expat as in catkin_pkg, but hardened.
 
-catkin_pkg reads the file as UTF-8 whatever its declaration says, and resolves namespaces (reference, section A1).
-Offsets count code points of the text. Nothing outside the file is looked up.
+catkin_pkg reads the file as UTF-8 in spite of its declaration, and resolves namespaces. Offsets count code points of
+the text. Nothing outside the file is looked up.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from ros_lint.base.xml_tree import unmarked
 _new = tuple.__new__  # half the time of calling a named tuple
 
 MOST_DEPTH = 200
-"""Deeper nesting is refused; tools that walk such a file recursively fail sooner or later."""
+"""Deeper nesting is refused, because tools that read such a file recursively fail."""
 
 BLANK: Final = " \n\r\t"
-"""What counts as white space around a value."""
+"""The white space that is removed around a value."""
 
 _CONFLICT = re.compile(r"^(?:<{7}|\|{7}|={7}|>{7})(?![<|=>])[^\r\n]*", re.MULTILINE)
 _OPEN_TAG = re.compile(r"""<([^\s/>"'=]+)(?:\s+[^\s=/>"']+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*(/?)>""")
@@ -34,7 +34,7 @@ _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
 
 
 class Fault(NamedTuple):
-    """Something wrong with the file: kind, message, the offsets of the place, and what it is about."""
+    """An error in the file: kind, message, the offsets of the place, and the subject."""
 
     kind: str
     message: str
@@ -44,7 +44,7 @@ class Fault(NamedTuple):
 
 
 Start = tuple[str, dict[str, str], int]
-"""A start tag as expat sees it: name and attributes, namespaces resolved, and offset."""
+"""A start tag as expat reports it: name and attributes with namespaces resolved, and offset."""
 
 Event = Start | int
 """A start tag, or the offset where an element ends for expat: at its end tag, or after ``<a/>``."""
@@ -209,12 +209,12 @@ def _parse(text: str) -> Document:
 
 def children(document: Document) -> list[Node]:
     """Return the children of the root with their children."""
-    found = []
+    result = []
     at, last = 1, len(document.events)
     while at < last and not isinstance(document.events[at], int):
         node, at = child(document, at)
-        found.append(node)
-    return found
+        result.append(node)
+    return result
 
 
 def child(document: Document, at: int) -> tuple[Node, int]:

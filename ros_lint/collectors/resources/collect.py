@@ -61,11 +61,11 @@ def collect(source: Text) -> FileFacts:
 
 def loaded(source: Text) -> tuple[Mention, ...]:
     """Return the packages of controller managers that MoveIt loads by parameters in a Python launch file."""
-    found: dict[str, tuple[int, int]] = {}
-    _search(_MANAGER, source.text, found)
-    spans = source.spans(found.values())
+    result: dict[str, tuple[int, int]] = {}
+    _search(_MANAGER, source.text, result)
+    spans = source.spans(result.values())
     return tuple(
-        Mention(name, "package", span, optional=True, purpose="plugins") for name, span in zip(found, spans, strict=True)
+        Mention(name, "package", span, optional=True, purpose="plugins") for name, span in zip(result, spans, strict=True)
     )
 
 

@@ -1,6 +1,7 @@
 """The nodes for which a YAML file has parameters, as rcl_yaml_param_parser reads them.
 
-Such files are long, but a few lines suffice to find the node names: those with ``ros__parameters``, and the less indented ones above them.
+Such files are long, but a few lines suffice to find the node names: those with ``ros__parameters``, and the less
+indented ones above them.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
 
 _MARK = "ros__parameters"
 _LINE = re.compile(r"^([ ]*)([\"']?ros__parameters[\"']?[ \t]*:|[^\s#])", re.MULTILINE)
-"""Matches a line with content. Group 2 tells whether it begins the parameters of a node."""
+"""Matches a line with content.
+
+Group 2 begins the parameters of a node if it has the key ros__parameters."""
 # A key ends with a letter or its quote. If it could end with blanks, a long row of them would take quadratic time.
 _KEY = re.compile(
     r"""([ ]*)(["'])?
@@ -51,16 +54,16 @@ def _collected(source: Text) -> ParameterFile | None:
     marks = text.count(_MARK)
     if not marks or marks == _in_comments(text):
         return None if first is None else ParameterFile(source.path, (), source.span(*first.span(1)))
-    found: list[tuple[str, Span]] = []
+    result: list[tuple[str, Span]] = []
     for keys in _headings(text):
         if not keys:
             break
         name = "/".join(key.strip("/") for _, _, key in keys)
-        found.append((f"/{name}", source.span(*keys[-1][:2])))
-    if len(found) != marks - _in_comments(text):
+        result.append((f"/{name}", source.span(*keys[-1][:2])))
+    if len(result) != marks - _in_comments(text):
         # In another notation, it may be for any node.
-        found.append((_ANY, source.span(0, 0)))
-    return ParameterFile(source.path, tuple(found), found[0][1] if first is None else source.span(*first.span(1)))
+        result.append((_ANY, source.span(0, 0)))
+    return ParameterFile(source.path, tuple(result), result[0][1] if first is None else source.span(*first.span(1)))
 
 
 def _in_comments(text: str) -> int:

@@ -1,17 +1,18 @@
-"""What a launch file would start, for people (tree, mermaid) and for programs (json).
+"""The output of ``ros-lint launch``, for people (tree, mermaid) and for programs (json).
 
 The JSON has ``schema_version`` 1, ``file``, and
 
 - ``arguments``: those of the launch file and of included ones, each with ``name``, ``values``, ``given``, ``included``
-  (whether an included file declares it), ``path``, ``line`` and ``column``;
-- ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable, class,
-  command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``, ``arguments``,
-  ``words`` (what a node is given on its command line), ``later`` (whether a timer or an event starts it), ``certain``,
-  ``when`` (what it depends on), ``unknown`` (why something is not known), ``path``, ``line`` and ``column``;
-  for an include ``follows`` (the file that was read, or null) and ``starts`` again;
-- ``unknown``: what could not be seen through in these files, each with ``reason``, ``path``, ``line`` and ``column``.
+  (true if an included file declares it), ``path``, ``line`` and ``column``;
+- ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable,
+  class, command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``,
+  ``arguments``, ``words`` (the command-line arguments of a node), ``later`` (true if a timer or an event starts it),
+  ``certain``, ``when`` (the conditions), ``unknown`` (why something is unknown), ``path``, ``line`` and ``column``; for
+  an include also ``follows`` (the file that was read, or null) and ``starts``;
+- ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and
+  ``column``.
 
-Texts are lists of alternatives, in the spelling of XML launch files, with ``?`` for what is not known.
+Texts are lists of alternatives, in the syntax of XML launch files, with ``?`` for unknown parts.
 """
 
 from __future__ import annotations

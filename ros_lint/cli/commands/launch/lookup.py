@@ -53,13 +53,13 @@ class LookUp:
 
     def used(self, file: LaunchFile) -> frozenset[str]:
         """Return the launch configurations that a file or one of its includes reads."""
-        found: set[str] = set()
+        result: set[str] = set()
         for one in (file, *self.followed):
             for action in walk_actions(one.actions):
                 texts = [text for value in values(action) for text in value.texts]
                 texts += [text for condition in action.conditions for text in condition.texts]
-                found.update(name for text in texts for name, *_ in configurations(text))
-        return frozenset(found)
+                result.update(name for text in texts for name, *_ in configurations(text))
+        return frozenset(result)
 
     def absent(self, path: str) -> Absent | None:
         """Return why an included file could not be read, or None if it was read or never requested."""
