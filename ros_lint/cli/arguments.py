@@ -42,9 +42,9 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 def _columns() -> int:
     """Return the width of the terminal as shutil.get_terminal_size does, at least 30."""
-    told = os.environ.get("COLUMNS", "")
-    if told.isdecimal() and int(told):
-        return max(int(told), 30)
+    columns = os.environ.get("COLUMNS", "")
+    if columns.isdecimal() and int(columns):
+        return max(int(columns), 30)
     try:
         return max(os.get_terminal_size(sys.__stdout__.fileno()).columns, 30) if sys.__stdout__ else 80
     except (OSError, ValueError):
@@ -59,10 +59,10 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
         command, rest = "check", list(arguments)
     made = parser(command, top=not arguments or arguments[0] != command)
     # Options may be placed between paths, which argparse does not support for commands with actions.
-    said, strange = made.parse_known_args(rest) if command == "index" else made.parse_known_intermixed_args(rest)
+    namespace, strange = made.parse_known_args(rest) if command == "index" else made.parse_known_intermixed_args(rest)
     if strange:
         made.refuse(strange)
-    return command, {name.replace("_", "-"): value for name, value in vars(said).items()}
+    return command, {name.replace("_", "-"): value for name, value in vars(namespace).items()}
 
 
 def parser(command: str, *, top: bool = False) -> _Parser:

@@ -45,8 +45,8 @@ def page(rule: Rule, example: str = "") -> str:
     summary = f"{rule.summary[0].upper()}{rule.summary[1:]}."
     doc = rule.doc.strip()
     if example:
-        found, why, rest = doc.partition(_WHY)
-        doc = f"{found}```text\n{example}\n```\n\n{why}{rest}"
+        what_it_finds, why, rest = doc.partition(_WHY)
+        doc = f"{what_it_finds}```text\n{example}\n```\n\n{why}{rest}"
     return f"# {rule.name} ({rule.code})\n\n{summary}\n\n{' · '.join(facts)}\n\n{doc}\n"
 
 

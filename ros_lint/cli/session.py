@@ -156,8 +156,8 @@ def reports(asked: Request) -> ReportCache:
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
     data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
-    said = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
-    return ReportCache(asked.cache, asked.base, said, data)
+    request_key = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
+    return ReportCache(asked.cache, asked.base, request_key, data)
 
 
 def _underlays(
@@ -192,7 +192,7 @@ def no_packages(asked: Request | Session) -> str:
     from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (a kept report comes without)
 
     places = ", ".join(root or asked.base for root in asked.roots)
-    skipped = [f"{one.path or '.'} ({one.reason})" for one in discover(DiskTree(asked.base), asked.roots, {}).skipped]
+    skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in discover(DiskTree(asked.base), asked.roots, {}).skipped]
     if not skipped:
         return f"ros-lint: no package found below {places}; is there a package.xml?"
     more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""

@@ -85,8 +85,8 @@ def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str],
             values[option.name] = Setting(given[option.name], f"--{option.name}")
         elif option.name in from_file:
             values[option.name] = Setting(_relative(option, from_file[option.name], path), shown)
-        elif not isolated and option.environment and (found := environment.get(option.environment)):
-            values[option.name] = Setting(_from_environment(option, found), option.environment)
+        elif not isolated and option.environment and (variable := environment.get(option.environment)):
+            values[option.name] = Setting(_from_environment(option, variable), option.environment)
         else:
             values[option.name] = Setting(option.default, "default")
     return Settings(values, warnings)

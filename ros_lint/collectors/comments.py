@@ -115,5 +115,5 @@ def _in_yaml(text: str) -> Ranges:
     at = 0
     for start, end in (*ranges, (len(text), len(text))):
         # Between two tokens there are only space and comments.
-        yield from (found.span() for found in _TO_LINE_END.finditer(text, at, start))
+        yield from (match.span() for match in _TO_LINE_END.finditer(text, at, start))
         at = max(at, end)

@@ -45,11 +45,11 @@ def java(source: Text) -> FileFacts:
     if not any(word in source.text for word in _OF_JAVA):
         return FileFacts()
     text = _STRING.sub(_spaces, blanked(source.text))
-    found = [(match.span(), match[1]) for match in _JAVA_TYPE.finditer(text)]
-    found += [
+    names = [(match.span(), match[1]) for match in _JAVA_TYPE.finditer(text)]
+    names += [
         (match.span(1), "rcljava_common" if match[2] in _RCLJAVA_COMMON else "rcljava") for match in _RCLJAVA.finditer(text)
     ]
-    return _facts(source, found)
+    return _facts(source, names)
 
 
 def rust(source: Text) -> FileFacts:
@@ -60,13 +60,13 @@ def rust(source: Text) -> FileFacts:
     if not any(word in source.text for word in _OF_RUST):
         return FileFacts()
     text = _STRING.sub(_spaces, blanked(source.text))
-    found = [(match.span(1), match[1]) for match in _CRATE.finditer(text)]
-    found += [
+    names = [(match.span(1), match[1]) for match in _CRATE.finditer(text)]
+    names += [
         (match.span("type"), match["package"])
         for match in _RUST_TYPE.finditer(text)
         if not _OF_CRATE.search(text, text.rfind(";", 0, match.start()) + 1, match.start())
     ]
-    facts = _facts(source, found)
+    facts = _facts(source, names)
     tests = source.text.find("#[cfg(test)]")
     if tests < 0:
         return facts
@@ -109,13 +109,13 @@ def matlab(source: Text) -> FileFacts:
     They are optional: MATLAB builds its own copy of them, and the script runs outside of the workspace.
     """
     text = _CONTINUED.sub(_spaces, source.text)
-    found = [
+    names = [
         ((call.start(1) + kind.start(1), call.start(1) + kind.end() - 1), kind[1])
         for call in _ROS_CALL.finditer(text)
         if "%" not in text[text.rfind("\n", 0, call.start()) + 1 : call.start()]
         for kind in _ROS_TYPE.finditer(call[1])
     ]
-    return _facts(source, found, optional=True)
+    return _facts(source, names, optional=True)
 
 
 COLLECTORS: Mapping[str, Callable[[Text], FileFacts]] = {"java": java, "rust": rust, "cargo": cargo, "matlab": matlab}

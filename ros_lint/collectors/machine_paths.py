@@ -60,8 +60,8 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     beside = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
     if text.path.endswith(".rviz"):
         beside += [unread.span() for unread in _UNREAD.finditer(content)]
-    said = [hit for hit in hits if not any(start <= hit.start("path") < end for start, end in beside)]
-    return tuple([_found(text, hit) for hit in said])
+    reported = [hit for hit in hits if not any(start <= hit.start("path") < end for start, end in beside)]
+    return tuple([_found(text, hit) for hit in reported])
 
 
 def _found(text: Text, hit: re.Match[str]) -> MachinePath:

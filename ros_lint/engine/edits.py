@@ -114,8 +114,8 @@ def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, byte
         try:
             _replace(path, targets[path], data, partial(_is_still, targets[path], before.get(path)))
         except EditError as error:
-            left = [other for other in changed if other not in written]
-            raise EditError(f"{error}; {_so_far(written, left)}", written) from error
+            unwritten = [pending_path for pending_path in changed if pending_path not in written]
+            raise EditError(f"{error}; {_so_far(written, unwritten)}", written) from error
         written.append(path)
 
 

@@ -106,16 +106,16 @@ class _Round:
         self._postpone(issue for issue in wanted if issue not in group)
         regressions = self._trials.regressions(self.changed, group)
         suspects = _suspects(group, regressions)
-        others = [issue for issue in group if issue not in suspects]
+        unsuspected = [issue for issue in group if issue not in suspects]
         names = list(dict.fromkeys(issue.identity for issue in group))
         if not regressions:
             self._make(group)
-        elif suspects and others and self._trials.regressions(self.changed, others):
+        elif suspects and unsuspected and self._trials.regressions(self.changed, unsuspected):
             self._postpone(suspects)
-            self._postpone(others)
-        elif suspects and (others or all(suspects.values())):
+            self._postpone(unsuspected)
+        elif suspects and (unsuspected or all(suspects.values())):
             self._skip({issue: reason for issue, reason in suspects.items() if reason})
-            self._make(others)
+            self._make(unsuspected)
             self._postpone(issue for issue, reason in suspects.items() if not reason)
         elif len(names) == 1:
             self._skip(dict.fromkeys(group, regressions[0].reason))

@@ -28,15 +28,15 @@ class PluginError(UserError):
 @lru_cache(maxsize=2)
 def load(plugins: bool = False) -> tuple[Rule, ...]:
     """Return all rules, sorted by code. Raises PluginError."""
-    found = list(_rules_of(importlib.import_module(BUILTIN)))
+    rules = list(_rules_of(importlib.import_module(BUILTIN)))
     if plugins:
-        found += _plugin_rules()
+        rules += _plugin_rules()
     taken: dict[str, Rule] = {}
-    for rule in found:
+    for rule in rules:
         for key in (rule.name, rule.code):
             if taken.setdefault(key, rule) != rule:
                 raise PluginError(f"two rules have the same name or code '{key}'")
-    return tuple(sorted(found, key=lambda rule: rule.code))
+    return tuple(sorted(rules, key=lambda rule: rule.code))
 
 
 def _plugin_rules() -> Iterator[Rule]:

@@ -43,9 +43,9 @@ class ReportCache:
         kept = kept_files.load(self._file, self._state) if self._file else None
         if not isinstance(kept, tuple) or len(kept) != 1 + len(trees) or not isinstance(kept[0], Report):
             return None
-        report, *said = kept
+        report, *answers = kept
         try:
-            return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, said, strict=True)) else None
+            return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, answers, strict=True)) else None
         except (TypeError, ValueError):  # not a list of questions, answers and paths
             return None
 
@@ -55,8 +55,8 @@ class ReportCache:
             return
         bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
         issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
-        said = ([(question, _bare(told)) for question, told in tree.said.items()] for tree in trees)
-        if kept_files.save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *said)):
+        answers = ([(question, _bare(answer)) for question, answer in tree.said.items()] for tree in trees)
+        if kept_files.save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *answers)):
             self._clear()
 
     def _clear(self) -> None:

@@ -46,10 +46,10 @@ def select(
     on: dict[str, Rule] = {}
     named: set[str] = set()
     for selector in (*(("all",) if pedantic else chosen), *added):
-        found = _matching(rules, selector)
-        on.update((rule.name, rule) for rule in found)
+        matching_rules = _matching(rules, selector)
+        on.update((rule.name, rule) for rule in matching_rules)
         if selector not in ("all", "default"):
-            named.update(rule.name for rule in found)
+            named.update(rule.name for rule in matching_rules)
     levels: dict[str, Severity] = {}
     for selector, word in (severities or {}).items():
         for rule in _matching(rules, selector):
@@ -97,6 +97,6 @@ def matches(path: str, pattern: str) -> bool:
 
 
 def _matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
-    if found := matching(rules, selector):
-        return found
+    if matching_rules := matching(rules, selector):
+        return matching_rules
     raise SelectionError(no_rule(rules, selector))

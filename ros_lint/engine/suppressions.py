@@ -69,7 +69,7 @@ def apply(
         tuple(kept),
         tuple(suppressed),
         SuppressionUse(
-            tuple([Unused(each, left) for each, left in idle if left]),
+            tuple([Unused(each, unused_names) for each, unused_names in idle if unused_names]),
             tuple(unknown),
             tuple([each for each in ordered if each.problem]),
         ),
@@ -83,7 +83,7 @@ class _Heard:
         self._entries = sorted(entries, key=_first_line)
         self._firsts = [_first_line(entry) for entry in self._entries]
         # For each entry, the last line to which it or an earlier entry applies.
-        self._reach = list(accumulate([math.inf if each.lines is None else each.lines[1] for each, _ in self._entries], max))
+        self._reach = list(accumulate([math.inf if mark.lines is None else mark.lines[1] for mark, _ in self._entries], max))
 
     def about(self, issue: Issue) -> list[tuple[Suppression, Name]]:
         """Return the suppressions that apply to the place of an issue."""

@@ -94,7 +94,7 @@ class _File:
             place = _place(source, mark)
             if place.line == place.end_line:
                 self._flat.append(place)
-            elif any(place.line <= other.end_line and other.line <= place.end_line for other in self._tall):
+            elif any(place.line <= tall.end_line and tall.line <= place.end_line for tall in self._tall):
                 # There is one column of bars: of two overlapping places, only the first line of the second one is
                 # shown.
                 length = len(source.line(place.line))

@@ -83,5 +83,5 @@ def _problems(report: Report) -> Iterator[str]:
 def _overflow(lines: list[str]) -> Iterator[str]:
     numbers = {name: sum(line.startswith(f"::{name} ") for line in lines) for name in _COMMANDS.values()}
     if max(numbers.values()) > _SHOWN:
-        found = and_list([count(number, name) for name, number in numbers.items() if number])
-        yield command("notice", {"title": "ros-lint"}, f"{found}: GitHub shows only {_SHOWN} of each; the log has all of them")
+        counts = and_list([count(number, name) for name, number in numbers.items() if number])
+        yield command("notice", {"title": "ros-lint"}, f"{counts}: GitHub shows only {_SHOWN} of each; the log has all of them")

@@ -118,26 +118,26 @@ def _hashes(groups: Sequence[Group], texts: Texts) -> dict[tuple[str, int], str]
         span = group[0].finding.span
         lines.setdefault(span.path, set()).add(span.line)
     return {
-        (path, line): found
+        (path, line): line_hash
         for path, wanted in lines.items()
         if (source := texts(path))
-        for line, found in line_hashes(source, wanted).items()
+        for line, line_hash in line_hashes(source, wanted).items()
     }
 
 
 def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tuple[str, int], str]) -> Object:
     first = group[0]
     finding = first.finding
-    others = [(issue.finding.message, issue.finding.span) for issue in group[1:]]
+    repeated = [(issue.finding.message, issue.finding.span) for issue in group[1:]]
     places = [(related.message, related.span) for issue in group for related in issue.finding.related]
-    related = [*others, *(place for place in dict.fromkeys(places) if place not in others)]
+    related = [*repeated, *(place for place in dict.fromkeys(places) if place not in repeated)]
     identity = " ".join(issue.identity for issue in group)
     line = hashes.get((finding.span.path, finding.span.line)) or line_hashes(Text("", identity), (1,))[1]
     result: Object = {
         "ruleId": first.rule.code,
         "ruleIndex": codes[first.rule.code],
         "level": LEVELS[max(issue.severity for issue in group)],
-        "message": {"text": _message(finding.message, related, len(others))},
+        "message": {"text": _message(finding.message, related, len(repeated))},
         "locations": [_primary(finding.span, texts(finding.span.path))],
         "partialFingerprints": {"primaryLocationLineHash": line, "rosLint/v1": identity},
         "properties": {
@@ -278,8 +278,8 @@ def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
 
 def _cut(groups: Sequence[Group], kept: Sequence[Group]) -> Iterator[Object]:
     if len(groups) > len(kept):
-        left = f"{len(groups) - len(kept)} results of the lowest severity are left out"
-        yield _note("NotShown", "warning", f"{left}, because GitHub accepts at most {_RESULTS}")
+        omitted = f"{len(groups) - len(kept)} results of the lowest severity are left out"
+        yield _note("NotShown", "warning", f"{omitted}, because GitHub accepts at most {_RESULTS}")
 
 
 def _note(name: str, level: str, message: str) -> Object:

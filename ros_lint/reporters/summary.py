@@ -114,8 +114,8 @@ def _verdict(report: Report, style: Style) -> str:
     if not report.packages:
         return f"{paint(style, 'error', 'No package found')}, so nothing was checked {world}."
     numbers = {severity: report.count(severity) for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)}
-    found = [paint(style, str(level), _of_level(number, level)) for level, number in numbers.items() if number]
-    verdict = f"Found {and_list(found)}" if found else paint(style, "good", "No problems found")
+    counts = [paint(style, str(level), _of_level(number, level)) for level, number in numbers.items() if number]
+    verdict = f"Found {and_list(counts)}" if counts else paint(style, "good", "No problems found")
     return f"{verdict} in {count(report.packages, 'package')} {world}."
 
 

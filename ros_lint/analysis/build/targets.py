@@ -131,9 +131,9 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
             places.setdefault(provided.target, []).append(provided)
     own = f"lib/{package.name}/"
     return {
-        name: found[0]
-        for name, found in places.items()
-        if all(each.path.startswith(own) and not (each.conditional or each.test) for each in found)
+        name: files[0]
+        for name, files in places.items()
+        if all(place.path.startswith(own) and not (place.conditional or place.test) for place in files)
     }
 
 

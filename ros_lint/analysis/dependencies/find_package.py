@@ -22,9 +22,9 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
     calls = frozenset(script.command_names)
     if calls & _FIND_DECLARED:
-        names.update(each.name for each in package.declared if each.depend.tag in _AT_BUILD)
+        names.update(declared.name for declared in package.declared if declared.depend.tag in _AT_BUILD)
     if calls & FINDS_TESTS:
-        names.update(each.name for each in package.declared if each.depend.tag == "test_depend")
+        names.update(declared.name for declared in package.declared if declared.depend.tag == "test_depend")
     return frozenset(names)
 
 

@@ -70,24 +70,24 @@ def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     """
     needed = {name for use in package.uses if not use.optional for name in use.providers}
     uses = [use for use in package.uses if use.optional and use.via != "symbol" and needed.isdisjoint(use.providers)]
-    found = [need for need in _gathered(package, workspace, uses) if not need.declared]
-    return tuple([need for need in found if not cycle_through(package, workspace, need.name)])
+    undeclared = [need for need in _gathered(package, workspace, uses) if not need.declared]
+    return tuple([need for need in undeclared if not cycle_through(package, workspace, need.name)])
 
 
 def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:
     if package.builds_with == "catkin" and not _is_ament(package):
         return ()
-    found: dict[str, list[Use]] = {}
+    uses_by_package: dict[str, list[Use]] = {}
     for use in uses:
-        if use.package in found:
-            found[use.package].append(use)
+        if use.package in uses_by_package:
+            uses_by_package[use.package].append(use)
         else:
-            found[use.package] = [use]
+            uses_by_package[use.package] = [use]
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
     bring = workspace.world.closure
     only_runs = workspace.world.only_runs
-    result = [need for name, uses in found.items() for need in _needs(name, uses, declared, closure, bring, only_runs)]
+    result = [need for name, uses in uses_by_package.items() for need in _needs(name, uses, declared, closure, bring, only_runs)]
     result.sort(key=_place)
     return tuple(result)
 
@@ -114,25 +114,33 @@ def _needs(
     if len(uses) > 1:
         uses.sort(key=_rank)
     answers = dict.fromkeys([use.providers for use in uses])
-    vendors = [] if name in declared else [each for each in declared if each.endswith(VENDOR) and name in bring((each,))]
+    vendors = (
+        []
+        if name in declared
+        else [provider for provider in declared if provider.endswith(VENDOR) and name in bring((provider,))]
+    )
     if not vendors and answers.keys() == {(name,)}:  # the common case
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
-    found = {names: [each for each in names if each in declared and _is_meant(each, names[0], bring)] for names in answers}
-    for names, direct in found.items():
-        direct += [each for each in sorted(vendors) if each not in direct and is_vendor(each, names[0])]
+    matches = {
+        names: [provider for provider in names if provider in declared and _is_meant(provider, names[0], bring)]
+        for names in answers
+    }
+    for names, direct in matches.items():
+        direct += [provider for provider in sorted(vendors) if provider not in direct and is_vendor(provider, names[0])]
     for names in {use.providers for use in uses if use.role & Role.BUILD}:
-        if found[names] and all(map(only_runs, found[names])) and not only_runs(name):
-            found[names] = []
+        if matches[names] and all(map(only_runs, matches[names])) and not only_runs(name):
+            matches[names] = []
     lacking = [
         names
-        for names, direct in found.items()
-        if not direct and not any(each in closure and not (each in declared and only_runs(each)) for each in names)
+        for names, direct in matches.items()
+        if not direct
+        and not any(provider in closure and not (provider in declared and only_runs(provider)) for provider in names)
     ]
-    brought = [names for names, direct in found.items() if not direct and names not in lacking]
-    if names := tuple(dict.fromkeys([each for direct in found.values() for each in direct])):
-        others = {*lacking, *brought}
-        yield Need(name, tuple([use for use in uses if use.providers not in others]), names, True)
+    brought = [names for names, direct in matches.items() if not direct and names not in lacking]
+    if names := tuple(dict.fromkeys([provider for direct in matches.values() for provider in direct])):
+        covered_elsewhere = {*lacking, *brought}
+        yield Need(name, tuple([use for use in uses if use.providers not in covered_elsewhere]), names, True)
     if lacking:
         yield Need(name, tuple([use for use in uses if not names or use.providers in lacking]), (), False)
     elif brought:

@@ -39,7 +39,7 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
         return True
     mine = workspace.by_name.get(name, ())
     if mine:
-        return any(_gives_macros(each) or not makes_something(each) or _lacks_parts(each, world) for each in mine)
+        return any(_gives_macros(namesake) or not makes_something(namesake) or _lacks_parts(namesake, world) for namesake in mine)
     return only_brings(world, name) or _stands_for_others(package, world, name)
 
 

@@ -30,8 +30,8 @@ class Cycle(NamedTuple):
 
 def cycles(graph: Graph) -> Iterator[Cycle]:
     """Yield the cycles of a graph, the certain ones first."""
-    for found, arcs, certain in ((graph.cycles, graph.certain_arcs, True), (graph.possible_cycles, graph.arcs, False)):
-        for names in found:
+    for name_sets, arcs, certain in ((graph.cycles, graph.certain_arcs, True), (graph.possible_cycles, graph.arcs, False)):
+        for names in name_sets:
             inner = arcs_within(arcs, names)
             yield Cycle(names, shortest_cycle(inner), cheapest_cut(graph, inner), certain)
 
@@ -45,9 +45,9 @@ def shortest_cycle(arcs: Mapping[str, Collection[str]]) -> tuple[str, ...]:
     """Return the nodes of a shortest cycle, beginning with the first name, or () if there is no cycle."""
     best: tuple[str, ...] = ()
     for start in sorted(arcs):
-        found = _cycle_through(arcs, start, len(best) or len(arcs) + 1)
-        if found and (not best or len(found) < len(best)):
-            best = found
+        candidate = _cycle_through(arcs, start, len(best) or len(arcs) + 1)
+        if candidate and (not best or len(candidate) < len(best)):
+            best = candidate
     return best
 
 
@@ -58,12 +58,12 @@ def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) 
     for _ in range(below - 1):
         following: list[str] = []
         for name in level:
-            for other in sorted(arcs[name]):
-                if other == start:
+            for dependency in sorted(arcs[name]):
+                if dependency == start:
                     return _way(came, start, name)
-                if other > start and other not in came:
-                    came[other] = name
-                    following.append(other)
+                if dependency > start and dependency not in came:
+                    came[dependency] = name
+                    following.append(dependency)
         level = following
     return ()
 
@@ -91,7 +91,7 @@ def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edg
     edge of the cut can be left out.
     """
     loops = [(name, name) for name in sorted(arcs) if name in arcs[name]]
-    plain = {name: frozenset(others) - {name} for name, others in arcs.items()}
+    plain = {name: frozenset(dependencies) - {name} for name, dependencies in arcs.items()}
     cut = list(loops)
     for nodes in components(plain):
         inner = arcs_within(plain, nodes)
@@ -117,8 +117,8 @@ def _cut_component(arcs: Edges, weight: Callable[[Edge], int]) -> Iterable[Edge]
     if len(arcs) <= _MOST_EXACT:
         return _cut_by_orders(arcs, weight)
     for depth in range(1, _MOST_CUTS + 1):
-        if found := _cut_by_branching(arcs, weight, depth):
-            return found
+        if smallest := _cut_by_branching(arcs, weight, depth):
+            return smallest
     return _cut_by_greed(arcs, weight)
 
 
@@ -126,7 +126,7 @@ def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
     """Compare all orders of the nodes: an edge to a node that comes later in the order has to be cut."""
     names = sorted(arcs)
     number = {name: index for index, name in enumerate(names)}
-    weights = [[(1 << number[other], weight((name, other))) for other in sorted(arcs[name])] for name in names]
+    weights = [[(1 << number[dependency], weight((name, dependency))) for dependency in sorted(arcs[name])] for name in names]
     full = (1 << len(names)) - 1
     best: list[tuple[int, int]] = [(0, -1)] + [(1 << 60, -1)] * full
     for placed in range(full):
@@ -135,7 +135,7 @@ def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
             bit = 1 << index
             if placed & bit:
                 continue
-            total = so_far + sum(cost for other, cost in needs if not placed & other)
+            total = so_far + sum(cost for dependency, cost in needs if not placed & dependency)
             if total < best[placed | bit][0]:
                 best[placed | bit] = (total, index)
     order: list[str] = []
@@ -154,13 +154,13 @@ def _cut_by_branching(arcs: Edges, weight: Callable[[Edge], int], depth: int) ->
     for edge in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
         rest = {**arcs, edge[0]: arcs[edge[0]] - {edge[1]}}
         if is_acyclic(rest):
-            found = [edge]
+            candidate = [edge]
         elif depth > 1 and (more := _cut_by_branching(rest, weight, depth - 1)):
-            found = [edge, *more]
+            candidate = [edge, *more]
         else:
             continue
-        if not best or sum(map(weight, found)) < sum(map(weight, best)):
-            best = found
+        if not best or sum(map(weight, candidate)) < sum(map(weight, best)):
+            best = candidate
     return best
 
 
@@ -169,33 +169,35 @@ def _cut_by_greed(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
     cut = set(_against(arcs, _greedy_order(arcs, weight)))
     for edge in sorted(cut, key=lambda edge: (-weight(edge), edge)):
         kept = cut - {edge}
-        if is_acyclic({name: frozenset(other for other in arcs[name] if (name, other) not in kept) for name in arcs}):
+        if is_acyclic(
+            {name: frozenset(dependency for dependency in arcs[name] if (name, dependency) not in kept) for name in arcs}
+        ):
             cut = kept
     return sorted(cut)
 
 
 def _greedy_order(arcs: Edges, weight: Callable[[Edge], int]) -> list[str]:
     before = reverse(arcs)
-    left = set(arcs)
+    remaining = set(arcs)
     first: list[str] = []
     last: list[str] = []
 
     def balance(name: str) -> tuple[int, str]:
-        needs = sum(weight((name, other)) for other in arcs[name] & left)
-        return needs - sum(weight((other, name)) for other in before[name] & left), name
+        needs = sum(weight((name, neighbour)) for neighbour in arcs[name] & remaining)
+        return needs - sum(weight((neighbour, name)) for neighbour in before[name] & remaining), name
 
-    while left:
-        if free := sorted(name for name in left if not arcs[name] & left):
+    while remaining:
+        if free := sorted(name for name in remaining if not arcs[name] & remaining):
             first += free
-        elif free := sorted(name for name in left if not before[name] & left):
+        elif free := sorted(name for name in remaining if not before[name] & remaining):
             last += free
         else:
-            free = [min(left, key=balance)]
+            free = [min(remaining, key=balance)]
             first += free
-        left -= set(free)
+        remaining -= set(free)
     return first + last[::-1]
 
 
 def _against(arcs: Edges, order: Sequence[str]) -> list[Edge]:
     place = {name: index for index, name in enumerate(order)}
-    return sorted((name, other) for name in arcs for other in arcs[name] if place[other] > place[name])
+    return sorted((name, dependency) for name in arcs for dependency in arcs[name] if place[dependency] > place[name])

@@ -55,7 +55,10 @@ class Graph:
 
     def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
         self.places = {name: tuple(places[name]) for name in sorted(places)}
-        self.needs = {name: {other: tuple(needs[name][other]) for other in sorted(needs.get(name, ()))} for name in self.places}
+        self.needs = {
+            name: {dependency: tuple(needs[name][dependency]) for dependency in sorted(needs.get(name, ()))}
+            for name in self.places
+        }
         self._closures: dict[str, frozenset[str]] = {}
 
     @property
@@ -64,7 +67,7 @@ class Graph:
 
     @property
     def edges(self) -> Iterator[Edge]:
-        return ((name, other) for name, others in self.needs.items() for other in others)
+        return ((name, dependency) for name, dependencies in self.needs.items() for dependency in dependencies)
 
     def reasons(self, edge: Edge) -> tuple[Reason, ...]:
         """Return the reasons of an edge. Raises KeyError if there is no such edge."""
@@ -73,14 +76,16 @@ class Graph:
     @cached_property
     def arcs(self) -> Edges:
         """All edges, certain and uncertain."""
-        return {name: frozenset(others) for name, others in self.needs.items()}
+        return {name: frozenset(dependencies) for name, dependencies in self.needs.items()}
 
     @cached_property
     def certain_arcs(self) -> Edges:
         """The edges that do not depend on an unknown condition."""
         return {
-            name: frozenset(other for other, reasons in others.items() if any(reason.certain for reason in reasons))
-            for name, others in self.needs.items()
+            name: frozenset(
+                dependency for dependency, reasons in dependencies.items() if any(reason.certain for reason in reasons)
+            )
+            for name, dependencies in self.needs.items()
         }
 
     @cached_property
@@ -99,7 +104,8 @@ class Graph:
             knots = [frozenset(component) for component in components(self.arcs)]
             inside = {name: knot for knot in knots for name in knot}
             arcs = {
-                name: others - (inside.get(name, frozenset()) - self.certain_arcs[name]) for name, others in self.arcs.items()
+                name: dependencies - (inside.get(name, frozenset()) - self.certain_arcs[name])
+                for name, dependencies in self.arcs.items()
             }
             names, stuck = sort(arcs)
         return Order(names, stuck)
@@ -115,7 +121,7 @@ class Graph:
         if self.arcs == self.certain_arcs or is_acyclic(self.arcs):
             return ()
         certain = [set(cycle) for cycle in self.cycles]
-        return tuple(found for found in components(self.arcs) if not any(cycle <= set(found) for cycle in certain))
+        return tuple(component for component in components(self.arcs) if not any(cycle <= set(component) for cycle in certain))
 
     def closure(self, name: str) -> frozenset[str]:
         """Return all direct and indirect dependencies of a package; itself only if it is on a cycle."""
@@ -141,9 +147,9 @@ def build(packages: Iterable[Package]) -> Graph:
     needs: dict[str, dict[str, list[Reason]]] = {name: {} for name in places}
     for name, same in places.items():
         for package in same:
-            for other, reason in _reasons(package, members):
-                if other in places:
-                    needs[name].setdefault(other, []).append(reason)
+            for dependency, reason in _reasons(package, members):
+                if dependency in places:
+                    needs[name].setdefault(dependency, []).append(reason)
     return Graph(places, needs)
 
 
@@ -178,17 +184,17 @@ def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ..
     stuck = set(sort(arcs)[1])
     stuck &= set(sort(reverse({name: stuck.intersection(arcs[name]) for name in stuck}))[1])
     graph: nx.DiGraph[str] = nx.DiGraph({name: sorted(stuck.intersection(arcs[name])) for name in sorted(stuck)})
-    found = nx.strongly_connected_components(graph)
-    return tuple(sorted(tuple(sorted(nodes)) for nodes in found if len(nodes) > 1 or graph.has_edge(*nodes, *nodes)))
+    strong_components = nx.strongly_connected_components(graph)
+    return tuple(sorted(tuple(sorted(nodes)) for nodes in strong_components if len(nodes) > 1 or graph.has_edge(*nodes, *nodes)))
 
 
 def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
     """Return the edges reversed."""
     result: dict[str, set[str]] = {name: set() for name in arcs}
-    for name, others in arcs.items():
-        for other in others:
-            result[other].add(name)
-    return {name: frozenset(others) for name, others in result.items()}
+    for name, dependencies in arcs.items():
+        for dependency in dependencies:
+            result[dependency].add(name)
+    return {name: frozenset(dependencies) for name, dependencies in result.items()}
 
 
 def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]:
@@ -209,7 +215,7 @@ def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:
 
 def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the first order by name in which successors come first, and the nodes that cannot be ordered."""
-    missing = {name: len(others) for name, others in arcs.items()}
+    missing = {name: len(dependencies) for name, dependencies in arcs.items()}
     before = reverse(arcs)
     ready = [name for name, count in missing.items() if not count]
     heapify(ready)
@@ -217,8 +223,8 @@ def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[st
     while ready:
         name = heappop(ready)
         names.append(name)
-        for other in before[name]:
-            missing[other] -= 1
-            if not missing[other]:
-                heappush(ready, other)
+        for dependent in before[name]:
+            missing[dependent] -= 1
+            if not missing[dependent]:
+                heappush(ready, dependent)
     return tuple(names), tuple(sorted(missing.keys() - set(names)))

@@ -31,9 +31,9 @@ def measure(graph: Graph) -> Mapping[str, Metrics]:
     """Return the metrics of each package by name. Edges within a cycle are never redundant."""
     knot = _knots(graph)
     outer: dict[str, set[str]] = {name: set() for name in knot.values()}
-    for name, other in graph.edges:
-        if knot[name] != knot[other]:
-            outer[knot[name]].add(knot[other])
+    for name, dependency in graph.edges:
+        if knot[name] != knot[dependency]:
+            outer[knot[name]].add(knot[dependency])
     order, _ = sort(outer)
     bits = dict.fromkeys(order, 0)
     for index, name in enumerate(graph.names):
@@ -41,13 +41,13 @@ def measure(graph: Graph) -> Mapping[str, Metrics]:
     below = dict.fromkeys(order, 0)
     depth = dict.fromkeys(order, 0)
     for name in order:
-        for other in outer[name]:
-            below[name] |= below[other] | bits[other]
-            depth[name] = max(depth[name], depth[other] + 1)
+        for dependency in outer[name]:
+            below[name] |= below[dependency] | bits[dependency]
+            depth[name] = max(depth[name], depth[dependency] + 1)
     above = dict.fromkeys(order, 0)
     for name in reversed(order):
-        for other in outer[name]:
-            above[other] |= above[name] | bits[name]
+        for dependency in outer[name]:
+            above[dependency] |= above[name] | bits[name]
     return {
         name: Metrics(
             len(graph.needed_by[name] - {name}),
@@ -62,11 +62,11 @@ def measure(graph: Graph) -> Mapping[str, Metrics]:
 
 def _knots(graph: Graph) -> dict[str, str]:
     """Return the first member of the component of each package."""
-    found = {name: name for name in graph.names}
+    first_members = {name: name for name in graph.names}
     if graph.order.stuck or graph.possible_cycles:
         for members in components(graph.arcs):
-            found.update(dict.fromkeys(members, members[0]))
-    return found
+            first_members.update(dict.fromkeys(members, members[0]))
+    return first_members
 
 
 def _redundant(
@@ -74,13 +74,13 @@ def _redundant(
 ) -> list[tuple[str, ...]]:
     result = []
     own = knot[name]
-    for other in graph.needs[name]:
-        target = knot[other]
+    for dependency in graph.needs[name]:
+        target = knot[dependency]
         leading = [
             third for third in graph.needs[name] if knot[third] not in (own, target) and _leads(knot[third], target, below, bits)
         ]
         if target != own and leading:
-            result.append((name, *_shortest(graph, leading, other, _on_the_way(knot, target, below, bits))))
+            result.append((name, *_shortest(graph, leading, dependency, _on_the_way(knot, target, below, bits))))
     return result
 
 
@@ -99,10 +99,10 @@ def _shortest(graph: Graph, starts: Collection[str], end: str, useful: Callable[
     while end not in came:
         following = []
         for name in level:
-            for other in graph.needs[name]:
-                if other not in came and useful(other):
-                    came[other] = name
-                    following.append(other)
+            for dependency in graph.needs[name]:
+                if dependency not in came and useful(dependency):
+                    came[dependency] = name
+                    following.append(dependency)
         level = following
     path = [end]
     while came[path[-1]]:

@@ -172,8 +172,8 @@ def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
         for launch in package_launch_files(package):
             for reference in launch.file.references:
                 if reference.kind in ("file", "include") and not reference.optional:
-                    one = LookUp(reference.package, reference.name, reference.span)
-                    result.setdefault(one.package, []).append(one)
+                    wanted = LookUp(reference.package, reference.name, reference.span)
+                    result.setdefault(wanted.package, []).append(wanted)
         for look_up in package.lookups:
             if not is_auxiliary(strip_folder(package.path, look_up.span.path)):
                 result.setdefault(look_up.package, []).append(look_up)

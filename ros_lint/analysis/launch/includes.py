@@ -78,8 +78,8 @@ class IncludeResolver:
         if len(texts) != 1:
             return None
         place = self.installed_at(texts[0], source)
-        found = self._by_path.get(place, []) if place is not None else []
-        return found[0] if len(found) == 1 else None
+        candidates = self._by_path.get(place, []) if place is not None else []
+        return candidates[0] if len(candidates) == 1 else None
 
     def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
         """Return the configurations that a file sets and that are no arguments that callers can change."""
@@ -110,8 +110,8 @@ class IncludeResolver:
     def included(self, path: str) -> LaunchFile | None:
         """Return the launch file at an install path, as includes refer to it."""
         place = installed_place(path)
-        found = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
-        return found[0].file if len(found) == 1 else None
+        candidates = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
+        return candidates[0].file if len(candidates) == 1 else None
 
     def includes(self, file: LaunchFile) -> list[LaunchFile]:
         """Return the launch files of the workspace that a file certainly includes."""
@@ -130,10 +130,10 @@ class IncludeResolver:
             inner = waiting.pop()
             if inner.path not in seen:
                 seen.add(inner.path)
-                found = self._own(inner)
-                known |= found.known
-                complete = complete and found.complete
-                waiting += found.includes
+                own_of_inner = self._own(inner)
+                known |= own_of_inner.known
+                complete = complete and own_of_inner.complete
+                waiting += own_of_inner.includes
         takes = self._takes[file.path] = AcceptedArguments(own.required, frozenset(known), complete)
         return takes
 
@@ -158,13 +158,13 @@ class IncludeResolver:
 
 def configurations_read(file: LaunchFile) -> set[str]:
     """Return the configurations that a file reads; with UNKNOWN if there may be others."""
-    found = set(file.configurations_read)
+    names = set(file.configurations_read)
     if file.language == "python":  # in XML and YAML files, the text is complete
         for action in walk_actions(file.actions):
             for text, _ in values_of_action(action):
                 if not text.isascii():
-                    found.update(name for name in named_in(text) or () if not name.startswith("$"))
-    return found
+                    names.update(name for name in named_in(text) or () if not name.startswith("$"))
+    return names
 
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
@@ -183,7 +183,7 @@ def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]
         return ()
     if all(map(is_settled, value.texts)):
         return value.texts
-    texts = (one for text in value.texts for one in fill(text, defaults.get, lambda expression: UNKNOWN))
+    texts = (filled for text in value.texts for filled in fill(text, defaults.get, lambda expression: UNKNOWN))
     return tuple(dict.fromkeys(texts))
 
 

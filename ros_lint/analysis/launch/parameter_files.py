@@ -50,7 +50,7 @@ class ParameterFiles:
                     defaults = assigned_configurations(file)
                 texts = substitute(value, defaults)
                 place = self._links.installed_at(texts[0], file) if len(texts) == 1 else None
-                found = self._by_path.get(place) if place is not None else None
-                if found is not None:
+                parameters = self._by_path.get(place) if place is not None else None
+                if parameters is not None:
                     names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
-                    yield NodeParameterFile(action, value, found, names, namespaces or ("",))
+                    yield NodeParameterFile(action, value, parameters, names, namespaces or ("",))

@@ -61,8 +61,8 @@ def expand_defaults(
         file = file._replace(path=f"{share(place.package.name)}/{place.path}")
 
     def included(path: str) -> LaunchFile | None:
-        found = include_resolver(workspace).included(path)
-        return found if found is not None and follow(found) else None
+        inner = include_resolver(workspace).included(path)
+        return inner if inner is not None and follow(inner) else None
 
     return expand(file, given, included, workspace.target.distro, brief=True)
 
@@ -72,11 +72,11 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
 
     With ``settled``, only files that do not depend on the launch arguments.
     """
-    found = expand_defaults(file, workspace, lambda inner: True)
+    expansion = expand_defaults(file, workspace, lambda inner: True)
     if settled:
-        open_ = {argument.name: UNKNOWN for argument in found.arguments if not argument.given}
-        found = expand_defaults(file, workspace, lambda inner: True, open_)
-    for started in found.started:
+        open_ = {argument.name: UNKNOWN for argument in expansion.arguments if not argument.given}
+        expansion = expand_defaults(file, workspace, lambda inner: True, open_)
+    for started in expansion.started:
         if started.via is None:
             continue
         kind: Literal["include", "file"] = "include" if started.kind == "include" else "file"
@@ -132,15 +132,21 @@ def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tupl
     """Yield the argument, the expression and the unknown name of each failing expression in a text."""
     from ros_lint.collectors.launch.expressions import evaluate, refused  # noqa: PLC0415  (it takes the parser of Python)
 
-    given = {name: texts for name, _, one in configurations(text) if len(texts := fill(one, defaults.get, evaluate)) == 1}
+    known = {
+        name: texts for name, _, candidate in configurations(text) if len(texts := fill(candidate, defaults.get, evaluate)) == 1
+    }
     whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
     for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
         own, strange = refused(itself), refused(expression)
         if own is None or strange == () or (evaluate(expression) != UNKNOWN and not _TRUTHS.intersection(strange or ())):
             continue
-        for name, (value,) in given.items():
+        for name, (value,) in known.items():
             inside = refused(value)
-            missing = "" if strange is None else next((one for one in strange if one not in own and one in (inside or ())), "")
+            missing = (
+                ""
+                if strange is None
+                else next((candidate for candidate in strange if candidate not in own and candidate in (inside or ())), "")
+            )
             if missing or (strange is None and inside is None):
                 yield name, expression, missing
                 break

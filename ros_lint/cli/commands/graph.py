@@ -119,13 +119,13 @@ def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
 
 def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:
     rows: list[tuple[str, ...]] = [("package", "needed by", "needs", "depth", "reach", "redundant")]
-    for name, found in figures.items():
-        numbers = (found.needed_by, found.needs, found.depth, found.reach, len(found.redundant))
+    for name, metrics in figures.items():
+        numbers = (metrics.needed_by, metrics.needs, metrics.depth, metrics.reach, len(metrics.redundant))
         rows.append((name, *map(str, numbers)))
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     for name, *cells in rows:
         yield "  ".join((name.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))))
-    ways = [way for found in figures.values() for way in found.redundant]
+    ways = [way for metrics in figures.values() for way in metrics.redundant]
     if ways:
         yield ""
         yield "Redundant edges, because another path implies the same build order:"

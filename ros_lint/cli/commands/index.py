@@ -66,12 +66,12 @@ def refresh(
     cannot be written.
     """
     date = date or _today()
-    found = upstream.sources(source)
-    unknown = [name for name in distros if name not in found]
+    available = upstream.sources(source)
+    unknown = [name for name in distros if name not in available]
     if unknown:
-        raise KnowledgeError(f"{source} has no distribution '{unknown[0]}'; available: {', '.join(sorted(found))}")
-    wanted = distros or sorted(name for name, entry in found.items() if entry.active)
-    files = {f"{name}.idx": index.render_file(name, "", date, upstream.packages(found[name])) for name in wanted}
+        raise KnowledgeError(f"{source} has no distribution '{unknown[0]}'; available: {', '.join(sorted(available))}")
+    wanted = distros or sorted(name for name, entry in available.items() if entry.active)
+    files = {f"{name}.idx": index.render_file(name, "", date, upstream.packages(available[name])) for name in wanted}
     if rosdep_files:
         rules = [(place, upstream.load_yaml(place)) for place in rosdep_files]
         files["rosdep.tsv"] = rosdep.render_file(rosdep_rules.keys(rules))

@@ -32,11 +32,11 @@ def run(command: str, said: Mapping[str, Any]) -> int:
 
 def _rule(name: str, form: str) -> int:
     rules = registry.load()
-    found = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
-    if not found:
+    matches = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
+    if not matches:
         print(f"ros-lint: {registry.no_rule(rules, name)}", file=sys.stderr)
         return 2
-    print(docs.as_json(found) if form == "json" else docs.page(found[0]), end="")
+    print(docs.as_json(matches) if form == "json" else docs.page(matches[0]), end="")
     return 0
 
 

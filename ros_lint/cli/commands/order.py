@@ -22,8 +22,8 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
     can be ordered are printed anyway.
     """
     graph = dependency_graph(workspace)
-    said = [*_cycles(graph), *_left_out(graph), *_twice(graph)]
-    return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in said), int(bool(said))
+    messages = [*_cycles(graph), *_left_out(graph), *_twice(graph)]
+    return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in messages), int(bool(messages))
 
 
 def _cycles(graph: Graph) -> Iterator[str]:

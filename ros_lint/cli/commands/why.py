@@ -40,8 +40,8 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
     if unknown:
         return "", "".join(_no_such(workspace, name) for name in unknown), 2
     model = _Model(workspace)
-    found = paths(model.needs, start, end, most)
-    if not found.found:
+    found_paths = paths(model.needs, start, end, most)
+    if not found_paths.found:
         back = paths(model.needs, end, start, 1).found
         uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
         if uses:
@@ -50,7 +50,7 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
             return "".join(f"{line}\n" for line in (head, *(f"   {line}" for line in used_in(uses)))), "", 1
         hint = f"; but '{end}' depends on '{start}': see 'ros-lint why {end} {start}'" if back else ""
         return f"'{start}' does not depend on '{end}'{hint}\n", "", 1
-    return "".join(f"{line}\n" for line in _tell(model, found, start, end)), "", 0
+    return "".join(f"{line}\n" for line in _tell(model, found_paths, start, end)), "", 0
 
 
 class _Model:
@@ -62,11 +62,11 @@ class _Model:
 
     def needs(self, name: str) -> tuple[str, ...]:
         if name not in self._needs:
-            found = set(dependency_graph(self.workspace).needs.get(name, ()))
-            found.update(declared.name for declared in self._declared(name))
+            names = set(dependency_graph(self.workspace).needs.get(name, ()))
+            names.update(declared.name for declared in self._declared(name))
             if not self._packages(name):
-                found.update(self.workspace.world.depends(name, _TAGS.values()) or ())
-            self._needs[name] = tuple(sorted(found))
+                names.update(self.workspace.world.depends(name, _TAGS.values()) or ())
+            self._needs[name] = tuple(sorted(names))
         return self._needs[name]
 
     def lines(self, name: str, other: str) -> Iterator[_Line]:
@@ -89,8 +89,8 @@ class _Model:
 
     def uses(self, name: str, other: str) -> list[tuple[str, Span]]:
         """Return the places in the sources that use the dependency, sorted."""
-        found = {use.span: use.what for package in self._packages(name) for use in package.uses if other in use.providers}
-        return [(found[span], span) for span in sorted(found)]
+        places = {use.span: use.what for package in self._packages(name) for use in package.uses if other in use.providers}
+        return [(places[span], span) for span in sorted(places)]
 
     def _declared(self, name: str) -> Iterator[Declared]:
         for package in self._packages(name):
@@ -104,21 +104,21 @@ class _Model:
 def _tell(model: _Model, found: Paths, start: str, end: str) -> Iterator[str]:
     count = f"{'at least ' if found.more else ''}{len(found.found)} path{'s' if len(found.found) > 1 else ''}"
     yield f"'{start}' depends on '{end}' through {count}{'; shortest first' if len(found.found) > 1 else ''}:"
-    told: set[tuple[str, str]] = set()
+    printed: set[tuple[str, str]] = set()
     for number, path in enumerate(found.found, 1):
         yield ""
         yield f"{number}. {' -> '.join(path)}"
         for edge in pairwise(path):
-            yield from _tell_edge(model, edge, again=edge in told)
-            told.add(edge)
+            yield from _tell_edge(model, edge, again=edge in printed)
+            printed.add(edge)
 
 
 def _tell_edge(model: _Model, edge: tuple[str, str], *, again: bool) -> Iterator[str]:
-    name, other = edge
-    for line in model.lines(name, other):
+    name, dependency = edge
+    for line in model.lines(name, dependency):
         condition = f" {line.condition}" if line.condition else ""
-        yield f"   {name} -> {other}: {_tag(line.tag)}{condition} {line.place}"
-    uses = [] if again else model.uses(name, other)
+        yield f"   {name} -> {dependency}: {_tag(line.tag)}{condition} {line.place}"
+    uses = [] if again else model.uses(name, dependency)
     for what, span in uses[:_MOST_USES]:
         yield f"      because of {what} {span}"
     if len(uses) > _MOST_USES:

@@ -62,9 +62,9 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
         return ()
     bare = _Bare(text)
     content = bare.closed()
-    found = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(content)]
-    found += list(_modules(content))
-    return tuple(ColconDepend(name, Role.BUILD | Role.EXEC, bare.span(start, end)) for name, start, end in found)
+    names = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(content)]
+    names += list(_modules(content))
+    return tuple(ColconDepend(name, Role.BUILD | Role.EXEC, bare.span(start, end)) for name, start, end in names)
 
 
 def subdirectories(text: Text) -> frozenset[str]:

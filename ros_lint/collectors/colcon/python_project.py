@@ -149,8 +149,8 @@ class _Script:
             keys = [key.value for key in node.keys if isinstance(key, ast.Constant) and isinstance(key.value, str)]
             return dict(zip(keys, node.values, strict=True)) if len(keys) == len(node.keys) else None
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "dict" and not node.args:
-            found, complete = self.arguments(node)
-            return found if complete else None
+            arguments, complete = self.arguments(node)
+            return arguments if complete else None
         return None
 
     def _resolved(self, node: ast.expr) -> ast.expr:

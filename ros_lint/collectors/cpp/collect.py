@@ -29,8 +29,8 @@ def collect(source: Text) -> FileFacts:
     - Interface types whose package is not included are ``via="symbol"``.
     - Lookups by ament_index_cpp and pluginlib with a literal are ``via="package"``.
     """
-    found = mentions(source)
-    included, code = found.mentions, found.code
+    scan = mentions(source)
+    included, code = scan.mentions, scan.code
     known = {mention[0].partition("/")[0] for mention in included}  # by index: there are tens of thousands
     packages, files = look_ups(source, code)
     loading = loaders(source, code) if not known.isdisjoint(_LOADERS) or _implements(source.path, included) else ()
@@ -39,11 +39,11 @@ def collect(source: Text) -> FileFacts:
         for loader in loading
         if loader.base.startswith(f"{loader.package}::")  # else it may be any pair of words
     ]
-    packages += symbols(source, known, found)
+    packages += symbols(source, known, scan)
     if packages:
         included += packages
         included.sort(key=_place)
-    opaque = (_opaque(source, found.computed) if found.computed else ()) + wrapped(source)
+    opaque = (_opaque(source, scan.computed) if scan.computed else ()) + wrapped(source)
     return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=loading)
 
 

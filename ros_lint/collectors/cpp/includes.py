@@ -112,13 +112,13 @@ def exact(source: Text) -> Found:
     text = blanked(source.text)
     directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
     guarded = _is_guarded(text, directives)
-    found = _includes(text, directives, guarded)
-    named = [item for item in found if item.quote]
+    includes = _includes(text, directives, guarded)
+    named = [item for item in includes if item.quote]
     spans = source.spans([(item.start, item.start + len(item.name)) for item in named])
     return Found(
         [_mention(item.name, span, item.quote, item.optional) for item, span in zip(named, spans, strict=True)],
         [item.start for item in named],
-        [item for item in found if not item.quote],
+        [item for item in includes if not item.quote],
         [] if guarded else directives,
     )
 

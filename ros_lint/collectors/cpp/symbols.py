@@ -50,11 +50,11 @@ def symbols(source: Text, known: Collection[str], directives: Found) -> list[Men
     if not names:
         return []
     conditional = branches(text, directives.directives) if directives.directives else []
-    found = sorted(place for name in names if name.islower() and (place := _first(text, name, directives.code, conditional)))
-    spans = source.spans([place[:2] for place in found])
+    places = sorted(place for name in names if name.islower() and (place := _first(text, name, directives.code, conditional)))
+    spans = source.spans([place[:2] for place in places])
     return [
         _make(Mention, (package, "symbol", span, text[start:end], optional, False, ""))
-        for (start, end, optional, package), span in zip(found, spans, strict=True)
+        for (start, end, optional, package), span in zip(places, spans, strict=True)
     ]
 
 

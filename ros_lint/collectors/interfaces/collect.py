@@ -39,10 +39,10 @@ def collect(source: Text) -> FileFacts:
 
 def _idl(source: Text) -> Iterable[Mention]:
     text = blanked(source.text)
-    found = [(match.start(2), match.end(3) + 4, match[2], match[3]) for match in _IDL_INCLUDE.finditer(text)]
+    types = [(match.start(2), match.end(3) + 4, match[2], match[3]) for match in _IDL_INCLUDE.finditer(text)]
     bare = _IDL_STRING.sub(lambda string: " " * len(string[0]), text)
-    found += [(match.start(), match.end(), match[1], match[2]) for match in _IDL_NAME.finditer(bare)]
-    found.sort()
-    spans = source.spans([(start, end) for start, end, _, _ in found])
-    for (start, end, package, name), span in zip(found, spans, strict=True):
+    types += [(match.start(), match.end(), match[1], match[2]) for match in _IDL_NAME.finditer(bare)]
+    types.sort()
+    spans = source.spans([(start, end) for start, end, _, _ in types])
+    for (start, end, package, name), span in zip(types, spans, strict=True):
         yield Mention(f"{package}/{name}", "interface", span, source.text[start:end])

@@ -271,12 +271,12 @@ def _check_value(kind: str, value: str, start: int) -> None:
     comment = value.find("//")
     base, bracket, size = kind.removesuffix("]").partition("[")
     if bracket:
-        elements = [each.strip() for each in value[1:-1].split(",")] if value[1:-1] else []
+        elements = [element.strip() for element in value[1:-1].split(",")] if value[1:-1] else []
         at_most = size.startswith("<=")
         limit = int(size.removeprefix("<=") or 0)
         fits = not limit or len(elements) == limit or (at_most and len(elements) < limit)
         is_array = value[0] == "[" and value[-1] == "]"
-        if is_array and (base.startswith(_STRINGS) or (fits and all(_is_value(base, each) for each in elements))):
+        if is_array and (base.startswith(_STRINGS) or (fits and all(_is_value(base, element) for element in elements))):
             return
     elif _is_value(base, value):
         return

@@ -48,27 +48,27 @@ def collect(source: Text) -> Manifest:
         _, start, end = attribute(text.text, root, "format")
         format_span = place(start, end)
     begin = place(root.inner, root.inner)
-    found = _read_children(text.path, document, root, ALLOWED.get(form, {}), place)
+    content = _read_children(text.path, document, root, ALLOWED.get(form, {}), place)
     end = root.close if root.end >= 0 else document.read
     faults = document.faults
-    if faults or found.doubtful or not surely_accepted(root, form, found.elements, found.depends):
-        faults = (*faults, *find_problems(document, root, form, found.elements, found.depends))
-    name = next((element for element in found.elements if element.tag == "name"), None)
+    if faults or content.doubtful or not surely_accepted(root, form, content.elements, content.depends):
+        faults = (*faults, *find_problems(document, root, form, content.elements, content.depends))
+    name = next((element for element in content.elements if element.tag == "name"), None)
     return Manifest(
         text.path,
         form or _NEWEST_FORMAT,
         name.text if name else "",
-        next((element.text for element in found.elements if element.tag == "version"), ""),
-        tuple(found.elements),
-        tuple(found.depends),
-        tuple(found.exports),
+        next((element.text for element in content.elements if element.tag == "version"), ""),
+        tuple(content.elements),
+        tuple(content.depends),
+        tuple(content.exports),
         _problems(text, faults) if faults else (),
         name.text_span if name else text.span(root.start + 1, root.start + 1 + len(root.tag)),
         place(end, end),
         begin,
         format_span,
-        tuple(found.asides),
-        tuple(found.strays),
+        tuple(content.asides),
+        tuple(content.strays),
         _indent(text.text, document),
         text.newline,
     )
@@ -89,9 +89,9 @@ class _Found:
 
 
 def _read_children(path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place) -> _Found:
-    found = _Found()
+    content = _Found()
     text, events = document.text, document.events
-    count, rfind, add_depend, add_element = text.count, text.rfind, found.depends.append, found.elements.append
+    count, rfind, add_depend, add_element = text.count, text.rfind, content.depends.append, content.elements.append
     plain_lines = "\r" not in text
     at, last = 1, len(events)
     line, begin, counted = 1, -1, 0
@@ -99,7 +99,7 @@ def _read_children(path: str, document: Document, root: Node, allowed: Mapping[s
     while at < last and not isinstance(event := events[at], int):
         tag, attributes, start = event
         if start != done and not (gap := text[done:start]).isspace():
-            _read_asides(gap, done, found, place)
+            _read_asides(gap, done, content, place)
         if plain_lines and not attributes and at + 1 < last and isinstance(close := events[at + 1], int):
             # Most elements contain only text, on one line. They are read here, at a third of the cost.
             inner = start + len(tag) + 2
@@ -111,9 +111,9 @@ def _read_children(path: str, document: Document, root: Node, allowed: Mapping[s
                     line += passed
                     begin = rfind("\n", counted, start)
                 counted = start
-                left = inner - begin
+                column = inner - begin
                 span = _new(Span, (path, line, start - begin, line, done - begin))
-                name_span = _new(Span, (path, line, left, line, left + len(raw)))
+                name_span = _new(Span, (path, line, column, line, column + len(raw)))
                 if tag in DEPENDENCY_TAGS:
                     add_depend(_new(Depend, (raw, tag, "", (), span, name_span, done - close)))
                 else:
@@ -123,16 +123,16 @@ def _read_children(path: str, document: Document, root: Node, allowed: Mapping[s
         done = node.end if node.end >= 0 else len(text)  # else the file ends in it
         rich = node.tag in ("description", "export")
         if (node.children and not rich) or not allowed.get(node.tag, _NONE).issuperset(node.attributes):
-            found.doubtful = True
+            content.doubtful = True
         if node.end >= 0 and node.tag in DEPENDENCY_TAGS:
-            found.depends.append(_depend(text, node, place))
+            content.depends.append(_depend(text, node, place))
         elif node.end >= 0:
-            found.elements.append(_element(text, node, place, rich=rich))
+            content.elements.append(_element(text, node, place, rich=rich))
         if node.tag == "export":
-            found.exports += [_element(text, inside, place, rich=True) for inside in node.children if inside.end >= 0]
+            content.exports += [_element(text, inside, place, rich=True) for inside in node.children if inside.end >= 0]
     if root.end >= 0 and done < root.close and not (gap := text[done : root.close]).isspace():
-        _read_asides(gap, done, found, place)
-    return found
+        _read_asides(gap, done, content, place)
+    return content
 
 
 def _read_asides(gap: str, start: int, found: _Found, place: _Place) -> None:
@@ -160,13 +160,13 @@ def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Ele
     """Return an element. The text of ``rich`` elements includes their markup, as in catkin_pkg."""
     span = place(node.start, node.end)
     if rich:
-        found = markup(text, node) if node.tag != "export" else ""
+        content = markup(text, node) if node.tag != "export" else ""
         inner = text[node.inner : node.close]
         start = node.inner + len(inner) - len(inner.lstrip(BLANK))
         end = max(start, node.close - len(inner) + len(inner.rstrip(BLANK)))
     else:
-        found, start, end = value(text, node)
-    return _new(Element, (node.tag, found, tuple(node.attributes.items()), span, place(start, end)))
+        content, start, end = value(text, node)
+    return _new(Element, (node.tag, content, tuple(node.attributes.items()), span, place(start, end)))
 
 
 def _placer(source: Text) -> _Place:
@@ -204,8 +204,8 @@ def _no_package(text: Text, document: Document) -> Manifest:
 
 
 def _problems(text: Text, faults: Iterable[Fault]) -> tuple[Problem, ...]:
-    found = [Problem(kind, message, text.span(start, end), subject=subject) for kind, message, start, end, subject in faults]
-    return tuple(sorted(found, key=lambda problem: problem.span))
+    problems = [Problem(kind, message, text.span(start, end), subject=subject) for kind, message, start, end, subject in faults]
+    return tuple(sorted(problems, key=lambda problem: problem.span))
 
 
 def _indent(text: str, document: Document) -> str:

@@ -94,10 +94,10 @@ def parse(text: str) -> Condition:
 def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
     """Return whether a condition holds, or None if it depends on a variable that is not in the context."""
     if isinstance(condition, Junction):
-        found = [evaluate(part, context) for part in condition.parts]
+        truths = [evaluate(part, context) for part in condition.parts]
         if condition.every:
-            return False if False in found else None if None in found else True
-        return True if True in found else None if None in found else False
+            return False if False in truths else None if None in truths else True
+        return True if True in truths else None if None in truths else False
     left, right = _value(condition.left, context), _value(condition.right, context)
     if left is None or right is None:
         return None
@@ -143,8 +143,8 @@ def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[s
     An empty result means "catkin". With two true build types, colcon does not treat the folder as a ROS package
     (colcon-ros, package identification).
     """
-    found = [(element.text, truth(of(element), context)) for element in manifest.exports if element.tag == "build_type"]
-    return tuple([(name, active) for name, active in found if active is not False])
+    types = [(element.text, truth(of(element), context)) for element in manifest.exports if element.tag == "build_type"]
+    return tuple([(name, active) for name, active in types if active is not False])
 
 
 def problems(manifest: Manifest) -> tuple[Problem, ...]:

@@ -113,8 +113,8 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
     layout = _Layout(manifest)
     if len(runs) > len(kinds) or whole or not layout.alone(depend.span) or not _is_verbatim(depend):
         return change_tag(depend, tag)
-    others = [each for each in depends if each is not depend]
-    return (_put(layout, others, tag, depend.name, _written(depend._replace(tag=tag))), layout.removal(depend.span))
+    remaining = [each for each in depends if each is not depend]
+    return (_put(layout, remaining, tag, depend.name, _written(depend._replace(tag=tag))), layout.removal(depend.span))
 
 
 def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
@@ -175,7 +175,7 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
         return ()
     edits: list[Edit] = []
     for child in sorted(moved, key=lambda child: schema_rank(child.tag)):
-        before = [other for other in stay if schema_rank(other.tag) <= schema_rank(child.tag)]
+        before = [sibling for sibling in stay if schema_rank(sibling.tag) <= schema_rank(child.tag)]
         written = _written(child)
         edits.append(layout.after(before[-1].span, written) if before else layout.before(stay[0].span, written))
     return (*edits, *layout.removals([child.span for child in moved]))
@@ -293,9 +293,11 @@ class _Layout:
     def kinds_apart(self) -> bool:
         """Return whether blank lines separate the kinds of dependencies, or the only kind from other elements."""
         depends = self.manifest.depends
-        changes = [(one.span, other.span) for one, other in pairwise(depends) if one.tag != other.tag]
+        changes = [(depend.span, following.span) for depend, following in pairwise(depends) if depend.tag != following.tag]
         if changes:
-            return 2 * sum(any(map(self._is_blank, range(one.end_line, other.line))) for one, other in changes) > len(changes)
+            return 2 * sum(
+                any(map(self._is_blank, range(depend.end_line, following.line))) for depend, following in changes
+            ) > len(changes)
         return self._is_blank(self.with_heading(depends[0].span).line - 1) and self.blank_after(depends[-1].span)
 
     def _is_blank(self, line: int) -> bool:
@@ -336,7 +338,7 @@ def _longest_ascent(ranks: list[int]) -> frozenset[int]:
     chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, previous index
     longest: dict[int, int] = {}  # by rank: the index at which the longest run with this last rank ends
     for at, rank in enumerate(ranks):
-        length, previous = max(((chains[i][0], i) for other, i in longest.items() if other <= rank), default=(0, -1))
+        length, previous = max(((chains[i][0], i) for lower, i in longest.items() if lower <= rank), default=(0, -1))
         chains.append((length + 1, previous))
         if rank not in longest or chains[longest[rank]][0] <= length:
             longest[rank] = at

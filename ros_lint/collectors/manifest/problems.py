@@ -163,7 +163,7 @@ def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
 
 def _unknown_tag(node: Node, form: int) -> Fault:
     tag = node.tag
-    newer = next((str(other) for other, tags in ALLOWED.items() if other > form and tag in tags), "")
+    newer = next((str(later) for later, tags in ALLOWED.items() if later > form and tag in tags), "")
     if tag == "run_depend":
         way_out = "write <exec_depend>"
     elif tag == "exec_depend":
@@ -180,7 +180,7 @@ def _unknown_tag(node: Node, form: int) -> Fault:
 
 def _unknown_attribute(text: str, node: Node, name: str, form: int) -> Fault:
     start, _, end = attribute(text, node, name)
-    newer = next((str(other) for other, tags in ALLOWED.items() if other > form and name in tags.get(node.tag, ())), "")
+    newer = next((str(later) for later, tags in ALLOWED.items() if later > form and name in tags.get(node.tag, ())), "")
     if newer:
         message = f'the attribute {name} of <{node.tag}> needs format {newer}; write <package format="{newer}">'
     else:
@@ -265,7 +265,7 @@ def _alone(depends: _Depends, own_name: str) -> Iterator[Fault]:
             message = f"the package depends on itself; remove this <{node.tag}>"
             yield Fault("self-dependency", message, node.start, node.end)
         elif node.tag == "group_depend" and any(
-            other.tag == "member_of_group" and other.name == depend.name for _, other in depends
+            sibling.tag == "member_of_group" and sibling.name == depend.name for _, sibling in depends
         ):
             message = f"the package depends on group {depend.name}, of which it is itself a member; remove one of the two"
             yield Fault("own-group", message, node.start, node.end)
@@ -284,9 +284,9 @@ def _duplicates(depends: _Depends) -> Iterator[Fault]:
 
 
 def _duplicate_tests(depends: _Depends) -> Iterator[Fault]:
-    others = {_equality(node, depend): node.tag for node, depend in depends if node.tag in ("build_depend", "run_depend")}
+    build_tags = {_equality(node, depend): node.tag for node, depend in depends if node.tag in ("build_depend", "run_depend")}
     for node, depend in depends:
-        if node.tag == "test_depend" and (tag := others.get(_equality(node, depend))):
+        if node.tag == "test_depend" and (tag := build_tags.get(_equality(node, depend))):
             message = f"<{tag}>{depend.name}</{tag}> covers tests too in format 1; remove this <test_depend>"
             yield Fault("duplicate-dependency", message, node.start, node.end)
 

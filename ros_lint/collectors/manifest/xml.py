@@ -112,10 +112,10 @@ def value(text: str, node: Node) -> tuple[str, int, int]:
     Comments, CDATA sections and the text of children do not count.
     """
     raw = text[node.inner : node.close]
-    found = raw.strip(BLANK)
+    stripped = raw.strip(BLANK)
     if "<" not in raw and "&" not in raw:
-        start = node.inner + (len(raw) - len(raw.lstrip(BLANK)) if found else 0)
-        return _one_newline(found) if "\r" in found else found, start, start + len(found)
+        start = node.inner + (len(raw) - len(raw.lstrip(BLANK)) if stripped else 0)
+        return _one_newline(stripped) if "\r" in stripped else stripped, start, start + len(stripped)
     parts: list[str] = []
     places: list[int] = []
     depth = 0
@@ -373,7 +373,7 @@ def _explain(text: str, code: int, at: int) -> Fault:
         message = f"{text[at:end]} is not defined in xml; write the character itself"
     elif code == errors[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]:
         message = "the file continues after the end of its root element; remove the rest, because only one <package> is allowed"
-        first = next(found for found in _MARKUP.finditer(text) if found[1])
+        first = next(match for match in _MARKUP.finditer(text) if match[1])
         if first[1] != "package" and text.find("<package", at) >= 0:
             message = f"<{first[1]}> comes before <package>; remove it, because only one root element is allowed"
             start, end = first.span()

@@ -75,17 +75,17 @@ def _packages(source: Text) -> FileFacts:
     Names in ROS 1 launch files are optional, too, because nothing looks them up.
     """
     text = source.text
-    found: dict[str, tuple[int, int]] = {}
+    places: dict[str, tuple[int, int]] = {}
     for pattern in _LOOK_UPS:
-        _search(pattern, text, found)
-    sure = frozenset(found) if found and not is_of_ros_1(text) else frozenset()
+        _search(pattern, text, places)
+    sure = frozenset(places) if places and not is_of_ros_1(text) else frozenset()
     for pattern in _HABITS:
-        _search(pattern, text, found)
-    if not found:
+        _search(pattern, text, places)
+    if not places:
         return FileFacts()
     looked_up = tuple(_files(source)) if sure else ()
-    names = sorted(found, key=lambda name: found[name])
-    spans = source.spans(found[name] for name in names)
+    names = sorted(places, key=lambda name: places[name])
+    spans = source.spans(places[name] for name in names)
     return FileFacts(
         tuple(Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)),
         lookups=looked_up,

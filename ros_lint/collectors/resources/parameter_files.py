@@ -40,12 +40,12 @@ _ANY = "/**"
 
 def collect(source: Text) -> ParameterFile | None:
     """Return the contents of a parameter file, or None if it has no keys."""
-    found = _collected(source)
-    if found is None or "$(var" not in source.text:
-        return found
+    parameters = _collected(source)
+    if parameters is None or "$(var" not in source.text:
+        return parameters
     from ros_lint.collectors.launch.markup.collect import asks  # noqa: PLC0415  (few files of parameters are filled in)
 
-    return found._replace(configurations_read=asks(source.text))
+    return parameters._replace(configurations_read=asks(source.text))
 
 
 def _collected(source: Text) -> ParameterFile | None:

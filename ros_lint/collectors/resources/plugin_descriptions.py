@@ -44,12 +44,12 @@ def collect(path: str, source: Text) -> PluginFile | None:
     """Return a plugin description, or None if the text is none. ``path`` is relative to the package."""
     if "<library" not in source.text and "<class" not in source.text:
         return None
-    found = roots(source.text)
-    if not found:
+    elements = roots(source.text)
+    if not elements:
         return None
-    first = found[0]
+    first = elements[0]
     if first.tag == "library":
-        libraries = [element for element in found if element.tag == "library"]
+        libraries = [element for element in elements if element.tag == "library"]
     elif first.tag == "class_libraries":
         libraries = [element for element in first.children if element.tag == "library"]
     else:

@@ -73,7 +73,7 @@ def _condition(condition: LaunchCondition) -> str:
 
 
 def _when(started: Started) -> list[str]:
-    return [said for condition in dict.fromkeys(started.when) if (said := _condition(condition))]
+    return [text for condition in dict.fromkeys(started.when) if (text := _condition(condition))]
 
 
 def _why_not_followed(started: Started, look_up: LookUp) -> str:
@@ -110,7 +110,7 @@ def tree(found: Found) -> str:
     """Return the expansion as an indented list."""
     expansion = found.expansion
     lines = [found.file.path]
-    lines += [f"  {_argument(one)}" for one in expansion.arguments if one.depth == 0]
+    lines += [f"  {_argument(argument)}" for argument in expansion.arguments if argument.depth == 0]
     for started in expansion.started:
         indent = "  " * (started.depth + 1)
         lines.append(f"{indent}{_head(started)}")
@@ -157,14 +157,14 @@ def _summary(expansion: Expansion) -> str:
     for started in expansion.started:
         counts[started.kind] = counts.get(started.kind, 0) + 1
     plural = {"process": "processes"}
-    said = [
+    parts = [
         f"{counts[kind]} {kind if counts[kind] == 1 else plural.get(kind, kind + 's')}"
         for kind in ("node", "component", "process", "include")
         if kind in counts
     ]
     perhaps = sum(not started.certain for started in expansion.started)
     cut = "" if expansion.complete else "; incomplete"
-    return f"{', '.join(said) or 'starts nothing'}{f' ({perhaps} conditional)' if perhaps else ''}{cut}"
+    return f"{', '.join(parts) or 'starts nothing'}{f' ({perhaps} conditional)' if perhaps else ''}{cut}"
 
 
 # --- json ----------------------------------------------------------------------------------------------------------
@@ -180,12 +180,12 @@ def json(found: Found) -> str:
         "file": found.file.path,
         "arguments": [
             {
-                **_named([(one.name, one.texts)])[0],
-                "given": one.given,
-                "included": one.depth > 0,
-                **where(one.span),
+                **_named([(argument.name, argument.texts)])[0],
+                "given": argument.given,
+                "included": argument.depth > 0,
+                **where(argument.span),
             }
-            for one in expansion.arguments
+            for argument in expansion.arguments
         ],
         "starts": _nested(expansion.started, 0, found),
         "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(found)],
@@ -198,15 +198,15 @@ def _nested(started: Sequence[Started], depth: int, found: Found) -> list[dict[s
     items: list[dict[str, Any]] = []
     at = 0
     while at < len(started):
-        one = started[at]
+        entry = started[at]
         end = at + 1
         while end < len(started) and started[end].depth > depth:
             end += 1
-        item = _item(one)
-        if one.kind == "include":
-            item["follows"] = one.file or None
-            if not one.file:
-                item["unknown"].append(_why_not_followed(one, found.look_up))
+        item = _item(entry)
+        if entry.kind == "include":
+            item["follows"] = entry.file or None
+            if not entry.file:
+                item["unknown"].append(_why_not_followed(entry, found.look_up))
             item["starts"] = _nested(started[at + 1 : end], depth + 1, found)
         items.append(item)
         at = end
@@ -254,8 +254,8 @@ def mermaid(found: Found) -> str:
         name = f"n{number}"
         opening, closing = _SHAPES[started.kind]
         lines.append(f'  {name}{opening}"{_label(started)}"{closing}')
-        said = " and ".join(_when(started))
-        arrow = "-->" if started.certain else f'-.->|"{label(said)}"|' if said else "-.->"
+        conditions = " and ".join(_when(started))
+        arrow = "-->" if started.certain else f'-.->|"{label(conditions)}"|' if conditions else "-.->"
         lines.append(f"  {above[started.depth]} {arrow} {name}")
         if started.kind == "include":
             above.append(name)

@@ -58,22 +58,22 @@ def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
     Raises UsageError.
     """
     places = [word for word in words if ":=" not in word]
-    given: dict[str, str] = {}
+    arguments: dict[str, str] = {}
     for word in words:
         name, mark, value = word.partition(":=")
         if mark and not name:
             raise UsageError(f"argument without a name: '{word}'; write name:=value")
         if mark:
-            given[name] = value
+            arguments[name] = value
     if not places:
         raise UsageError("no launch file given; use 'ros-lint launch FILE' or 'ros-lint launch PACKAGE FILE'")
     if len(places) > 2 or (len(places) == 2 and is_file(places[0])):
         raise UsageError(f"unexpected '{places[-1]}'; launch arguments are written as name:=value")
     if len(places) == 2:
-        return Asked(places[0], places[1], given)
+        return Asked(places[0], places[1], arguments)
     if not is_file(places[0]):
         raise UsageError(f"{places[0]}: no such file; for an installed launch file use 'ros-lint launch PACKAGE FILE'")
-    return Asked("", places[0], given)
+    return Asked("", places[0], arguments)
 
 
 def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:
@@ -89,8 +89,8 @@ def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form:
     doubts = list(_doubts(file, look_up, expansion, asked.given))
     problems = list(dict.fromkeys(_problems(file, look_up, expansion)))
     err = "".join(f"ros-lint: {line}\n" for line in (*doubts, *problems))
-    found = launch_formats.Found(file, expansion, look_up)
-    return launch_formats.FORMATS[form](found), err, 1 if problems else 0
+    content = launch_formats.Found(file, expansion, look_up)
+    return launch_formats.FORMATS[form](content), err, 1 if problems else 0
 
 
 def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
@@ -110,8 +110,8 @@ def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapp
 
 def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:
     """Yield the reasons why launching fails."""
-    for one in (file, *look_up.followed):
-        for problem in one.problems:
+    for launch_file in (file, *look_up.followed):
+        for problem in launch_file.problems:
             yield f"{problem.span}: {problem.message}"
     for missing in expansion.missing:
         if missing.include is None:

@@ -54,8 +54,8 @@ class LookUp:
     def used(self, file: LaunchFile) -> frozenset[str]:
         """Return the launch configurations that a file or one of its includes reads."""
         result: set[str] = set()
-        for one in (file, *self.followed):
-            for action in walk_actions(one.actions):
+        for launch_file in (file, *self.followed):
+            for action in walk_actions(launch_file.actions):
                 texts = [text for value in values(action) for text in value.texts]
                 texts += [text for condition in action.conditions for text in condition.texts]
                 result.update(name for text in texts for name, *_ in configurations(text))
@@ -63,15 +63,15 @@ class LookUp:
 
     def absent(self, path: str) -> Absent | None:
         """Return why an included file could not be read, or None if it was read or never requested."""
-        found = self._found.get(path)
-        return found if isinstance(found, Absent) else None
+        result = self._found.get(path)
+        return result if isinstance(result, Absent) else None
 
     # --- the file that is launched --------------------------------------------------------------------------------
 
     def source_file(self, path: str) -> LaunchFile:
         """Return a launch file by its path, relative to the base of the workspace. Raises UsageError."""
-        found = self._sources.get(path) or self._read(path)
-        return self._launchable(found, path)
+        launch_file = self._sources.get(path) or self._read(path)
+        return self._launchable(launch_file, path)
 
     def installed_file(self, package: str, name: str) -> tuple[LaunchFile, str]:
         """Return the launch file of a package by its name, and its install path.
@@ -82,7 +82,7 @@ class LookUp:
         packages = self._workspace.by_name.get(package, ())
         below = self._workspace.world.installed(package)
         if packages:
-            paths = [path for one in packages for path in _share_files(one)]
+            paths = [path for candidate in packages for path in _share_files(candidate)]
         elif below is not None:
             paths = list(below.share_files.names)
         else:
@@ -93,8 +93,8 @@ class LookUp:
         if not same:
             raise UsageError(self._no_file(packages, package, name, paths))
         path = f"{share(package)}/{same[0]}"
-        found = self.included(path)
-        return self._launchable(found or self._found[path], f"{package}/{same[0]}"), path
+        launch_file = self.included(path)
+        return self._launchable(launch_file or self._found[path], f"{package}/{same[0]}"), path
 
     def _launchable(self, found: LaunchFile | Absent, path: str) -> LaunchFile:
         if isinstance(found, Absent):
@@ -109,11 +109,11 @@ class LookUp:
         return f"there is no package '{package}'{did_you_mean(self._workspace.world.suggest(package))}"
 
     def _no_file(self, packages: Sequence[Package], package: str, name: str, paths: Sequence[str]) -> str:
-        for one in packages:
-            source = next((file.path for file in one.launch if file.path.rpartition("/")[2] == name), "")
+        for owner in packages:
+            source = next((file.path for file in owner.launch if file.path.rpartition("/")[2] == name), "")
             if source:
                 return (
-                    f"'{package}' has {strip_folder(one.path, source)}, but does not install it; use 'ros-lint launch {source}'"
+                    f"'{package}' has {strip_folder(owner.path, source)}, but does not install it; use 'ros-lint launch {source}'"
                 )
         names = sorted({path.rpartition("/")[2] for path in paths if "launch" in path})
         hint = did_you_mean(similar_names(name, names)) or f"; available: {', '.join(names) or 'none'}"
@@ -123,10 +123,10 @@ class LookUp:
 
     def included(self, path: str) -> LaunchFile | None:
         """Return a launch file by the path in an include, or None if it cannot be read; see :meth:`absent`."""
-        found = self._found.get(path)
-        if found is None:
-            found = self._found[path] = self._find(path)
-        return None if isinstance(found, Absent) else found
+        result = self._found.get(path)
+        if result is None:
+            result = self._found[path] = self._find(path)
+        return None if isinstance(result, Absent) else result
 
     def _find(self, path: str) -> LaunchFile | Absent:
         places = list(installed(path))
@@ -140,15 +140,15 @@ class LookUp:
     def _in_package(self, package: str, path: str) -> LaunchFile | Absent:
         packages = self._workspace.by_name.get(package, ())
         name = path.removeprefix(f"share/{package}/")
-        for one in packages:
-            for provided in one.built.installs:
+        for candidate in packages:
+            for provided in candidate.built.installs:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is generated when the package is built", surely=False)
-                    source = resolve(one.path, provided.source)
+                    source = resolve(candidate.path, provided.source)
                     return self._sources.get(source) or self._read(source)
         if packages:
-            if any(one.script is None or one.hidden(Facet.SHARE, path) for one in packages):
+            if any(candidate.script is None or candidate.hidden(Facet.SHARE, path) for candidate in packages):
                 return Absent(f"'{package}' may install it in a way that cannot be analysed", surely=False)
             return Absent(f"'{package}' does not install '{name}'", surely=True)
         below = self._workspace.world.installed(package)
