@@ -1,4 +1,4 @@
-"""Dependencies: what a package needs, what it declares, and the edits that repair the manifest."""
+"""Dependencies: what a package needs, what it declares, and the edits that fix the manifest."""
 
 from ros_lint.analysis.dependencies.declared_closure import declared_closure, provided_transitively
 from ros_lint.analysis.dependencies.find_package import (

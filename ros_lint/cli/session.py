@@ -103,7 +103,7 @@ def open_session(asked: Request, progress: Progress, workspace: Tree | None = No
 
     Raises UsageError and KnowledgeError.
     """
-    from ros_lint.workspace.loader import Loader  # noqa: PLC0415  (all that reads a workspace, of which a kept report needs nothing)
+    from ros_lint.workspace.loader import Loader  # noqa: PLC0415  (not needed for a cached report)
 
     settings, base = asked.settings, asked.base
     knowledge = Knowledge(asked.target.distro, asked.places)
@@ -189,7 +189,7 @@ def _underlays(
 
 def no_packages(asked: Request | Session) -> str:
     """Return the message for a run without packages."""
-    from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (a kept report comes without)
+    from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (not needed for a cached report)
 
     places = ", ".join(root or asked.base for root in asked.roots)
     skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in discover(DiskTree(asked.base), asked.roots, {}).skipped]

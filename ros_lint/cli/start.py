@@ -12,7 +12,7 @@ import sys
 def run() -> None:
     """Run the command of this process and exit."""
     leave_current_folder()
-    from ros_lint.cli import main as cli  # noqa: PLC0415  (imports more, which the current folder must not have)
+    from ros_lint.cli import main as cli  # noqa: PLC0415  (its imports must not come from the current folder)
 
     cli.run()
 

@@ -95,7 +95,7 @@ def _in_cfg(text: str) -> Ranges:
 
 
 def _in_python(text: str) -> Ranges:
-    from ros_lint.base import python_tokens  # noqa: PLC0415  (few files are looked at)
+    from ros_lint.base import python_tokens  # noqa: PLC0415  (needed for few files)
 
     with suppress(python_tokens.TokenError):
         yield from ((start, end) for kind, start, end in python_tokens.tokens(text) if kind == "comment")

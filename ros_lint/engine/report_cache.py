@@ -38,7 +38,7 @@ class ReportCache:
 
     def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
         """Return the report that a run would produce, or None if only a run can determine it."""
-        from ros_lint.engine.report import Report  # noqa: PLC0415  (a module that the command needs anyway)
+        from ros_lint.engine.report import Report  # noqa: PLC0415  (the command has imported it)
 
         kept = kept_files.load(self._file, self._state) if self._file else None
         if not isinstance(kept, tuple) or len(kept) != 1 + len(trees) or not isinstance(kept[0], Report):

@@ -41,37 +41,41 @@ def apply(
     """
     names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
     judging = {rule.name for rule in known if rule.suppressions}  # run later: not judged yet
-    ordered = sorted(suppressions, key=lambda each: each.span.path)
-    whole = [(each, [(name, names.get(name.text.lower())) for name in each.names]) for each in ordered if not each.problem]
+    ordered = sorted(suppressions, key=lambda comment: comment.span.path)
+    whole = [
+        (comment, [(name, names.get(name.text.lower())) for name in comment.names]) for comment in ordered if not comment.problem
+    ]
     about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
-    for each, means in whole:
+    for comment, means in whole:
         for name, rule in means:
             if rule is not None:
-                about.setdefault((each.span.path, rule), []).append((each, name))
-    heard = {key: _Heard(entries) for key, entries in about.items()}
+                about.setdefault((comment.span.path, rule), []).append((comment, name))
+    indexes = {key: _Heard(entries) for key, entries in about.items()}
     used: set[tuple[Suppression, Name]] = set()
     kept: list[Issue] = []
     suppressed: list[tuple[Issue, Suppression]] = []
     for issue in issues:
-        spoken = heard.get((issue.finding.span.path, issue.rule.name))
-        hits = spoken.about(issue) if spoken else []
+        index = indexes.get((issue.finding.span.path, issue.rule.name))
+        hits = index.about(issue) if index else []
         used.update(hits)
         if hits:
             suppressed.append((issue, hits[0][0]))
         else:
             kept.append(issue)
     idle = [
-        (each, tuple([name for name, rule in means if rule in ran and rule not in judging and (each, name) not in used]))
-        for each, means in whole
+        (comment, tuple([name for name, rule in means if rule in ran and rule not in judging and (comment, name) not in used]))
+        for comment, means in whole
     ]
-    unknown = [Unknown(each, name, _nearest(name.text, names)) for each, means in whole for name, rule in means if rule is None]
+    unknown = [
+        Unknown(comment, name, _nearest(name.text, names)) for comment, means in whole for name, rule in means if rule is None
+    ]
     return Outcome(
         tuple(kept),
         tuple(suppressed),
         SuppressionUse(
-            tuple([Unused(each, unused_names) for each, unused_names in idle if unused_names]),
+            tuple([Unused(comment, unused_names) for comment, unused_names in idle if unused_names]),
             tuple(unknown),
-            tuple([each for each in ordered if each.problem]),
+            tuple([comment for comment in ordered if comment.problem]),
         ),
     )
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from ros_lint.reporters import Texts
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return ``path:line:column: severity: message [rule]`` for each finding, and a summary."""
     return "".join(f"{_line(issue, style)}\n" for issue in report.issues) + summary(report, style)
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _LEVELS = {Severity.ERROR: "critical", Severity.WARNING: "major", Severity.INFO: "info"}
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return an entry for each finding, and for each problem that made the run incomplete."""
     return encode([*_findings(report), *_problems(report)], 1)
 

@@ -18,7 +18,7 @@ SCHEMA_VERSION = 1
 """Increased when a key changes its meaning or is removed. New keys may be added at any time."""
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes them)
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return the report as JSON."""
     document = {
         "schema_version": SCHEMA_VERSION,

@@ -39,7 +39,7 @@ _CONTEXT = 1000
 _ROOT = "%SRCROOT%"
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (a reporter takes it)
+def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return the report as SARIF."""
     texts = cache(texts)
     groups = _groups(report.issues)

@@ -73,7 +73,7 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
 def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]:
     """Yield the changes of a fix as a diff, next to the gutter of a frame."""
     from ros_lint.base.diff import unified  # noqa: PLC0415
-    from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (diffs are shown on demand)
+    from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (only for diffs)
 
     sources = {edit.span.path: texts(edit.span.path) for edit in fix.edits}
     known = {path: source for path, source in sources.items() if source is not None}

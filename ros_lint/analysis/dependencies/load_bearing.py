@@ -64,16 +64,16 @@ def _lost_here(
     package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
 ) -> LostProvision | None:
     bring = workspace.world.closure
-    brought = bring([each.name for each in removed])
+    brought = bring([declared.name for declared in removed])
     members = [name for group in package.group_depends for name in workspace.world.group_members(group.name)]
     for role, names in dict.fromkeys((use.role, use.providers) for use in hanging(package, workspace)):
         name = next((name for name in names if name in brought), None)
         if name is None:
             continue
         wider = role | _BUILD if role & _BUILD else role
-        starts = [each.name for each in left if role is _TEST or each.role & wider]
+        starts = [declared.name for declared in left if role is _TEST or declared.role & wider]
         rest = bring([*starts, *members])
-        if not any(each in rest for each in names):
+        if not any(provider in rest for provider in names):
             return LostProvision(name, package.name)
     return None
 

@@ -129,9 +129,9 @@ def _mentioned(package: Package) -> set[str]:
     return {mention.name.partition("::")[0] for mention in package.built.mentions}
 
 
-def _is_same(one: str, other: str) -> bool:
+def _is_same(name_a: str, name_b: str) -> bool:
     """Return whether two names have the same words: robot-talk, talk_robot, robottalk."""
-    first, second = (name.lower().replace("-", "_") for name in (one, other))
+    first, second = (name.lower().replace("-", "_") for name in (name_a, name_b))
     return sorted(first.split("_")) == sorted(second.split("_")) or first.replace("_", "") == second.replace("_", "")
 
 

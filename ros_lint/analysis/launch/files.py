@@ -83,7 +83,7 @@ def references_by_name(
 def rename_fix(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
     """Return the unsafe fix that writes a text at some places, or None if there is no text.
 
-    A place comes with a flag: false if it contains more than the name. Then the result is None, too.
+    Each place has a flag, which is false if the place contains more than the name. Then the result is None, too.
     """
     if not text or not all(exact for _, exact in places):
         return None

@@ -54,7 +54,7 @@ def expand_defaults(
 
     ``follow`` selects the included files that are expanded.
     """
-    from ros_lint.collectors.launch.expand import expand  # noqa: PLC0415  (most runs need nothing of it)
+    from ros_lint.collectors.launch.expand import expand  # noqa: PLC0415  (few runs need it)
 
     place = include_resolver(workspace).place(file)
     if place is not None:
@@ -130,7 +130,7 @@ def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield the argument, the expression and the unknown name of each failing expression in a text."""
-    from ros_lint.collectors.launch.expressions import evaluate, refused  # noqa: PLC0415  (it takes the parser of Python)
+    from ros_lint.collectors.launch.expressions import evaluate, refused  # noqa: PLC0415  (imports the Python parser)
 
     known = {
         name: texts for name, _, candidate in configurations(text) if len(texts := fill(candidate, defaults.get, evaluate)) == 1

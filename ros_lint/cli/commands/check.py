@@ -139,7 +139,7 @@ def _checked(asked: Request, progress: Progress) -> Report:
 
 def _selection(settings: Settings) -> Selection:
     """Return the rules that the settings select. Raises SelectionError and PluginError."""
-    from ros_lint.engine import registry  # noqa: PLC0415  (all the rules, of which a kept report needs none)
+    from ros_lint.engine import registry  # noqa: PLC0415  (not needed for a cached report)
     from ros_lint.engine.selection import select  # noqa: PLC0415
 
     return select(

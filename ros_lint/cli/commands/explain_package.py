@@ -101,8 +101,8 @@ def _provides(package: Package) -> Iterator[_Row]:
         yield _Row(component.name, f"component{_maybe(component.conditional)}", component.span)
     for plugin in script.plugin_files:
         for library in plugin.libraries:
-            for one in library.classes:
-                yield _Row(one.name, f"plugin for {one.base}", one.span)
+            for plugin_class in library.classes:
+                yield _Row(plugin_class.name, f"plugin for {plugin_class.base}", plugin_class.span)
     for entry in script.entry_points:
         yield _Row(entry.name, f"{entry.group}: {entry.target}", entry.span)
     start = script.name_span or package.span

@@ -44,7 +44,7 @@ def run(workspace: Workspace, form: Format = "dot", *, metrics: bool = False) ->
 
 
 def _measure(graph: Graph) -> Mapping[str, Metrics]:
-    from ros_lint.analysis.graph.metrics import measure  # noqa: PLC0415  (only where they are asked for)
+    from ros_lint.analysis.graph.metrics import measure  # noqa: PLC0415  (only with metrics)
 
     return measure(graph)
 
@@ -86,7 +86,7 @@ def _mermaid(graph: Graph) -> Iterator[str]:
 
 
 def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
-    import json  # noqa: PLC0415  (only where it is asked for)
+    import json  # noqa: PLC0415  (only for this format)
 
     document = {
         "schema_version": SCHEMA_VERSION,

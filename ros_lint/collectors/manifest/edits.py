@@ -106,14 +106,14 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
     same kind.
     """
     depends = manifest.depends
-    runs = [list(run) for _, run in groupby(depends, key=lambda each: each.tag)]
+    runs = [list(run) for _, run in groupby(depends, key=lambda sibling: sibling.tag)]
     row = next(run for run in runs if depend in run)
-    kinds = {each.tag for each in depends}
-    whole = tag not in kinds and all(each in alike for each in row)
+    kinds = {sibling.tag for sibling in depends}
+    whole = tag not in kinds and all(sibling in alike for sibling in row)
     layout = _Layout(manifest)
     if len(runs) > len(kinds) or whole or not layout.alone(depend.span) or not _is_verbatim(depend):
         return change_tag(depend, tag)
-    remaining = [each for each in depends if each is not depend]
+    remaining = [sibling for sibling in depends if sibling is not depend]
     return (_put(layout, remaining, tag, depend.name, _written(depend._replace(tag=tag))), layout.removal(depend.span))
 
 

@@ -43,7 +43,7 @@ def collect(source: Text) -> ParameterFile | None:
     parameters = _collected(source)
     if parameters is None or "$(var" not in source.text:
         return parameters
-    from ros_lint.collectors.launch.markup.collect import asks  # noqa: PLC0415  (few files of parameters are filled in)
+    from ros_lint.collectors.launch.markup.collect import asks  # noqa: PLC0415  (few parameter files have substitutions)
 
     return parameters._replace(configurations_read=asks(source.text))
 

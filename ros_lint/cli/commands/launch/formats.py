@@ -172,7 +172,7 @@ def _summary(expansion: Expansion) -> str:
 
 def json(found: Found) -> str:
     """Return the expansion as JSON."""
-    import json as library  # noqa: PLC0415  (only where it is asked for)
+    import json as library  # noqa: PLC0415  (only for this format)
 
     expansion = found.expansion
     document = {

@@ -176,4 +176,4 @@ class LookUp:
 
 def _share_files(package: Package) -> list[str]:
     share_folder = f"share/{package.name}/"
-    return [one.path[len(share_folder) :] for one in package.built.installs if one.path.startswith(share_folder)]
+    return [file.path[len(share_folder) :] for file in package.built.installs if file.path.startswith(share_folder)]
