@@ -1,6 +1,7 @@
-"""Commands of CMake files as they are written, with the blocks around them.
+"""Calls of CMake commands as written, each with the blocks that enclose it.
 
-Rules about the order of commands and fixes read them; :mod:`ros_lint.collectors.cmake.evaluate` follows their effects.
+Rules about the order of commands and fixes use these calls. Their effects are computed by
+:mod:`ros_lint.collectors.cmake.evaluate`.
 """
 
 from __future__ import annotations
@@ -16,7 +17,10 @@ _BLOCK_WORDS: Final = frozenset({"else", "elseif", "return", "break", "continue"
 
 
 def collect(path: str, parsed: Parsed) -> Iterator[Call]:
-    """Yield the commands of a CMake file, in order, but not those that begin or end blocks. ``path`` is relative to the base."""
+    """Yield the calls of a CMake file in order, without the commands that begin or end blocks.
+
+    ``path`` is the path of the file, relative to the base of the run.
+    """
     blocks: list[tuple[str, bool]] = []
     around: tuple[str, ...] = ()
     test = asked = False
@@ -39,7 +43,7 @@ def collect(path: str, parsed: Parsed) -> Iterator[Call]:
 
 
 def _place(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
-    """Return the names of blocks, and whether one of them asks if tests are wanted."""
+    """Return the names of the enclosing blocks, and whether one of them depends on tests being enabled."""
     return tuple([block for block, _ in blocks]), any(asked for _, asked in blocks)
 
 

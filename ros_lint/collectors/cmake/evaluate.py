@@ -1,4 +1,4 @@
-"""What a package's CMake scripts build, provide and need: a static evaluation of CMakeLists.txt and all that it includes."""
+"""Static evaluation of a CMakeLists.txt and its includes: targets, installed files and dependencies."""
 
 from __future__ import annotations
 
@@ -61,17 +61,19 @@ _NO_HELPERS: Mapping[str, Helper] = {}
 
 
 def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] = _NO_HELPERS) -> BuildScript:
-    """Return what the build of a package does, worked out from its CMakeLists.txt without running CMake.
+    """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
-    ``distro`` is the ROS distribution that ``$ENV{ROS_DISTRO}`` names, "" when it is not known. ``helpers`` are the packages
-    of the workspace whose CMake code runs in packages that find them: those whose own result has ``extras``. Evaluate these
-    first (in an order in which each comes after those it finds), then the others.
+    ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
+    workspace whose CMake code runs in packages that find them: their own BuildScript has ``extras``. Evaluate the helpers
+    first, each after the helpers that it finds, then the other packages.
 
-    Conditions that cannot be decided are followed both ways; what such a branch provides is ``conditional`` and what it
-    mentions ``optional``. Options have their default, and what the other branch would do is reported as conditional. What
-    cannot be seen through is in ``opaque`` with the facet that it hides. Problems have the kinds "cmake-syntax",
-    "missing-file", "missing-folder" (of add_subdirectory), "missing-script" (of include), "no-interfaces", "undefined-target",
-    "file-is-directory" and "directory-is-file". Never raises for what the files hold.
+    - A condition that cannot be decided: both branches are run. Their products are ``conditional``, their mentions ``optional``.
+    - An option has its default value. The effects of the other branch are reported as conditional.
+    - Code that cannot be evaluated is in ``opaque`` with the facet that it hides.
+    - Problems have the kinds "cmake-syntax", "missing-file", "missing-folder" (add_subdirectory), "missing-script" (include),
+      "no-interfaces", "undefined-target", "file-is-directory" and "directory-is-file".
+
+    No content of the files raises an exception.
     """
     run = Run(sources, distro, helpers, cmake_ros.foreign)
     path = join(sources.path, _TOP)
@@ -83,7 +85,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
         ended = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
         run.frames[:] = [frame]
-        run.characters = MOST_CHARACTERS  # for what is asked below
+        run.characters = MOST_CHARACTERS  # _result() evaluates texts once more
         run.hide(ALL_FACETS, "the script runs longer than can be followed", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]
@@ -97,7 +99,7 @@ def _result(run: Run, path: str) -> BuildScript:
     undefined = _undefined(run)
     taken = _taken(run) if run.loose else {}
     problems = [*run.problems, *_missing(run), *undefined]
-    nowhere = {problem.span for problem in undefined}  # these are mistakes, and hide nothing
+    nowhere = {problem.span for problem in undefined}  # an undefined target is an error of the script, so it hides nothing
     opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not opaque.undefined]
     for file, parsed in run.sources.scripts.items():
         if parsed.problems and not (is_template(file) or file in run.templates):
@@ -155,9 +157,12 @@ _MAKES_NOTHING: Final = frozenset(
 
 
 def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
-    """Yield what CONFIG_EXTRAS and templates of a CMake package search, macros left out: those ask when they are called."""
+    """Yield the packages that CONFIG_EXTRAS files and package templates search, and whether each search always runs.
+
+    Searches in functions and macros are left out, because they run only when the macro is called.
+    """
     for file in dict.fromkeys([*run.extras, *run.templates]):
-        blocks: list[bool | None] = []  # for each block around, whether everybody comes by; None: whoever calls it
+        blocks: list[bool | None] = []  # for each enclosing block, whether it always runs; None for a function or macro
         for command in run.sources.scripts[file].commands if file in run.sources.scripts else ():
             words = [argument[0] for argument in command.args]
             if command.name in ("function", "macro"):
@@ -181,7 +186,7 @@ _PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
 
 
 def _asks_if_there(words: Sequence[str]) -> bool:
-    """Whether a condition only asks if a target, a package or a policy is there already."""
+    """Return whether a condition only tests if a target, a package or a policy already exists."""
     return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
 
 
@@ -191,7 +196,10 @@ def _first(path: str, command: Command) -> Span:
 
 
 def _runs(run: Run) -> tuple[str, ...] | None:
-    """Return what is run as tests, None if that is not known: no command is called that does it, or one that nobody knows."""
+    """Return the files that an interpreter runs as tests.
+
+    None if these are unknown: no known command runs tests, or an unknown command seems to run some.
+    """
     strange = (call for call in run.calls if _RUNS_TESTS.search(call) and not _is_known(run, call))
     if run.calls.isdisjoint(cmake_ros.RUNNERS) or any(strange):
         return None
@@ -217,10 +225,10 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 
 
 def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
-    """Return the mentions, given what :func:`_taken` says.
+    """Return the mentions, with the searches that are not REQUIRED classified by the result of :func:`_taken`.
 
-    A package that is not required is optional where X_FOUND is asked for, and serves tests where these alone take what was
-    found (reference, section C2.2).
+    Such a search is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
+    macros of the package.
     """
     if not run.loose:
         return tuple(run.mentions)
@@ -237,7 +245,7 @@ def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
 
 
 def _taken(run: Run) -> dict[str, bool]:
-    """Return the folded names of packages whose targets, variables or macros are used, and whether only tests use them."""
+    """Map the folded names of packages whose targets or macros are used to whether only tests use them."""
     taken: dict[str, bool] = {}
     for mention in run.mentions:
         if mention.via in ("target", "macro"):
@@ -247,7 +255,7 @@ def _taken(run: Run) -> dict[str, bool]:
 
 
 def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
-    """Yield where packages are searched that are not required, and whose names stand nowhere else."""
+    """Yield the places of find_package() calls without REQUIRED whose package is named nowhere else."""
     if not run.loose:
         return
     known = {macro.package for macro in macros().values()}
@@ -257,11 +265,11 @@ def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
 
 
 _WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
-"""Names of what brings commands, find modules or settings, and need not be named again."""
+"""Names of packages that provide commands, find modules or settings, so a script uses them without naming them again."""
 
 
 def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
-    """Return those names that stand in no command of the package but find_package()."""
+    """Return the names that occur in no command of the package except find_package()."""
     left = list(names)
     if not left:
         return left
@@ -275,7 +283,7 @@ def _missing(run: Run) -> list[Problem]:
     found = []
     for path, span, unsure in run.missing:
         source = path.rstrip("/")
-        # CMake takes a folder among the sources, and does nothing with it.
+        # CMake accepts a folder in a list of sources and ignores it.
         if not unsure and run.generated.isdisjoint((source, path)) and not run.is_folder(source):
             empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
             message = f"'{source}' does not exist" if source == path else empty

@@ -1,7 +1,7 @@
-"""What the released CMake code of ROS 2 provides: variables, and macros with what they do.
+"""Variables and macros that CMake and the released packages of ROS 2 provide.
 
-The macros are written in CMake themselves, reduced to their effects, in ``ros_macros.cmake``; the evaluator runs them
-in place of the real ones. See the head of that file.
+The macros are in ``ros_macros.cmake``, written in CMake and reduced to their effects. The evaluator runs them instead of
+the real ones; the head of that file describes the notation.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ INSTALL_ARTIFACTS: Final = (
     "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
     "INCLUDES", "CXX_MODULES_BMI",
 )  # fmt: skip
-"""Kinds of files of which install(TARGETS) can say for themselves where they go."""
+"""Kinds of files that can have their own DESTINATION in install(TARGETS)."""
 
 INSTALL_TARGETS_WORDS: Final[Mapping[str, int]] = {
     "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
     "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
     "RUNTIME_DEPENDENCY_SET": 1, "FILE_SET": 1,
 }  # fmt: skip
-"""The other words of install(TARGETS), with how many arguments each takes, -1 for any number."""
+"""The other keywords of install(TARGETS), with the number of arguments of each; -1 is any number."""
 
 VISIBILITY: Final = frozenset({"INTERFACE", "PRIVATE", "PUBLIC"})
-"""Words of the commands for targets that say whom a thing is for."""
+"""Scope keywords of commands such as target_link_libraries()."""
 
 VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_BINARY_DIR": "/\1build",
@@ -64,10 +64,12 @@ VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_SIZEOF_VOID_P": "8",
     "CMAKE_FILES_DIRECTORY": "/CMakeFiles",
 }
-"""What variables hold in a build by colcon on Linux, as far as it is the same on every machine. GNUInstallDirs gives
-``lib`` on Debian and its kin, and PYTHON_INSTALL_DIR stands for ``lib/pythonX.Y/site-packages``,
-PYTHON_MODULE_EXTENSION for ``.cpython-XY-<machine>.so``. Of the marked folders see
-:mod:`ros_lint.collectors.cmake.evaluator.values`."""
+"""Variables with the same value in every colcon build on Linux.
+
+- GNUInstallDirs: ``lib``, as on Debian and Ubuntu.
+- PYTHON_INSTALL_DIR: really ``lib/pythonX.Y/site-packages``.
+- PYTHON_MODULE_EXTENSION: really ``.cpython-XY-<machine>.so``.
+- Folders with a mark: see :mod:`ros_lint.collectors.cmake.evaluator.values`."""
 
 SOFT_VARIABLES: Final = frozenset({
     "ANDROID", "APPLE", "BUILD_SHARED_LIBS", "CMAKE_BUILD_TYPE", "CMAKE_CROSSCOMPILING", "CMAKE_C_COMPILER_ID",
@@ -76,7 +78,7 @@ SOFT_VARIABLES: Final = frozenset({
     "CMAKE_SYSTEM_NAME", "CYGWIN", "EMSCRIPTEN", "IOS", "LINUX", "MINGW", "MSVC", "QNX", "QNXNTO", "UNIX", "WIN32",
     "XCODE", "CMAKE_SIZEOF_VOID_P", "CMAKE_COMPILER_IS_CLANG", "VXWORKS", "BORLAND", "MSYS", "COVERAGE",
 })  # fmt: skip
-"""Variables that another platform, another compiler or the user gives another value."""
+"""Variables whose value depends on the platform, the compiler or the user."""
 
 UNKNOWN_VARIABLES: Final = frozenset({
     "CMAKE_COMMAND", "CMAKE_CTEST_COMMAND", "CMAKE_CXX_COMPILER", "CMAKE_CXX_COMPILER_VERSION", "CMAKE_CXX_FLAGS",
@@ -90,20 +92,20 @@ UNKNOWN_VARIABLES: Final = frozenset({
     "CMAKE_DL_LIBS", "CMAKE_SYSROOT", "CMAKE_TOOLCHAIN_FILE", "PYTHON_EXECUTABLE", "Python3_EXECUTABLE",
     "PYTHON_VERSION_MAJOR", "PYTHON_VERSION_MINOR", "PYTHON_VERSION_STRING",
 })  # fmt: skip
-"""Variables that hold something else on each machine."""
+"""Variables whose value differs between machines."""
 
 
 class Macro(NamedTuple):
-    """A released function or macro: its definition, reduced to its effects, and the package that brings it."""
+    """A released function or macro: its package, and its definition reduced to its effects."""
 
     package: str
     text: str
-    """From function() or macro() to its end."""
+    """The text from function() or macro() to endfunction() or endmacro()."""
 
 
 @cache
 def macros() -> Mapping[str, Macro]:
-    """Return the released macros that are known, by name in lower case."""
+    """Return the known released macros by name in lower case."""
     found: dict[str, Macro] = {}
     package = ""
     for match in _PIECE.finditer(_written()):
@@ -116,7 +118,7 @@ def macros() -> Mapping[str, Macro]:
 
 @cache
 def opaque_packages() -> frozenset[str]:
-    """Return the packages whose CMake code does not say what it does, and whose macros are all known."""
+    """Return the OPAQUE packages: their CMake code cannot be evaluated, but all of their macros are known."""
     return frozenset([match[1] for match in _PIECE.finditer(_written()) if match[2]])
 
 
@@ -126,5 +128,5 @@ def _written() -> str:
         return file.read()
 
 
-# Few of the definitions are wanted in a run, so these are not taken apart before.
+# The definitions are not parsed here, because a run needs only few of them.
 _PIECE = re.compile(r'^package\("?([^" )\n]*)"?( OPAQUE)?\)$|^(function|macro)\((\w+)[^\n]*\n(?s:.*?)^end\3\(\)$', re.MULTILINE)

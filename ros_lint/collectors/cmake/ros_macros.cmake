@@ -1,28 +1,28 @@
-# What the CMake functions and macros of released ROS 2 packages do, reduced to their effects and written in CMake.
+# The CMake functions and macros of released ROS 2 packages, written in CMake and reduced to their effects.
 #
-# package(NAME) names the package that the definitions after it come with. The evaluator runs them in place of the real
-# ones, also where a workspace has the sources of a package that is OPAQUE: its code leaves to hooks, generators and
-# templates what it does. Besides CMake's own commands they use these primitives:
-#   ros_lint_uses(for how names...)          the names are packages; "how" is quoted before a name, - for nothing;
+# package(NAME) names the package of the definitions after it. The evaluator runs these definitions instead of the real
+# ones. For an OPAQUE package it does so even if the workspace has its sources, because their effects are in hooks,
+# generators and templates. Besides the commands of CMake, the definitions use these primitives:
+#   ros_lint_uses(for how names...)          packages are used; messages quote "how" before a name, - for nothing;
 #                                            "for" is export, interfaces, plugins, or -
-#   ros_lint_target_uses(how target names...)  likewise, behind the name of a target
-#   ros_lint_headers_of(target names...)     the target has the headers of packages
-#   ros_lint_find(build|test)                the dependencies that package.xml declares are searched
+#   ros_lint_target_uses(how target names...)  likewise, with "how" and the target before the name
+#   ros_lint_headers_of(target names...)     the target has the include directories of the packages
+#   ros_lint_find(build|test)                find_package() for the dependencies that package.xml declares
 #   ros_lint_component(classes...)           classes that a component container can load
 #   ros_lint_interfaces(install|- files...)  code is generated from interface files
 #   ros_lint_python(name folder)             a Python package or module is installed
-#   ros_lint_console_scripts(dir setup.cfg)  console_scripts of a setup.cfg become programs
+#   ros_lint_console_scripts(dir setup.cfg)  the console_scripts of a setup.cfg are installed as programs
 #   ros_lint_provide(path [program])         a generated file is installed
-#   ros_lint_headers(scoped)                 include/ is installed, to include/<package> if scoped or as of Kilted
-#   ros_lint_unknown(variables...)           variables hold something that cannot be known here
-#   ros_lint_of_index(variables...)          likewise, and it is what some package has put into the index
-#   ros_lint_extras(files...)                CMake code for packages that find this one
-#   ros_lint_test_executable(target ...)     a program that tests; options of the ament test commands are left out
-#   ros_lint_runs(files or folders...)       an interpreter runs these as tests
-#   ros_lint_hide(facets "reason")           something cannot be seen through
-#   ros_lint_exported(sets...)               whoever finds the package has the targets in these sets
-#   ros_lint_end()                           the package is complete
-# Sources: reference, sections C1 to C6; the documentation and the code of the packages named.
+#   ros_lint_headers(scoped)                 include/ is installed, to include/<package> if scoped or since Kilted
+#   ros_lint_unknown(variables...)           variables have values that cannot be known
+#   ros_lint_of_index(variables...)          likewise, because the values are read from the ament index
+#   ros_lint_extras(files...)                CMake code that runs in packages that find this one
+#   ros_lint_test_executable(target ...)     a test program; options of the ament test commands are left out
+#   ros_lint_runs(files or folders...)       files or folders that an interpreter runs as tests
+#   ros_lint_hide(facets "reason")           facets of the package are hidden
+#   ros_lint_exported(sets...)               packages that find this one have the targets of these export sets
+#   ros_lint_end()                           end of the package: ament_package()
+# Sources: the documentation and the code of the packages named below.
 
 package(ament_cmake_core OPAQUE)
 
@@ -79,7 +79,7 @@ function(ament_environment_hooks)
   endforeach()
 endfunction()
 
-# Those of released packages are part of what stands here for their macros. Others write to the ament index.
+# The extensions of released packages are included in the macros of this file. Other extensions write to the ament index.
 function(ament_register_extension point package file)
   if(point STREQUAL ament_package)
     ros_lint_hide(COMPONENTS "what ${file} of ${package} registers is not known")
@@ -272,7 +272,7 @@ macro(ament_auto_add_executable target)
   list(APPEND ${PROJECT_NAME}_EXECUTABLES ${target})
 endmacro()
 
-# The kind of the library stands among the unparsed arguments, where add_library() wants it.
+# The unparsed arguments contain the type of the library (SHARED, STATIC ...), as add_library() expects.
 macro(ament_auto_add_library target)
   cmake_parse_arguments(_ARG_AUTO "NO_TARGET_LINK_LIBRARIES" "DIRECTORY" "" ${ARGN})
   add_library(${target} ${_ARG_AUTO_UNPARSED_ARGUMENTS})
@@ -552,14 +552,15 @@ macro(rclcpp_components_register_node target)
   ros_lint_provide(share/ament_index/resource_index/rclcpp_components/${PROJECT_NAME})
 endmacro()
 
-# It takes RESOURCE_INDEX alone; the words of the other command, and what is said with them, are no classes (component-mismatch).
+# The real macro parses only RESOURCE_INDEX. The keywords of rclcpp_components_register_node() and their values are parsed
+# here because they are no classes; the rule component-mismatch reports them.
 macro(rclcpp_components_register_nodes target)
   cmake_parse_arguments(_ARG_COMPONENT "PLUGIN;NO_UNDEFINED_SYMBOLS" "RESOURCE_INDEX;EXECUTABLE;EXECUTOR" "" ${ARGN})
   ros_lint_component(${_ARG_COMPONENT_UNPARSED_ARGUMENTS})
   ros_lint_provide(share/ament_index/resource_index/rclcpp_components/${PROJECT_NAME})
 endmacro()
 
-# The name until Dashing.
+# The name of the command until Dashing.
 macro(rclcpp_register_node_plugins target)
   rclcpp_components_register_nodes(${target} ${ARGN})
 endmacro()

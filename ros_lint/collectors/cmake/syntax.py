@@ -1,7 +1,7 @@
 """CMake files as lists of commands: CMakeLists.txt, ``*.cmake`` and their templates (``*.cmake.in``, ``*.in.cmake``).
 
-The syntax is that of cmake-language(7) as CMake 3.25 reads it, the legacy unquoted arguments (``-Da="b c"``) included.
-Nothing is evaluated here; :mod:`ros_lint.collectors.cmake.evaluate` does that.
+The syntax is cmake-language(7) as parsed by CMake 3.25, including legacy unquoted arguments (``-Da="b c"``).
+Nothing is evaluated here: see :mod:`ros_lint.collectors.cmake.evaluate`.
 """
 
 from __future__ import annotations
@@ -14,45 +14,48 @@ from ros_lint.facts.cmake import position
 from ros_lint.facts.visibility import Problem
 
 PLAIN = 0
-"""An unquoted argument that stands for itself: no reference, escape, semicolon or bracket in it."""
+"""An unquoted argument whose text is its value: it has no reference, escape, semicolon or bracket."""
 UNQUOTED = 1
-"""An unquoted argument to evaluate and to split into list elements."""
+"""An unquoted argument that is evaluated and split into list elements."""
 QUOTED = 2
-"""A quoted argument to evaluate."""
+"""A quoted argument that is evaluated, but not split."""
 LITERAL = 3
-"""A quoted argument that stands for itself."""
+"""A quoted argument whose text is its value."""
 BRACKET = 4
-"""A bracket argument: nothing in it is ever evaluated."""
+"""A bracket argument, which is never evaluated."""
 OPEN = 5
 """A parenthesis within the arguments."""
 CLOSE = 6
 
 Argument = tuple[str, int, int, int]
-"""Text without quotes or brackets, kind, and the offsets of the whole argument: plain, for there are so many."""
+"""Text without quotes or brackets, kind, and the offsets of the whole argument.
+
+A plain tuple, because it is created much faster than a named one and a run has very many arguments."""
 
 
 class Command(NamedTuple):
-    """A command invocation."""
+    """A call of a command in a CMake file."""
 
     name: str
-    """In lower case: CMake's command names are case-insensitive."""
+    """The name in lower case, because names of CMake commands are case-insensitive."""
     written: str
+    """The name as written."""
     args: tuple[Argument, ...]
     start: int
     """Offset of the name."""
     end: int
     """Offset after the closing parenthesis."""
     line: int
-    """Of the name; lines and columns count from 1."""
+    """The line of the name; lines and columns count from 1."""
     column: int
     breaks: tuple[int, ...]
-    """Offsets at which further lines of the command begin."""
+    """Offsets of the beginnings of the lines of the command after the first one."""
 
     def span(self, path: str, start: int, end: int) -> Span:
-        """Return the span between two offsets within the command, in the file of that path."""
+        """Return the span between two offsets of the command, in the file ``path``."""
         if not self.breaks:
             shift = self.column - self.start
-            # As Span(...), in half the time: there are ten thousands of them.
+            # Equals Span(...), but takes half the time; a run creates tens of thousands of spans.
             return tuple.__new__(Span, (path, self.line, start + shift, self.line, end + shift))
         return Span(path, *self._position(start), *self._position(end))
 
@@ -65,12 +68,13 @@ class Command(NamedTuple):
 
 
 class Parsed(NamedTuple):
-    """What a file says. With a problem, CMake runs none of it; the commands before the first problem are kept."""
+    """The commands and problems of a CMake file. CMake runs no command of a file that has a problem."""
 
     commands: tuple[Command, ...]
+    """The commands before the first problem."""
     problems: tuple[Problem, ...]
     set_aside: tuple[str, ...] = ()
-    """Interfaces that stand in comments where a list of them had an element, as ``msg/Name``."""
+    """Interface files on commented lines, as ``msg/Name``: usually elements of a list that were commented out."""
 
 
 _SET_ASIDE = re.compile(r"""^[ \t]*\#[ \t\#"]*((?:msg|srv|action)/\w+)\.(?:msg|srv|action|idl)\b""", re.MULTILINE)
@@ -94,21 +98,21 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _PLACEHOLDER = re.compile(r"@\w+@\Z")
 _NEW_LINE = re.compile(r"\n")
 _OPENING = re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:(?!\]\1\]).)*\]\1\])*\(")
-"""What leads to the parenthesis of a command: spaces and bracket comments."""
+"""The text from the name of a command to its parenthesis: spaces and bracket comments."""
 _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
 def is_template(path: str) -> bool:
-    """Return whether a file is called like one that CMake makes another file of, and does not read itself."""
+    """Return whether a file is a template by its name: configure_file() generates a file from it, but it is no script."""
     return path.endswith((".in", ".in.cmake")) or _OTHER.search(path) is not None
 
 
 _OTHER = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|txt|xml|yaml|yml)\.cmake\Z")
-"""What is made of it is no CMake file: ``config.h.cmake``."""
+"""Names of templates for files of other languages, such as ``config.h.cmake``."""
 
 
 def parse(source: Text) -> Parsed:
-    """Return the commands of a CMake file, and the syntax error that makes CMake refuse it, if there is one."""
+    """Return the commands of a CMake file, and its first syntax error if it has one."""
     return _Reader(source).read()
 
 
@@ -149,7 +153,7 @@ class _Reader:
         for match in _TOKEN.finditer(text):
             position = match.end()
             group = match.lastindex
-            if glued >= 0:  # after a bracket
+            if glued >= 0:  # a bracket argument or comment ends at this offset
                 if group not in (None, 2, 8) and text[glued] not in " \t\r\n":
                     raise _SyntaxError("an argument is not separated from the one before it", glued, position)
                 glued = -1
@@ -224,11 +228,11 @@ class _Reader:
             self._count_lines()
 
     def _opens(self, offset: int) -> bool:
-        """Return whether only spaces and bracket comments stand between a name and its parenthesis."""
+        """Return whether a parenthesis follows at an offset, after nothing but spaces and bracket comments."""
         return _OPENING.match(self.text, offset) is not None
 
     def _wrong(self, at: int) -> _SyntaxError:
-        """Return the error at an offset where no token begins."""
+        """Return the error for an offset at which no token begins."""
         what = self.text[at]
         reasons = {
             '"': "a string is not closed",
@@ -238,7 +242,7 @@ class _Reader:
         return _SyntaxError(reasons.get(what, f"{what!r} cannot stand here"), at, at + 1)
 
     def _count_lines(self) -> None:
-        """Take lines from the text, which also ends them at a carriage return."""
+        """Recount the lines of the commands in a file with carriage returns, because Text also ends lines at these."""
         for number, command in enumerate(self.commands):
             line, column = self.source.position(command.start)
             last = self.source.position(command.end)[0]
@@ -247,5 +251,5 @@ class _Reader:
 
 
 def _cleaned(value: str) -> str:
-    """Return an argument as CMake reads it, and free of the characters that evaluation marks unknown pieces with."""
+    """Return an argument with line ends normalized and the marks of unknown values (see ``values.py``) replaced."""
     return value.replace("\r\n", "\n").translate(_MARKS)

@@ -1,4 +1,4 @@
-"""Arguments with keywords, as cmake_parse_arguments() and most commands take them."""
+"""Parsing of arguments with keywords, as in cmake_parse_arguments() and most commands."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
 
 @lru_cache(maxsize=512)
 def _keywords(prefix: str, options: str, ones: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
-    """Return what kind each keyword is of, and what is set when nothing is given."""
+    """Return the kind of each keyword, and the variables that are set for a call without arguments."""
     flags, singles, lists = split(options), split(ones), split(multis)
     kinds = {**dict.fromkeys(lists, _LIST), **dict.fromkeys(singles, _SINGLE), **dict.fromkeys(flags, _FLAG)}
     initial: dict[str, str | None] = {f"{prefix}_{name}": "FALSE" for name in flags}
@@ -22,14 +22,14 @@ def _keywords(prefix: str, options: str, ones: str, multis: str) -> tuple[dict[s
 
 
 def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequence[str]) -> dict[str, str | None]:
-    """Return the variables that cmake_parse_arguments() sets; None unsets one."""
+    """Return the variables that cmake_parse_arguments() sets; the value None unsets a variable."""
     kinds, initial = _keywords(prefix, options, ones, multis)
     values = initial.copy()
     given: dict[str, list[str]] = {}
     unparsed: list[str] = []
     state = ""
     taking = 0
-    if args and args[-1][:1] == MAYBE and kinds.get(args[-1][1:]) == _FLAG:  # nothing follows that it could cut off
+    if args and args[-1][:1] == MAYBE and kinds.get(args[-1][1:]) == _FLAG:  # a last flag ends no list of values
         values[f"{prefix}_{args[-1][1:]}"] = HOLE
         args = args[:-1]
     for arg in args:
@@ -65,9 +65,9 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
 
 
 def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list[str]]:
-    """Return arguments by the keyword before them; those before the first keyword under "".
+    """Return the arguments grouped by the keyword before them. Arguments without a keyword are under "".
 
-    ``keywords`` gives how many arguments a keyword takes, -1 for any number. What follows when it has enough belongs to "".
+    ``keywords`` has the number of arguments of each keyword, -1 for any number. Excess arguments are under "".
     """
     found: dict[str, list[str]] = {"": []}
     current, room = found[""], -1
@@ -86,7 +86,7 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
 
 
 def with_one_destination(args: list[str]) -> list[str]:
-    """Return the arguments with a HOLE for a destination that is one of several, which the branches of a condition gave."""
+    """Return the arguments with a HOLE for a DESTINATION that has alternative values from the branches of a condition."""
     result: list[str] = []
     for arg in args:
         if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):

@@ -30,7 +30,7 @@ class Definition(NamedTuple):
 
 
 class Scope(NamedTuple):
-    """``block()``, which has variables of its own."""
+    """``block()``, which has its own scope of variables."""
 
     command: Command
     body: Body
@@ -40,7 +40,7 @@ Node = Command | If | Loop | Definition | Scope
 Body = tuple[Node, ...]
 
 Rewrite = Callable[[tuple[Argument, ...]], tuple[Argument, ...]]
-"""What turns the arguments of a command into others."""
+"""A function that replaces the arguments of a command."""
 
 _ENDS = {
     "endif": "if",
@@ -55,7 +55,7 @@ _BRANCHES = frozenset({"else", "elseif"})
 
 
 class UnbalancedError(Exception):
-    """A block is not closed, or closed without being open. ``command`` is the culprit, ``body`` what stands before it."""
+    """A block is not closed, or a command closes no block. ``command`` is that command, ``body`` the nodes before it."""
 
     def __init__(self, message: str, command: Command, body: Body) -> None:
         super().__init__(message)
@@ -93,7 +93,7 @@ class _Open:
 
 
 def blocks(commands: Sequence[Command]) -> Body:
-    """Return commands with their nesting. Raises UnbalancedError."""
+    """Return commands nested in their blocks. Raises UnbalancedError."""
     nodes: list[Node] = []
     stack: list[_Open] = []
     outer: list[list[Node]] = []
@@ -124,7 +124,10 @@ def blocks(commands: Sequence[Command]) -> Body:
 
 
 def rewritten(body: Body, arguments: Rewrite) -> Body:
-    """Return a body in which every command has other arguments, as a macro gives them to a function defined within it."""
+    """Return a body with the arguments of every command replaced.
+
+    A macro does this to a function that is defined within it.
+    """
     return tuple(_rewritten(node, arguments) for node in body)
 
 

@@ -1,4 +1,4 @@
-"""if(): each branch that can be taken is run from the same start, and what they leave behind is joined."""
+"""if(): each possible branch runs from the same initial state, and the final states are joined."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIK
 class _Way(NamedTuple):
     body: Body
     usual: bool
-    """Whether it is taken unless the user asks for something else."""
+    """True if the branch runs with default options."""
     testing: bool
 
 
@@ -26,7 +26,7 @@ def _run_if(run: Run, node: If) -> Exit:
     if len(node.branches) == 1:
         return _run_single(run, node)
     ways: list[_Way] = []
-    open_end = True  # whether what was passed so far may all be false by default
+    open_end = True  # whether all conditions so far may be false with default options
     testing = run.testing
     certain = True
     for command, body in node.branches:
@@ -36,7 +36,7 @@ def _run_if(run: Run, node: If) -> Exit:
             run.frames[-1].command = command
             truth = condition(run, command)
             if ways and any(text == "MATCHES" for text, *_ in command.args):
-                forget(run)  # nobody knows whether this was asked at all
+                forget(run)  # it is unknown whether this condition is evaluated
         if truth.value == FALSE:
             testing = testing or truth.test_if_false
             continue
@@ -52,13 +52,13 @@ def _run_if(run: Run, node: If) -> Exit:
     if len(ways) == 1:
         return _run_way(run, ways[0])
     if len(ways) == 2 and ways[0].usual and not ways[1].body:
-        # What is done by default stays as it is when the other way does nothing.
+        # The other branch is empty, so the default branch need not be joined with it.
         return _run_way(run, ways[0]) | NEXT
     return _run_ways(run, ways)
 
 
 def _run_single(run: Run, node: If) -> Exit:
-    """Run an if() without further branches, as most are."""
+    """Run an if() without elseif() and else(), which is the most frequent form."""
     ((command, body),) = node.branches
     assert command is not None
     run.frames[-1].command = command
@@ -70,7 +70,7 @@ def _run_single(run: Run, node: If) -> Exit:
     if truth.value == TRUE:
         return _run_way(run, way)
     if truth.value == LIKELY:
-        # What is done by default stays as it is, for the other way does nothing.
+        # There is no other branch, so the default branch need not be joined.
         return _run_way(run, way) | NEXT
     return _run_ways(run, [way, _Way((), truth.value == UNLIKELY, testing or truth.test_if_false)])
 
@@ -109,7 +109,7 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
     run.join([changes for changes, _ in alive], default)
     if ended != NEXT and onward:
-        # The usual way goes on for sure if nothing in it can leave, or if what leaves is the exception there.
+        # The default branch usually continues if no command in it can leave, or if leaving is the exception there.
         ended &= ~USUAL
         ended |= USUAL if any(way.usual and (one & ~STOP == NEXT or one & USUAL) for way, one in onward) else 0
         ended |= TESTS if all(way.testing for way, _ in onward) and not run.testing else 0

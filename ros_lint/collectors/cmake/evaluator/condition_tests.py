@@ -1,4 +1,4 @@
-"""The tests that conditions are made of: EXISTS, STREQUAL, VERSION_LESS and the like (cmake-commands if(7))."""
+"""Tests in conditions, such as EXISTS, STREQUAL and VERSION_LESS (if() in cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -95,9 +95,12 @@ UNARY: Final[dict[str, Callable[[Run, Token], Truth]]] = {
 
 
 def _operands(run: Run, token: Token) -> tuple[str, ...]:
-    """Return the value of a variable, or the text itself; both where an empty variable may not be set at all."""
+    """Return the value of a variable, or the text itself if no variable has its name.
+
+    Both for an empty variable, because it may be unset.
+    """
     if token.quoted:
-        # Before policy CMP0054 quoted arguments were looked up as well.
+        # Before policy CMP0054, quoted arguments were also looked up as variables.
         return (token.text if run.versions >= (3, 1) or run.get(token.text) is None else HOLE,)
     value = run.get(token.text) if is_known(token.text) else None
     if value is None:
@@ -106,7 +109,7 @@ def _operands(run: Run, token: Token) -> tuple[str, ...]:
 
 
 def _agreed(answers: Iterable[int]) -> int:
-    """Return the one answer of all readings of the operands."""
+    """Return the common answer for all readings of the operands, UNKNOWN if they differ."""
     different = set(answers)
     return different.pop() if len(different) == 1 else UNKNOWN
 
@@ -134,14 +137,14 @@ def _same(first: str, second: str) -> int:
     if first == second and is_fixed(first):
         return TRUE
     if is_fixed(first) and is_fixed(second) and _root(first) and _root(second) and _root(first) != _root(second):
-        return FALSE  # in-source builds are none that colcon makes
+        return FALSE  # colcon never builds in the source folder
     if "" in (first, second) and is_fixed(first) and is_fixed(second):
         return FALSE
     return UNKNOWN
 
 
 def _root(path: str) -> str:
-    """Return which of the unknown folders a path starts at, "" for none."""
+    """Return the unknown folder (an ATOM) with which a path starts, "" if there is none."""
     return path.split("/")[1] if path.startswith("/\1") else ""
 
 
@@ -159,7 +162,7 @@ _COMPONENT = re.compile(r"\s*([-+]?)(\d+)", re.ASCII)
 
 
 def compare_versions(left: str, right: str) -> int:
-    """Return -1, 0 or 1 as VERSION_LESS and the like see it: component by component, each read as C's strtoul() does."""
+    """Return -1, 0 or 1 like VERSION_LESS: components are compared in order, each parsed like strtoul() in C."""
     at, other = 0, 0
     while "0" <= left[at : at + 1] <= "9" or "0" <= right[other : other + 1] <= "9":
         first, at = _component(left, at)
@@ -172,7 +175,7 @@ def compare_versions(left: str, right: str) -> int:
 
 
 def _component(text: str, at: int) -> tuple[str, int]:
-    """Return the digits of a component without leading zeros, for it may have any number of them, and where it ends."""
+    """Return the digits of a component without its leading zeros, and the offset of its end."""
     match = _COMPONENT.match(text, at)
     if match is None:
         return "", at
@@ -183,7 +186,7 @@ def _component(text: str, at: int) -> tuple[str, int]:
 
 
 _MOST_DIGITS: Final = 20
-"""Of a number of 64 bits."""
+"""Digits of a number of 64 bits."""
 
 
 def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]:
@@ -191,7 +194,7 @@ def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]
 
 
 def _matches(run: Run, left: Token, right: Token) -> int:
-    from ros_lint.collectors.cmake.evaluator.regex import find, forget  # noqa: PLC0415  (few scripts match anything)
+    from ros_lint.collectors.cmake.evaluator.regex import find, forget  # noqa: PLC0415  (few scripts use MATCHES)
 
     texts = _operands(run, left)
     if not (is_known(texts[0]) and is_known(right.text)):

@@ -1,6 +1,7 @@
-"""The conditions of if(), elseif() and while(): cmake's if(7), with answers that may not be known.
+"""Conditions of if(), elseif() and while() (cmake-commands(7)), with answers that may be unknown.
 
-An answer is true, false, unknown, or *likely* and *unlikely*: true or false unless the user sets an option or a variable.
+An answer is true, false, unknown, *likely* or *unlikely*. The last two are true or false unless the user sets an option
+or a variable.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ _ASKED = re.compile(r"\$\{(\w+_FOUND)\}")
 
 
 def condition(run: Run, command: Command) -> Truth:
-    """Return what a condition evaluates to."""
+    """Return the value of the condition of a command."""
     if len(command.args) == 1:
         text, kind, _, _ = command.args[0]
         if kind == PLAIN:  # by far the most frequent conditions
@@ -69,18 +70,21 @@ def condition(run: Run, command: Command) -> Truth:
         if sum(token.text == "MATCHES" for token in tokens) > 1:
             from ros_lint.collectors.cmake.evaluator.regex import forget  # noqa: PLC0415
 
-            forget(run)  # which match came last depends on the parentheses
+            forget(run)  # the parentheses determine the order of the matches
         return truth
     return _word(run, tokens[0]) if tokens else Truth(FALSE)
 
 
 def _is_soft(run: Run, text: str) -> bool:
-    # The packages of a repository are built for more distributions than the one that is asked about.
+    # The packages of a repository are often built for several distributions, not only for the chosen one.
     return "$ENV{ROS_DISTRO}" in text or any(run.may_be_set(name) for name in _REFERENCE.findall(text))
 
 
 class _Parser:
-    """Reduces tokens as CMake does: parentheses, unary tests, binary tests, NOT, then AND and OR from left to right."""
+    """Parser of conditions with the precedence of CMake.
+
+    That is parentheses, unary tests, binary tests, NOT, then AND and OR from left to right.
+    """
 
     def __init__(self, run: Run, tokens: list[Token]) -> None:
         self.run = run
@@ -92,7 +96,7 @@ class _Parser:
         return truth if self.at == len(self.tokens) else Truth(UNKNOWN)
 
     def keyword(self, ahead: int = 0) -> str:
-        """Return the token at hand if it can be a keyword, else ""."""
+        """Return the current token if it can be a keyword, else ""."""
         at = self.at + ahead
         if at >= len(self.tokens) or self.tokens[at].quoted:
             return ""
@@ -107,7 +111,7 @@ class _Parser:
             truths.append(self.negation())
         first = _from_left(truths, signs)
         if len(set(signs)) > 1:
-            # Older versions bind AND more tightly, and newer ones have taken the operands two by two.
+            # Older versions of CMake bind AND more tightly; some newer versions take the operands in pairs.
             others = (_and_first(truths, signs), _in_pairs(truths, signs))
             if any(other.value != first.value for other in others):
                 return first._replace(value=UNKNOWN)
@@ -136,7 +140,7 @@ class _Parser:
             operand = self.tokens[self.at + 1]
             self.at += 2
             if operand.text.startswith("CMAKE_MATCH_") and any(token.text == "MATCHES" for token in self.tokens):
-                return Truth(UNKNOWN)  # it is asked before anything is matched
+                return Truth(UNKNOWN)  # the variable is read before MATCHES is evaluated
             return unary(self.run, operand)
         left = self.tokens[self.at]
         self.at += 1
@@ -148,7 +152,7 @@ class _Parser:
         return _word(self.run, left)
 
     def binary_after(self, truth: Truth) -> Truth:
-        """A parenthesis may be the left side of a comparison; nobody writes that."""
+        """Return the value of a parenthesis, UNKNOWN if it is the left side of a comparison, which is rare."""
         if self.keyword() in BINARY:
             self.at = len(self.tokens) + 1
             return Truth(UNKNOWN)
@@ -185,7 +189,7 @@ def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
 
 
 def _word(run: Run, token: Token) -> Truth:
-    """A constant, a variable or a string."""
+    """Return the truth of a single word: a constant, a variable or a string."""
     text = token.text
     if text == "BUILD_TESTING" and not token.quoted:
         return _tests_wanted(run)
@@ -204,7 +208,7 @@ def _word(run: Run, token: Token) -> Truth:
     if value is None:
         soft = token.soft or run.may_be_set(text)
         return Truth(UNLIKELY if soft else FALSE)
-    # A function may have a variable of the same name, with another value.
+    # A function may have a local variable of this name with another value.
     for_tests = text in run.for_tests and (value == run.for_tests[text] or not is_fixed(value))
     if not is_fixed(value):
         return Truth(UNKNOWN, for_tests)
@@ -218,13 +222,13 @@ def _asks_for_tests(name: str) -> bool:
 
 
 def _tests_wanted(run: Run) -> Truth:
-    """Tests are built, unless the script itself has them off before anything else asks: option() keeps what is set."""
+    """Return the truth of BUILD_TESTING: likely, unless the script itself sets it to false (option() keeps that value)."""
     value = run.get("BUILD_TESTING")
     return _NO_TESTS if value and is_fixed(value) and is_off(value) else _TESTS_WANTED
 
 
 def _tests_enabled(run: Run, name: str) -> Truth:
-    """Tests are enabled unless the user says otherwise (ament_cmake_test; reference, section C1.5)."""
+    """Return the truth of a variable that enables tests, such as BUILD_TESTS, from its default value."""
     value = run.get(name)
     if value is None or not is_fixed(value):
         return Truth(UNLIKELY, test_if_true=True)

@@ -1,4 +1,4 @@
-"""function(), macro() and block()."""
+"""Evaluation of function(), macro() and block()."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _define(run: Run, node: Definition) -> Exit:
 
 
 def counts(body: Body) -> bool:
-    """Return whether a body may ask for the arguments of its function by number."""
+    """Return whether a body may read the arguments of its function by number (ARGV, ARGC, ARGV0 ...)."""
     for node in body:
         commands: list[Command | None]
         bodies: list[Body]
@@ -71,7 +71,7 @@ def _substituted(given: dict[str, str], args: tuple[Argument, ...]) -> tuple[Arg
 
 
 def _run_scope(run: Run, node: Scope) -> Exit:
-    """Run block(): what it sets is gone after it, unless it is propagated."""
+    """Run a block(). Its variables are removed at its end, except those of PROPAGATE."""
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
     if "SCOPE_FOR" in args and "VARIABLES" not in args:

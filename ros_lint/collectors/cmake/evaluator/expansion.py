@@ -1,4 +1,4 @@
-"""Arguments of commands: references to variables, escapes, list splitting (cmake-language(7), policy CMP0053)."""
+"""Expansion of arguments: references to variables and escapes (cmake-language(7), policy CMP0053)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Final
 from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, MAYBE, certainly_set, flat
 
 Part = str | tuple[str, "Template"]
-"""Text, or a reference: where to look ("", "ENV" or "CACHE") and the template of the name."""
+"""A text, or a reference: its name space ("", "ENV" or "CACHE") and the template of the name."""
 Template = tuple[Part, ...]
 Compiled = str | Template
-"""An argument taken apart; the name of a variable when it is nothing but ``${name}``."""
+"""The template of an argument, or the name of a variable if the argument is just ``${name}``."""
 Lookup = Callable[[str, str], str]
-"""From name and where to look to a value."""
+"""A function from a name and its name space to the value."""
 
 _PIECE = re.compile(r"([^\\$}]+)|\\(?:([tnr])|(\n)|(;)|([^A-Za-z0-9;])|(.?))|\$(ENV|CACHE|)\{|(\})|(\$)", re.DOTALL)
 _LETTERS: Final = {"t": "\t", "n": "\n", "r": "\r"}
@@ -25,15 +25,15 @@ _LONGEST_KEPT: Final = 4096
 
 
 class ExpansionError(Exception):
-    """CMake refuses the argument: an unclosed reference, a bad escape or a bad character in a name."""
+    """CMake rejects the argument: an unclosed reference, an invalid escape or an invalid character in a name."""
 
 
 templates: Final[dict[str, Compiled]] = {}
-"""Arguments that :func:`template` has taken apart."""
+"""Cached results of :func:`template`."""
 
 
 def template(text: str) -> Compiled:
-    """Return an argument taken apart. Raises ExpansionError when CMake would refuse it."""
+    """Return the compiled form of an argument. Raises ExpansionError if CMake rejects it."""
     found = templates.get(text)
     if found is None:
         if len(templates) > _MOST_TEMPLATES:
@@ -70,7 +70,7 @@ def _compile(text: str) -> Template:
         elif group == 2:
             parts.append(_LETTERS[match[2]])
         elif group == 3:
-            pass  # a line that goes on
+            pass  # a line continuation
         elif group == 4:
             parts.append(";" if stack else "\\;")
         elif group == 5:
@@ -83,7 +83,7 @@ def _compile(text: str) -> Template:
 
 
 def _joined(parts: list[Part]) -> Template:
-    """Return the parts with neighbouring texts in one."""
+    """Return the parts with adjacent texts joined."""
     joined: list[Part] = []
     for part in parts:
         if joined and isinstance(part, str) and isinstance(joined[-1], str):
@@ -97,7 +97,7 @@ _SIMPLE = re.compile(r"\$\{(\w+)\}")
 
 
 def substituted(text: str, given: Mapping[str, str]) -> str:
-    """Return the text of an argument as a macro reads it, given what its parameters hold; a HOLE for one that is too long."""
+    """Return an argument in a macro with the references to parameters replaced by their values, HOLE if it is too long."""
     alone = _SIMPLE.fullmatch(text)
     if alone is not None:
         return given.get(alone[1], text)
@@ -118,7 +118,7 @@ def substituted(text: str, given: Mapping[str, str]) -> str:
 
 
 def expand(parts: Template, lookup: Lookup) -> str:
-    """Return the value of an argument. A reference that stands alone keeps the marks of its list elements."""
+    """Return the value of an argument. An argument that is a single reference keeps the MAYBE marks of its list elements."""
     if len(parts) == 1:
         part = parts[0]
         if isinstance(part, str):
@@ -142,11 +142,11 @@ def expand(parts: Template, lookup: Lookup) -> str:
 
 
 def _marked(pieces: list[str]) -> str:
-    """Return pieces as one text. Marks stay in those that have only list separators around them."""
+    """Return the pieces joined. Only pieces that are whole list elements keep their MAYBE marks."""
     pieces = [piece for piece in pieces if piece]
     found = []
     for before, piece, after in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):
-        # A list that may be empty leaves an empty element behind, which no mark stands for.
+        # A list that may be empty would leave an empty element, which the marks cannot express.
         alone = before.endswith(";") and after.startswith(";") and certainly_set(piece)
         found.append(piece if alone else flat(piece))
     return "".join(found)

@@ -1,4 +1,4 @@
-"""Running CMake code: commands one after the other, and files. Blocks and calls are carried out by modules of their own."""
+"""Running of CMake code: sequences of commands, calls of functions and macros, and files."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from ros_lint.collectors.cmake.syntax import QUOTED, Command
 from ros_lint.facts.visibility import ALL_FACETS
 
 HANDLERS: Final[dict[str, Handler]] = {}
-"""What carries out each command of CMake. Filled by :mod:`ros_lint.collectors.cmake.evaluate`, as is BLOCKS."""
+"""The handler of each CMake command. :mod:`ros_lint.collectors.cmake.evaluate` fills it and BLOCKS."""
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {}
-"""What carries out each kind of block."""
+"""The function that runs each type of block."""
 
 
 def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
-    """Run commands one after the other, and return how that can end."""
+    """Run commands in order from index ``start``, and return the possible exits."""
     run.steps += len(body) - start + 1
     if run.steps > MOST_STEPS:
         raise BudgetError
@@ -58,8 +58,8 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
         if not ended & NEXT:
             return ended
         if ended == NEXT | STOP:
-            continue  # only the ways that go on matter
-        run.steps -= len(body) - index - 1  # they are counted once more
+            continue  # a branch that stops with an error has no effects
+        run.steps -= len(body) - index - 1  # run_body() counts the rest again
         rest, changes = perhaps(run, partial(run_body, run, body, index + 1), ended)
         run.join([{}, changes], 1 if ended & USUAL else None)
         return (ended & ~(NEXT | USUAL | TESTS)) | rest
@@ -67,7 +67,7 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
 
 
 def perhaps(run: Run, piece: Callable[[], Exit], reached: Exit = NEXT) -> tuple[Exit, Changes]:
-    """Run something that may also not run. ``reached`` says by USUAL and TESTS what is known of that."""
+    """Run ``piece`` as code that may not run. The bits USUAL and TESTS of ``reached`` say when it runs."""
     unsure, testing = run.unsure, run.testing
     run.unsure += not reached & USUAL
     run.testing = testing or bool(reached & TESTS)
@@ -78,7 +78,7 @@ def perhaps(run: Run, piece: Callable[[], Exit], reached: Exit = NEXT) -> tuple[
 
 
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
-    """Run a command given by its name in lower case and its evaluated arguments."""
+    """Run the command ``name`` (in lower case) with evaluated arguments."""
     run.calls.add(name)
     procedure = run.procedures.get(name)
     if procedure is not None:
@@ -90,14 +90,14 @@ def run_named(run: Run, name: str, args: list[str]) -> Exit:
 
 
 def count_step(run: Run) -> None:
-    """Count a step. Raises BudgetError when there are too many."""
+    """Count a step. Raises BudgetError if there are too many."""
     run.steps += 1
     if run.steps > MOST_STEPS:
         raise BudgetError
 
 
 def _without(run: Run, name: str, args: list[str]) -> Exit:
-    """Run a command that CMake brings, in spite of a procedure of its name."""
+    """Run a command of CMake itself, ignoring a procedure of the same name."""
     handler = HANDLERS.get(name)
     return (handler(run, args) or NEXT) if handler is not None else NEXT
 
@@ -120,7 +120,7 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     given = "".join(args)
     if (HOLE in given or MAYBE in given) and command is not None:
         index = run.firm_arguments(command)
-        if index is not None:  # cmake_language(CALL) takes two words more than the command itself
+        if index is not None:  # cmake_language(CALL name) has two arguments more than the called command
             firm = max(0, index - (len(run.arguments(command)) - len(args)))
         gaps = _gaps(run, command)
     values = _call_values(procedure, args, firm, gaps)
@@ -161,10 +161,10 @@ def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
 
 
 def _call_values(procedure: Procedure, args: list[str], firm: int, gaps: Container[str]) -> dict[str, str]:
-    """Return what the parameters, ARGC, ARGV, ARGN and ARGV0 and so on hold.
+    """Return the values of the parameters and of ARGC, ARGV, ARGN, ARGV0 and so on.
 
-    ``firm`` is the index of the first argument that may be missing or be several: of those after it nobody knows which is
-    the how many-th. ``gaps`` are arguments in quotes that may be empty.
+    ``firm`` is the index of the first argument that may be missing or be several arguments; the positions of all arguments
+    after it are unknown. ``gaps`` are quoted arguments that may be empty.
     """
     parameters = procedure.parameters
     if firm == len(args):
@@ -180,7 +180,7 @@ def _call_values(procedure: Procedure, args: list[str], firm: int, gaps: Contain
         values["ARGC"] = HOLE
         if firm >= len(parameters):
             values["ARGN"] = _listed(args[len(parameters) :], gaps)
-        else:  # any of the others may be among them, and be a keyword
+        else:  # ARGN may have any of the other arguments, which may be keywords
             values["ARGN"] = join([HOLE, *(maybe(item) for arg in args[firm:] for item in elements(arg))])
         values.update({f"ARGV{index}": HOLE for index in range(firm, len(args) + 10)})
     values["ARGV"] = _listed(args, gaps)
@@ -189,19 +189,19 @@ def _call_values(procedure: Procedure, args: list[str], firm: int, gaps: Contain
 
 
 def _gaps(run: Run, command: Command) -> set[str]:
-    """Return the arguments in quotes of which nothing may be there."""
+    """Return the quoted arguments that may be empty."""
     values = {run.evaluated(text) for text, kind, _, _ in command.args if kind == QUOTED}
     return {value for value in values if MAYBE in value and not certainly_set(value)}
 
 
 def _listed(args: Sequence[str], gaps: Container[str]) -> str:
-    """Return arguments as a list. One of the ``gaps`` is perhaps an empty element there, where it is not alone."""
+    """Return arguments as a list. An argument of ``gaps`` that is not alone may add an empty element."""
     listed = join(args)
     return f"{listed};{MAYBE}" if gaps and len(args) > 1 and any(arg in gaps for arg in args) else listed
 
 
 def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
-    """Run the commands of a file. A return() in it ends the file only."""
+    """Run the commands of a file. A return() ends only the file."""
     if len(run.frames) > DEEPEST:
         raise BudgetError
     run.enter_file(frame)

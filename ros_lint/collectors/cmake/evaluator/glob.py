@@ -1,4 +1,4 @@
-"""Globbing as CMake does it, against the files of the package (KWSys Glob): ``*`` and ``?`` stop at a slash."""
+"""Glob patterns of CMake (KWSys Glob.cxx) as regular expressions: ``*`` and ``?`` do not match a slash."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from ros_lint.base.wildcards import LONGEST, letters, spaced
 
 
 def of_paths(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
-    """Return what a whole path must match, as :func:`~ros_lint.base.text.octets`, given a pattern for each of its names.
+    """Return the expression for a whole path, as :func:`~ros_lint.base.text.octets`, from a pattern for each of its names.
 
-    With ``recurse`` any folders may stand before the last name. No name matches an invalid pattern.
+    With ``recurse``, any folders may precede the last name. No name matches an invalid pattern.
     """
     numbers = count()
     *heads, last = (_expression(part, numbers) or "(?!)" for part in parts)
@@ -22,7 +22,10 @@ def of_paths(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
 
 
 def of_ends(pattern: str) -> re.Pattern[str] | None:
-    """Return what the end of a path must match as :func:`~ros_lint.base.text.octets`, None where CMake refuses the pattern."""
+    """Return the expression for the end of a path, as :func:`~ros_lint.base.text.octets`.
+
+    None if CMake rejects the pattern.
+    """
     expression = _expression(pattern, count())
     return None if expression is None else re.compile(rf"/{expression}\Z")
 
@@ -36,7 +39,7 @@ def _expression(pattern: str, numbers: Iterator[int]) -> str | None:
 
 @lru_cache(maxsize=256)
 def _pieces(pattern: str) -> tuple[str, ...] | None:
-    """Return expressions for what stands between the stars of a pattern, None where there is none for a range."""
+    """Return expressions for the texts between the stars of a pattern, None if a range is invalid."""
     if len(pattern) > LONGEST:
         return None
     found = [""]
@@ -61,15 +64,15 @@ def _pieces(pattern: str) -> tuple[str, ...] | None:
 
 
 def _end(pattern: str, at: int) -> int:
-    """Return where the bracket closes that is open at an offset, -1 where none does."""
+    """Return the offset of the closing bracket, given the offset after the opening one; -1 if it is not closed."""
     at += pattern[at : at + 1] in ("!", "^")
     return pattern.find("]", at + 1)
 
 
 def _letter(inside: str) -> str | None:
-    """Return an expression for what stands in brackets, None when a range in it ends before it begins."""
+    """Return an expression for the characters in brackets, None if a range ends before it begins."""
     negated = inside[:1] in ("!", "^")
-    body = inside[negated:].replace("\\", "\\\\")  # as KWSys writes it, and reads it as two backslashes
+    body = inside[negated:].replace("\\", "\\\\")  # KWSys escapes it so, which adds a second backslash to the set
     ranges = [(ord(letter), ord(letter)) for letter in body[:1]]
     at = 1
     while at < len(body):

@@ -1,4 +1,4 @@
-"""foreach() and while(), also when nobody knows how often they run."""
+"""Evaluation of foreach() and while(), even if the number of rounds is unknown."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ def _loop_names(args: list[str]) -> list[str]:
 
 
 def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]]:
-    """Return what the loop variables hold in each round. A single HOLE stands for any number of rounds."""
+    """Return the values of the loop variables in each round. A single HOLE means any number of rounds."""
     if any(HOLE in arg for arg in args):
-        # What is quoted is one round even if it is not known; other unknown words may be several.
+        # A quoted argument is one round even if its value is unknown; an unquoted unknown argument may be several rounds.
         args = [HOLE if HOLE in arg and not quoted else arg for arg, quoted in zip(args, _quoted(run, command), strict=True)]
     rest = args[1:]
     if "IN" in args and "ZIP_LISTS" in args:
@@ -89,12 +89,12 @@ def _elements(run: Run, name: str) -> list[str]:
 
 
 def _unknown_whole(items: list[str]) -> list[str]:
-    """Return list elements; those with an unknown piece may be several."""
+    """Return list elements with a HOLE for each element that has an unknown piece, because it may be several."""
     return [WILD if WILD in item else HOLE if HOLE in item else item for item in items]
 
 
 def _quoted(run: Run, command: Command) -> list[bool]:
-    """Return which of the evaluated arguments were quoted."""
+    """Return for each evaluated argument whether it was quoted."""
     found: list[bool] = []
     for text, kind, _, _ in command.args:
         found += [False] * len(split(run.evaluated(text))) if kind == UNQUOTED else [True]
@@ -151,7 +151,7 @@ def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> 
 
 
 def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
-    """Run the body of a loop that runs an unknown number of times."""
+    """Run the body of a loop whose number of rounds is unknown: one muted round, then one with all changed values unknown."""
     run.muted += 1
     try:
         _, changes = perhaps(run, round_)

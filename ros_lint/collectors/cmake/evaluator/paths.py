@@ -1,4 +1,4 @@
-"""Where a CMake run is, and what paths mean there."""
+"""The current directory and file of a CMake run, and the meaning of paths in it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _OF_BUILD = "$<BUILD_INTERFACE:"
 
 
 class Paths(State):
-    """A state that knows the files of the package, and which folder and which file is being run."""
+    """A State with the files of the package, the current directory and the current file."""
 
     def __init__(self, sources: Sources) -> None:
         super().__init__()
@@ -29,12 +29,12 @@ class Paths(State):
         self.files = frozenset(sources.files)
         self.frames: list[Frame] = []
         self.directories: list[tuple[str, str]] = [("", BINARY)]
-        """The folder whose CMakeLists.txt runs, relative to the package, and where it is built; outer ones before it."""
+        """The folders whose CMakeLists.txt runs, outermost first: each relative to the package, with its build folder."""
         self.places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.named("")))
         self._place_directory()
 
     def at_home(self) -> bool:
-        """Return whether the current command stands in a file of the package, or in one around it that is run as if it were."""
+        """Return whether the current command is in a file of the package, or in a script around it that runs like its own."""
         frame = self.frames[-1]
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == AROUND
 
@@ -43,42 +43,42 @@ class Paths(State):
         return self.directories[-1][0]
 
     def named(self, path: str) -> str:
-        """Return a path that is relative to the package as CMake would name it."""
+        """Return the absolute path, as CMake names it, of a path relative to the package."""
         place = self.place(path)
         return f"{TREE}/{place}" if place else TREE
 
     def place(self, path: str) -> str:
-        """Return where in the tree a path leads that is relative to the package."""
+        """Return the path in the tree of a path relative to the package."""
         if is_outside(path):
             path = resolve(self.sources.path, path)
             return "" if path == "." else path
         return join_path(self.sources.path, path) if path else self.sources.path
 
     def relative(self, value: str) -> str | None:
-        """Return a path relative to the package, wherever it leads, None for one on the machine or one that is not known."""
+        """Return a path relative to the package, even one outside of it; None if it is outside of the tree or unknown."""
         return _seen(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
-        """Return a path relative to the package, or None for one that lies elsewhere or is not known."""
+        """Return a path within the package, relative to it; None if it is outside of the package or unknown."""
         path = self.relative(value)
         return None if path is None or is_outside(path) else path
 
     def beside(self, value: str) -> str | None:
-        """Return the path of a file or folder around the package, relative to it, or None where none is in sight."""
+        """Return the path, relative to the package, of an existing file or folder outside of it; None if none is visible."""
         path = self.relative(value)
         return path if path is not None and is_outside(path) and self.sources.around.kind(self.place(path)) else None
 
     def reached(self, value: str) -> str | None:
-        """Return what :meth:`source` does, and else what :meth:`beside` does."""
+        """Return the result of :meth:`source`, or of :meth:`beside` if that is None."""
         path = self.source(value)
         return self.beside(value) if path is None else path
 
     def script(self, path: str) -> Parsed | None:
-        """Return the commands of a CMake file, given by its path relative to the package, None where there is none in sight."""
+        """Return the commands of the CMake file at a path relative to the package, None if no such file is visible."""
         return self.sources.around.script(self.place(path)) if is_outside(path) else self.sources.scripts.get(path)
 
     def leads_out(self, value: str) -> bool:
-        """Return whether a path that may be given to a build lies among the sources, but outside of the package."""
+        """Return whether a path is a source folder outside of the package. ``$<BUILD_INTERFACE:`` before it is ignored."""
         plain = value.lstrip(MAYBE).removeprefix(_OF_BUILD)
         if HOLE in plain or plain.startswith("$<") or (plain[:1] == "/" and not plain.startswith(TREE)):
             return False
@@ -86,37 +86,40 @@ class Paths(State):
         return ".." in plain if path is None else is_outside(path)
 
     def destination(self, value: str) -> str | None:
-        """Return an install destination relative to the prefix, or None when it is not known or lies elsewhere."""
+        """Return an install destination relative to the prefix, None if it is unknown or outside of the prefix."""
         return _destination(value) if len(value) <= LONGEST else None
 
     def build(self, value: str) -> str | None:
-        """Return a path relative to the build folder of the package, None for one that lies elsewhere or is not known."""
+        """Return a path relative to the build folder of the package, None if it is outside of that folder or unknown."""
         if HOLE in value or len(value) > LONGEST or not (value.startswith(f"{BINARY}/") or value == BINARY):
             return None
         path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
         return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
 
     def listed(self, path: str) -> str:
-        """Return where a file lies, "" if it is none that the package has or that lies around it. What leads up may lead back."""
+        """Return the normalized path of a file relative to the package, "" if it is in the package's folder but does not exist.
+
+        A path such as ``../package/file`` leads back into the package.
+        """
         path = relative(self.sources.path, self.place(path)) if is_outside(path) else path
         return path if path in self.files or is_outside(path) else ""
 
     def is_folder(self, path: str) -> bool:
-        """Return whether there is such a folder; of the package itself, with a file in it."""
+        """Return whether a folder exists. A folder in the package must contain a file."""
         if is_outside(path):
             return self.sources.around.kind(self.place(path)) == "directory"
         return not path or bool(self.below(path)) or self.is_unseen(path)
 
     def is_file(self, path: str) -> bool:
-        """Return whether there is such a file."""
+        """Return whether a file exists."""
         return self.sources.around.kind(self.place(path)) == "file" if is_outside(path) else path in self.files
 
     def is_unseen(self, path: str) -> bool:
-        """Return whether a path lies in a folder of the package whose files are not listed."""
+        """Return whether a path is in a folder of the package whose files are not listed."""
         return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
 
     def below(self, path: str) -> Sequence[str]:
-        """Return the files below a folder, sorted; of one around the package none where not all of them are in sight."""
+        """Return the files below a folder, sorted. For a folder outside of the package, empty if not all files are visible."""
         if is_outside(path):
             place = self.place(path)
             return [f"{path}/{strip_folder(place, file)}" for file in self.sources.around.below(place)]
@@ -124,10 +127,10 @@ class Paths(State):
         if not path:
             return files
         start = bisect_left(files, f"{path}/")
-        return files[start : bisect_left(files, f"{path}0", start)]  # the character after the slash is the zero
+        return files[start : bisect_left(files, f"{path}0", start)]  # "0" is the character after "/"
 
     def enter_directory(self, path: str, build: str) -> None:
-        """Make a folder the current one, given its path relative to the package and the folder that it is built in."""
+        """Make a folder the current directory, given its path relative to the package and its build folder."""
         self.directories.append((path, build))
         self._place_directory()
 
@@ -141,12 +144,12 @@ class Paths(State):
         self.places["CMAKE_CURRENT_BINARY_DIR"] = build
 
     def enter_file(self, frame: Frame) -> None:
-        """Run a file from now on."""
+        """Make a file the current one."""
         self.frames.append(frame)
         self.place_file()
 
     def place_file(self) -> None:
-        """Set the variables that name the file that is being run."""
+        """Set the variables that name the current file."""
         for frame in reversed(self.frames):
             if frame.procedure is None:
                 self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
@@ -156,9 +159,9 @@ class Paths(State):
 
 @lru_cache(maxsize=4096)
 def _seen(package: str, directory: str, value: str) -> str | None:
-    """Return a path relative to a package of the tree, given the folder whose script names it, which is relative to it too.
+    """Return a path relative to ``package``. ``directory`` is the folder of the script that names it, relative to the package.
 
-    None for one that lies elsewhere on the machine or is not known.
+    None if the path is outside of the tree or unknown.
     """
     if HOLE in value:
         return None
@@ -172,7 +175,7 @@ def _seen(package: str, directory: str, value: str) -> str | None:
     else:
         path = join_path(package, join_path(directory, value))
     if ATOM in path:
-        return None  # before ".." is followed: what is not known may be several folders, or lie elsewhere
+        return None  # before ".." is resolved, because the unknown part may be several folders or a place elsewhere
     path = posixpath.normpath(path)
     if is_outside(path) and package:
         return f"{'../' * (package.count('/') + 1)}{path}"
@@ -182,7 +185,7 @@ def _seen(package: str, directory: str, value: str) -> str | None:
 
 @lru_cache(maxsize=1024)
 def _destination(value: str) -> str | None:
-    """Return an install destination relative to the prefix."""
+    """Return an install destination relative to the prefix, None if it is unknown or outside of the prefix."""
     if value.startswith(PREFIX):
         value = value[len(PREFIX) :].lstrip("/")
     value = _MODULES.sub(VARIABLES["PYTHON_INSTALL_DIR"], value)
@@ -193,4 +196,4 @@ def _destination(value: str) -> str | None:
 
 
 _MODULES = re.compile(rf"\Alib/python(?=[^/]*[{HOLE}{ATOM}])[^/]*/(?:site|dist)-packages(?=/|\Z)")
-"""Where Python looks for modules, of a version that is not known."""
+"""A folder of Python modules whose Python version is unknown."""

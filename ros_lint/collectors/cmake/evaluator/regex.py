@@ -1,4 +1,4 @@
-"""CMake's regular expressions (KWSys): simpler than Python's, and matched byte by byte."""
+"""Regular expressions of CMake (KWSys RegularExpression.cxx): simpler than Python's, and matched byte by byte."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 
 class RegexError(Exception):
-    """CMake refuses the expression, does something else with it in other versions, or takes for ever with it, as we would."""
+    """The expression cannot be evaluated.
+
+    CMake rejects it, its versions treat it differently, or matching could take exponential time.
+    """
 
 
 @lru_cache(maxsize=512)
@@ -24,7 +27,10 @@ def _compiled(text: str) -> re.Pattern[str]:
 
 
 def translated(text: str) -> re.Pattern[str] | None:
-    """Return an expression for Python's re, to be used on the bytes of a text (:func:`is_in`); None when CMake refuses it."""
+    """Return the expression for Python's re, which matches the octets of a text (see :func:`is_in`).
+
+    None if the expression cannot be evaluated (see :class:`RegexError`) or is too long.
+    """
     try:
         return _compiled(text) if len(text) <= _LONGEST else None
     except RegexError:
@@ -32,7 +38,7 @@ def translated(text: str) -> re.Pattern[str] | None:
 
 
 _LONGEST: Final = 4096
-"""Characters of an expression. A longer one is taken for unknown, because it takes long to compile."""
+"""Characters of the longest expression that is evaluated, because a longer one takes long to compile."""
 
 
 def is_in(pattern: re.Pattern[str], text: str) -> bool:
@@ -45,7 +51,7 @@ def _text(text: str) -> str:
 
 
 _MOST_MATCHES: Final = 10_000
-"""Of one expression in a text. More are taken for unknown."""
+"""Matches of one expression in a text. If there are more, the result is unknown."""
 
 
 class _Translator:
@@ -53,7 +59,7 @@ class _Translator:
         self.text = text
         self.at = 0
         self.repeats = 0
-        """How many pieces so far may be there any number of times."""
+        """Number of pieces so far with an unlimited repetition (``*`` or ``+``)."""
 
     def whole(self) -> str:
         found = self.branches()
@@ -62,7 +68,7 @@ class _Translator:
         return found[0]
 
     def branches(self) -> tuple[str, bool]:
-        """Return an expression up to the end or a closing parenthesis, and whether it can match nothing."""
+        """Return the expression up to the end or a closing parenthesis, and whether it can match the empty text."""
         pieces, empty = self.branch()
         while self.text[self.at : self.at + 1] == "|":
             self.at += 1
@@ -92,7 +98,7 @@ class _Translator:
             raise RegexError(self.text)
         if sign != "?":
             if self.repeats > before:
-                raise RegexError(self.text)  # (a+)+ tries every way to part a text
+                raise RegexError(self.text)  # (a+)+ takes exponential time
             self.repeats += 1
         return f"{atom}{sign}", empty or sign != "+"
 
@@ -148,7 +154,7 @@ class _Translator:
 
 
 def clear(run: Run) -> None:
-    """Empty the variables that hold the last match, as every use of an expression does first."""
+    """Empty the CMAKE_MATCH variables, as CMake does before it applies an expression."""
     last = run.get("CMAKE_MATCH_COUNT")
     if last is None:
         return
@@ -156,12 +162,12 @@ def clear(run: Run) -> None:
     for index in range(10 if highest is None else min(highest + 1, 10)):
         if run.get(f"CMAKE_MATCH_{index}"):
             run.set(f"CMAKE_MATCH_{index}", "")
-    # Where it is empty it may also be unset, and then it stays so.
+    # An empty CMAKE_MATCH_COUNT may also be unset, and then it stays unset.
     run.set("CMAKE_MATCH_COUNT", "0" if last and is_known(last) else HOLE)
 
 
 def store(run: Run, groups: tuple[str, ...]) -> None:
-    """Set CMAKE_MATCH_0 and so on; the first of the groups is the whole match."""
+    """Set CMAKE_MATCH_0 and so on; the first group is the whole match."""
     highest = ""
     for index, group in enumerate(groups[:10]):
         if group:
@@ -171,14 +177,17 @@ def store(run: Run, groups: tuple[str, ...]) -> None:
 
 
 def forget(run: Run) -> None:
-    """Take what the last match was for unknown."""
+    """Make the CMAKE_MATCH variables unknown."""
     for index in range(10):
         run.set(f"CMAKE_MATCH_{index}", HOLE)
     run.set("CMAKE_MATCH_COUNT", HOLE)
 
 
 def find(run: Run, regex: str, text: str) -> bool | None:
-    """Return whether an expression matches somewhere, and set the match variables. None: CMake refuses it."""
+    """Return whether an expression matches anywhere in a text, and set the CMAKE_MATCH variables.
+
+    None if the expression cannot be evaluated.
+    """
     pattern = translated(regex)
     if pattern is None:
         forget(run)
@@ -196,10 +205,10 @@ def _groups(match: re.Match[str]) -> tuple[str, ...]:
 
 
 def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
-    """Return all matches from left to right: what stands before each, the match, and the groups.
+    """Return all matches from left to right, each as the text before it, the match and its groups.
 
-    A last entry holds what stands after them, and no groups. Raises RegexError where CMake has an error or its versions
-    differ: empty matches, and ``^`` with more than one match (policy CMP0186).
+    The last entry is the text after the last match, without groups. Raises RegexError for empty matches, where CMake has an
+    error, and for ``^`` with more than one match, where the versions of CMake differ (policy CMP0186).
     """
     pattern = translated(regex)
     if pattern is None:
@@ -220,13 +229,13 @@ def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
 
 
 _STAND_INS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
-"""Two places where a workspace could lie. What comes out the same for both does not depend on the place."""
+"""Two example folders of a workspace. A result that is the same for both does not depend on the folder."""
 
 
 def anywhere(compute: Callable[..., str], *values: str) -> str:
-    """Return what a computation on texts gives, if it is the same wherever the package lies; else HOLE.
+    """Return the result of a computation on texts, HOLE if it depends on the folder of the workspace.
 
-    Raises what the computation raises.
+    Raises the exceptions of the computation.
     """
     if not any("\1" in value for value in values):
         return compute(*values)

@@ -1,4 +1,4 @@
-"""A run of a package's CMake scripts: arguments, places, and what comes to light on the way."""
+"""A run of a package's CMake scripts: evaluation of arguments, places, and the collected results."""
 
 from __future__ import annotations
 
@@ -19,43 +19,45 @@ from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 MOST_STEPS: Final = 100_000
-"""Commands that one package may run. Most real ones run less than 3,000, the largest with all its tests some 93,000."""
+"""Commands that the scripts of one package may run.
+
+Most real packages run less than 3,000, the largest one with all its tests about 93,000."""
 DEEPEST: Final = 60
-"""Calls within calls. CMake allows 1,000; real packages need less than 20."""
+"""Greatest depth of nested calls. CMake allows 1,000; real packages need less than 20."""
 _SHORT: Final = 1024
-"""Characters of a value that is read for nothing."""
+"""Characters of the longest value that is read without a charge."""
 _OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})
 
 
 @kept(4096)
 def folded(name: str) -> str:
-    """Return a name as it is compared with others that are spelt a little differently."""
+    """Return a name without ``_``, ``-`` and upper case, to compare spellings of a package's name."""
     return name.replace("_", "").replace("-", "").lower()
 
 
 def _inside(path: str, command: Command, argument: Argument) -> Span:
-    """Return the place of an argument without its quotes."""
+    """Return the span of an argument without its quotes."""
     _, kind, start, end = argument
     quotes = kind in (QUOTED, LITERAL)
     return command.span(path, start + quotes, end - quotes)
 
 
 class Run(Paths):
-    """The state of an evaluation and all that it found."""
+    """The state of an evaluation and its results so far."""
 
     def __init__(
         self, sources: Sources, distro: str, helpers: Mapping[str, Helper], foreign: Callable[[Run, str, list[str]], int | None]
     ) -> None:
         super().__init__(sources)
         self.foreign = foreign
-        """Carries out a command that neither CMake nor the package defines, given its name and arguments."""
+        """Runs a command that neither CMake nor the package defines, given its name and arguments."""
         self.distro = distro
         self.helpers = helpers
         self.steps = 0
         self.unsure = 0
-        """How many conditions that may be false lead here."""
+        """Number of enclosing conditions that may be false."""
         self.unusual = 0
-        """How many of them are false unless the user asks for something else."""
+        """Number of enclosing conditions that are false with default options."""
         self.testing = False
         self.muted = 0
         self.modules = {
@@ -63,37 +65,37 @@ class Run(Paths):
             for path in sources.scripts
             if path.endswith(".cmake") and path.rpartition("/")[2].startswith("Find")
         }
-        """The package's own find modules, by what they find."""
+        """Paths of the package's own find modules (FindX.cmake), by the name X."""
         self.packages: Properties = Properties()
-        """Packages that were found for sure."""
+        """Packages that are certainly found."""
         self.prefixes: dict[str, bool] = {}
-        """Beginnings of the names of variables that found packages may have set, and whether each is the name of one.
+        """Prefixes of variables that found packages may have set, and whether the prefix is the name of a package.
 
-        pkg-config is told what to call them."""
+        It is not for pkg_check_modules(), whose first argument chooses the prefix."""
         self._folded: tuple[str, ...] = ()
         self.open_world = False
-        """Whether code that is not in sight has run."""
+        """True if code that cannot be read has run."""
         self.wild = False
-        """Whether that code may have set any variable."""
+        """True if that code may have set any variable."""
         self.builds = False
-        """Whether that code may have built targets."""
+        """True if that code may have defined targets."""
         self.settable: set[str] = set()
-        """Variables that the user may set from outside: options and cache entries."""
+        """Variables that the user may set on the command line: options and cache entries."""
         self.tested: set[str] = set()
-        """Variables of the form X_FOUND or ENV{X} that a condition asks about, whether they are set."""
+        """Variables of the form X_FOUND or ENV{X} that a condition tests."""
         self.literals: dict[str, tuple[str, Command, Argument]] = {}
-        """Where list elements were written first."""
+        """The first place at which each list element is written."""
         self.versions: tuple[int, int] = (3, 0)
-        """Up to which CMake the policies are new."""
+        """The CMake version up to which policies have their NEW behaviour."""
         self.included: Properties = Properties()
         """Packages of the workspace whose CMake code has run."""
         self.of_index: set[str] = set()
-        """Variables that were set to what some package has put into the index."""
+        """Variables whose value was read from the ament index, where any package may register it."""
         self.loose: dict[str, list[Span]] = {}
-        """Where packages are searched without being required."""
+        """Places of find_package() calls without REQUIRED, by package."""
         self.generated: set[str] = set()
         self.configured: dict[str, bool] = {}
-        """Files that configure_file() puts below the build folder, and whether it does so for sure."""
+        """Files that configure_file() writes below the build folder, and whether this is certain."""
         self.calls: set[str] = set()
         self.around: list[Parsed] = []
         """Scripts around the package that have run."""
@@ -102,42 +104,42 @@ class Run(Paths):
         self.problems: dict[Problem, None] = {}
         self.components: list[Component] = []
         self.registered: list[Variables] = []
-        """For each of them the scope in which it is registered."""
+        """The scope in which each of the ``components`` is registered."""
         self.interfaces: dict[str, None] = {}
         self.python_packages: dict[str, None] = {}
         self.installed: list[InstalledFile] = []
-        """Installed files. Those with a source that is not there count if it is generated."""
+        """Installed files. A file whose source does not exist counts only if the source is generated."""
         self.installed_targets: list[InstalledTarget] = []
         self.exported_sets: dict[str, None] = {}
-        """Sets of targets that whoever finds the package has for sure."""
+        """Export sets whose targets are certainly available to packages that find this one."""
         self.built: list[tuple[str, Properties, Span]] = []
         """Targets in the order of their definition."""
         self.links: dict[str, dict[str, Span]] = {}
-        """What targets are linked with, and where that is said."""
+        """Libraries of each target, with the place at which each is linked."""
         self.headers: dict[str, dict[str, None]] = {}
-        """What may give targets their headers."""
+        """Packages and targets that may provide include directories, by target."""
         self.missing: list[tuple[str, Span, bool]] = []
-        """Files that are named and not there (unless they are generated), and whether that may not matter.
+        """Named files that do not exist unless they are generated, and whether this may be harmless.
 
-        Folders have a slash at the end."""
+        The path of a folder ends with a slash."""
         self.undefined: list[tuple[str, Span, bool]] = []
-        """Targets that are installed and that nobody defines."""
+        """Installed targets that are not defined, and whether the install() is conditional."""
         self.refused: dict[Problem, None] = {}
         self.given: dict[tuple[str, str], Span] = {}
-        """Targets that are given something for sure, each with the command that does so first."""
+        """Places of the first command of each name that certainly modifies a target, by target and command."""
         self.extras: list[str] = []
         self.templates: dict[str, None] = {}
-        """What files for those who find the package are made of, relative to it."""
+        """Templates of the files that packages read when they find this one, relative to the package."""
         self.entered: dict[str, None] = {}
-        """Folders below the package whose CMakeLists.txt runs for sure."""
+        """Folders below the package whose CMakeLists.txt certainly runs."""
         self.entered_for_tests: dict[str, None] = {}
-        """Those whose CMakeLists.txt runs, if it does, while tests are built."""
+        """Folders below the package whose CMakeLists.txt runs only if tests are built."""
         self.bundled: dict[str, None] = {}
-        """Projects that are built along with the package."""
+        """Other projects that the build of the package builds, such as those of FetchContent."""
         self.reaches_out = False
-        """Whether headers are taken from folders of the sources outside of the package."""
+        """True if include directories are source folders outside of the package."""
         self.fetched: dict[str, list[str]] = {}
-        """What projects that FetchContent can get are called by where they come from: owner/name and the like."""
+        """Names of the projects of FetchContent_Declare(), taken from their addresses (such as owner/name)."""
         self.ran: dict[str, None] = {}
         """Files and folders that an interpreter runs as tests."""
         self.name = ""
@@ -150,7 +152,7 @@ class Run(Paths):
     # --- variables
 
     def get(self, name: str) -> str | None:
-        """Return a variable, or None when it is not set."""
+        """Return the value of a variable, None if it is not set."""
         for scope in reversed(self.scopes):
             if name in scope:
                 value = scope[name]
@@ -164,7 +166,7 @@ class Run(Paths):
         return self._read(found) if found else found
 
     def _read(self, value: str) -> str | None:
-        """Count what reading a value takes, and return it as it is in a script where unknown texts may hold brackets."""
+        """Charge the cost of reading a value, and return it; a HOLE becomes WILD if brackets may be unpaired."""
         self.charge(len(value))
         if not self.unpaired:
             return value
@@ -172,7 +174,7 @@ class Run(Paths):
         return wild(value)
 
     def default(self, name: str) -> str | None:
-        """Return what a variable holds that no script has set."""
+        """Return the value of a variable that no script has set."""
         value = self.brought(name)
         if value is not None:
             return value
@@ -183,20 +185,20 @@ class Run(Paths):
         if name.endswith("_FOUND") and self.packages.get(name[:-6]) == "1":
             return "1"
         if name in (f"{self.name}_LIBRARIES", f"{self.name}_EXECUTABLES"):
-            return HOLE if self.builds else None  # where ament_auto notes what the package builds
+            return HOLE if self.builds else None  # ament_auto lists the targets of the package here
         if self.wild and not name.startswith("CMAKE_"):
             return HOLE
         if len(self.prefixes) != len(self._folded):
             self._folded = tuple(map(folded, self.prefixes))
         if folded(name).startswith(self._folded):
-            # Folders, which lie elsewhere, and versions are single texts; the others may be lists, or nothing.
+            # Folders (outside of the package) and versions are single texts. Other variables may be lists, or unset.
             if name.endswith(("_DIR", "_PREFIX")):
                 return f"/{ATOM}{name}"
             return f"{ATOM}{name}" if name.endswith("_VERSION") else HOLE
         return None
 
     def lookup(self, name: str, where: str) -> str:
-        """Return what a reference stands for; unset variables are empty."""
+        """Return the value of a reference; an unset variable is empty."""
         if where == "":
             return self.get(name) or ""
         if where == "CACHE":
@@ -209,19 +211,19 @@ class Run(Paths):
         return (self.distro or HOLE) if name == "ROS_DISTRO" else ROS_2.get(name, HOLE)
 
     def _use_of_ros(self, name: str) -> None:
-        """Note a variable that is set where one package is installed, and nowhere else that can be relied on (F2)."""
+        """Record a use of ros_environment, because only its environment hooks reliably set ROS_DISTRO and the like."""
         command = self.frames[-1].command
         if command is None or command.name == "message":
             return
-        if not (command.args and command.args[0][0].startswith("CPACK_")):  # packing is no part of the build
+        if not (command.args and command.args[0][0].startswith("CPACK_")):  # CPack runs after the build
             self.mention("ros_environment", "package", self.here(), f"$ENV{{{name}}}", optional=f"ENV{{{name}}}" in self.tested)
 
     def is_soft(self, name: str) -> bool:
-        """Return whether a user, another platform or another compiler may give a variable another value."""
+        """Return whether the user, the platform or the compiler determines the value of a variable."""
         return name in self.settable or (name in SOFT_VARIABLES and self.found(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
-        """Return whether a user, or code that is out of sight, may have set a variable that looks known."""
+        """Return whether the user, or code that cannot be read, may have set a variable that seems known."""
         return self.is_soft(name) or (self.open_world and self.found(name) is MISSING and name not in self.places)
 
     # --- arguments
@@ -243,9 +245,9 @@ class Run(Paths):
         return values
 
     def firm_arguments(self, command: Command) -> int | None:
-        """Return the index of the first argument whose place is not sure, None if all are.
+        """Return the index of the first argument whose position is uncertain, None if all positions are certain.
 
-        An unquoted unknown text may be none or several arguments, and an element that may be missing moves those after it.
+        An unquoted unknown text may be any number of arguments. A list element that may be missing shifts later arguments.
         """
         count = 0
         for text, kind, _, _ in command.args:
@@ -285,10 +287,14 @@ class Run(Paths):
     # --- places
 
     def where(self, value: str) -> Span:
-        """Return the place in the package's own files that best stands for a value of the current command.
+        """Return the best place for a value of the current command, in the package's own files.
 
-        That is an argument that reads so, from the innermost call outwards, then a list element that reads so, then an
-        argument that gives the value, then the name of the command.
+        The first of these that exists:
+
+        1. an argument whose text is the value, from the innermost call outwards
+        2. a list element whose text is the value
+        3. an argument that evaluates to the value
+        4. the name of the command
         """
         own: Frame | None = None
         for frame in reversed(self.frames):
@@ -311,7 +317,7 @@ class Run(Paths):
         return command.place(frame.path)
 
     def remember(self, first: int) -> None:
-        """Note where list elements are written: the arguments of the current command from an index on."""
+        """Record the places of list elements: the arguments of the current command from index ``first``."""
         frame = self.frames[-1]
         if frame.own and frame.command is not None:
             for argument in frame.command.args[first:]:
@@ -328,7 +334,7 @@ class Run(Paths):
     # --- findings
 
     def is_bundled(self, name: str) -> bool:
-        """Return whether a project of a name is built along with the package."""
+        """Return whether the build of the package also builds the project ``name``."""
         if not self.bundled:
             return False
         name = folded(name)
@@ -336,11 +342,11 @@ class Run(Paths):
 
     @property
     def conditional(self) -> bool:
-        """Return whether what happens now may also not happen."""
+        """Return whether the current command may not run."""
         return self.unsure > 0
 
     def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False, purpose: Purpose = "") -> None:
-        """Note that a line names a package."""
+        """Record that a place names a package."""
         if not purpose and self.is_helped() and (via == "cmake" or (via == "target" and span == self.here())):
             purpose = "helper"
         if not self.muted:
@@ -348,20 +354,23 @@ class Run(Paths):
             self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, test, purpose)] = None
 
     def note_gained(self, name: str, elements: Iterable[str]) -> None:
-        """Note what is about to be in a variable only where tests are wanted: what joins a list that is there without them."""
+        """Record the elements that a list is about to gain only if tests are enabled.
+
+        The list must already exist outside of the branch for tests.
+        """
         if not self.testing:
             self.gained.pop(name, None)
         elif before := self.get(name):
             self.gained[name] = self.gained.get(name, frozenset()).union(set(elements).difference(split(before)))
 
     def _is_gained(self, name: str) -> bool:
-        """Whether the current command names something only because a list that it is given was extended for tests."""
+        """Return whether the current command has ``name`` only from a list that was extended for tests."""
         command = self.frames[-1].command
         lists = [variable for variable, elements in self.gained.items() if name in elements]
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def is_helped(self) -> bool:
-        """Whether a command runs that another package of the workspace gives, or a script around the package."""
+        """Return whether the running code is of another package of the workspace, or of a script around the package."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False
@@ -371,9 +380,10 @@ class Run(Paths):
         return False
 
     def hide(self, facet: Facet, reason: str, span: Span | None = None, below: str = "", inside: str = "") -> None:
-        """Note that something cannot be seen through, where in the prefix it can only be, and in which folder its build is.
+        """Record that code cannot be evaluated and which facet of the package it hides.
 
-        Where the script does not come to unless it is asked to, it hides only what a package may be needed for.
+        ``below`` limits what is hidden to a folder of the install prefix, ``inside`` to the build of a source folder. Code that
+        does not run with default options hides only possible uses of packages.
         """
         if self.unusual:
             facet &= Facet.USES
@@ -381,10 +391,10 @@ class Run(Paths):
             self.opaques[Opaque(facet, reason, span or self.here(), below=below, inside=inside)] = None
 
     def problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
-        """Note that a command is wrong, if it runs for sure."""
+        """Record an error of a command, if the command certainly runs."""
         if not self.muted and not self.unsure:
             self.problems[Problem(kind, message, span, subject=path)] = None
 
 
 Handler = Callable[[Run, list[str]], "int | None"]
-"""What carries out a command: takes evaluated arguments, and returns how it ended; None is NEXT."""
+"""A function that runs a command: it takes the evaluated arguments and returns the exit; None is NEXT."""

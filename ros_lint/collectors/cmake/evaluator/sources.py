@@ -1,4 +1,4 @@
-"""What an evaluation is given: a package's scripts and files, and the helpers among the other packages."""
+"""Input of an evaluation: the scripts and files of a package, the tree around it, and helper packages."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.facts.build import BuildScript
 
 AROUND: Final = ".."
-"""What stands for the provider of scripts that lie in the tree around the package, and are run as if they were its own."""
+"""The provider of scripts that lie outside of the package, but in the same tree. They run like its own scripts."""
 
 
 class Around(NamedTuple):
-    """The tree around a package, by paths relative to its base. What lies outside of the tree is not in sight."""
+    """Access to the tree around a package. Paths are relative to the base of the tree; nothing outside of it is visible."""
 
     kind: Callable[[str], str] = lambda path: ""
-    """Says "file" or "directory", or "" where there is neither in sight."""
+    """Returns "file" or "directory", or "" if the path does not exist or is not visible."""
     below: Callable[[str], Sequence[str]] = lambda folder: ()
-    """Lists every file below a folder; none where not all of them are in sight."""
+    """Lists every file below a folder; empty if some of them are not visible."""
     script: Callable[[str], Parsed | None] = lambda path: None
-    """Reads a CMake file; None where there is none in sight."""
+    """Parses a CMake file; None if it does not exist or is not visible."""
 
 
 class Sources(NamedTuple):
-    """What a package's CMake scripts can see of it."""
+    """The package as seen by its CMake scripts."""
 
     name: str
-    """As package.xml gives it, or ""."""
+    """The name in package.xml, or ""."""
     path: str
     """The folder of the package, relative to the base of the run; "" is the base."""
     files: Sequence[str]
@@ -36,23 +36,23 @@ class Sources(NamedTuple):
     scripts: Mapping[str, Parsed]
     """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder."""
     executables: AbstractSet[str] = frozenset()
-    """Those of the files that have the executable bit, and of those around the package, relative to it."""
+    """Files with the executable bit, in the package and in the tree around it, relative to the folder."""
     version: str = ""
-    """As package.xml gives it."""
+    """The version in package.xml."""
     build_depends: tuple[str, ...] = ()
-    """What ament_auto_find_build_dependencies() finds: declared to build, to build with, or for everything."""
+    """Packages that ament_auto_find_build_dependencies() finds: declared as <build_depend>, <buildtool_depend> or <depend>."""
     test_depends: tuple[str, ...] = ()
     unseen: tuple[str, ...] = ()
-    """Folders below the package, relative to it, that exist and whose files are not listed."""
+    """Existing folders below the package, relative to it, whose files are not in ``files``."""
     texts: Mapping[str, str] = {}
-    """What files hold that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
+    """Contents of files that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
     look: Callable[[str], Sequence[str]] = lambda folder: ()
-    """Lists the files below one of the unseen folders, relative to the package; none when that is not possible."""
+    """Lists the files below one of the ``unseen`` folders, relative to the package; empty if that is not possible."""
     around: Around = Around()
 
 
 class Helper(NamedTuple):
-    """Another package of the workspace whose CMake code runs in those that find it (CONFIG_EXTRAS)."""
+    """Another package of the workspace whose CMake code runs in packages that find it (CONFIG_EXTRAS)."""
 
     sources: Sources
     script: BuildScript

@@ -1,4 +1,4 @@
-"""What a CMake run knows at a moment: variables in scopes, definitions, targets, and the ways a run can branch."""
+"""State of a CMake run: variables in scopes, definitions and targets, with an undo log for branches."""
 
 from __future__ import annotations
 
@@ -12,67 +12,67 @@ from ros_lint.collectors.cmake.released_macros import VARIABLES
 from ros_lint.collectors.cmake.syntax import Command
 
 Exit = int
-"""How a piece of script can end: a set of the bits below."""
+"""The ways in which a piece of a script can end: a set of the bits below."""
 NEXT: Final = 1
 """The next command follows."""
 BREAK: Final = 2
 CONTINUE: Final = 4
 RETURN: Final = 8
 STOP: Final = 16
-"""CMake gives up: message(FATAL_ERROR)."""
+"""CMake stops with an error, such as message(FATAL_ERROR)."""
 USUAL: Final = 32
-"""Beside NEXT: it is usual that the next command follows."""
+"""Together with NEXT: with default options, the next command follows."""
 TESTS: Final = 64
-"""Beside NEXT: the next command follows only where tests are wanted."""
+"""Together with NEXT: the next command follows only if tests are enabled."""
 
 
 class Variables(dict[str, "str | None"]):
-    """The variables of one scope. ``None`` is an unset variable, which hides the one of the outer scope."""
+    """The variables of one scope. ``None`` is an unset variable, which hides that of the outer scope."""
 
     __slots__ = ()
 
 
 class BlockVariables(Variables):
-    """The variables of a block() with a scope of its own."""
+    """The variables of a block() that has its own scope."""
 
     __slots__ = ()
 
 
 class Properties(dict[str, str]):
-    """What is known of a target, a directory or the whole run: properties by name."""
+    """The known properties of a target, a directory or the whole run, by name."""
 
     __slots__ = ()
 
 
 class Procedure(NamedTuple):
-    """A function or macro."""
+    """A defined function or macro."""
 
     name: str
     macro: bool
     parameters: tuple[str, ...]
     body: Body
     own: bool
-    """Whether it stands in a file of the package that is evaluated."""
+    """True if a file of the evaluated package defines it."""
     path: str
-    """Of that file, relative to the base of the run."""
+    """The path of the file that defines it, relative to the base of the run."""
     folder: str
-    """Of that file, as CMake would name it."""
+    """The folder of that file, as CMake names it."""
     provider: str = ""
-    """The package that brings it, when it is not the package's own."""
+    """The package that defines it, "" for the evaluated package."""
     counts: bool = True
-    """Whether its body may ask for ARGV, ARGC or ARGV0 and so on."""
+    """True if its body may read ARGV, ARGC, ARGV0 and so on."""
 
 
 class Choice(NamedTuple):
-    """Several procedures of one name, of which one was defined. ``None``: perhaps none was."""
+    """Alternative procedures of one name, of which one is defined. ``None`` means that possibly none is."""
 
     procedures: tuple[Procedure | None, ...]
     usual: int | None
-    """The index of the one that is defined unless the user asks for another."""
+    """The index of the procedure that is defined with default options."""
 
 
 class Change(NamedTuple):
-    """What a branch did to one entry of a mapping. ``value`` is MISSING when it removed it."""
+    """A change of one entry of a mapping by a branch. ``value`` is MISSING if the branch removed the entry."""
 
     mapping: dict[str, Any]
     key: str
@@ -83,22 +83,25 @@ Changes = dict[tuple[int, str], Change]
 
 MISSING: Final = object()
 _DEEPEST: Final = 100
-"""Branches within branches; all that follows what may leave a body or a loop is one. Real packages need less than 20."""
+"""Greatest depth of nested branches. The commands after a possible return() or break() also form a branch.
+
+Real packages need less than 20."""
 
 
 MOST_CHARACTERS: Final = 1 << 28
-"""Characters of values that one package may make and read, what else takes memory or time counted in. Real ones need less
-than a million for 1,000 commands."""
+"""Characters of values that the scripts of one package may write and read.
+
+Other work that costs memory or time is converted into characters. Real packages need less than a million for 1,000 commands."""
 
 
 class BudgetError(Exception):
-    """The script runs longer than any real one, or makes longer texts."""
+    """The script exceeds the limits of time or memory, which no real script does."""
 
 
 class State:
-    """Everything that commands write to, with an undo log.
+    """All data that commands write, with an undo log.
 
-    Branches of an unknown condition are run one after the other, each from the same start, and joined afterwards.
+    The branches of an unknown condition run one after the other, each from the same initial state, and are then joined.
     """
 
     def __init__(self) -> None:
@@ -109,28 +112,28 @@ class State:
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
         self.places: dict[str, str] = {}
-        """Variables that say where the sources lie, which directory and which file is being run, and where pages go."""
+        """Variables for places: the source folder, the current directory and file, and the install folders of documentation."""
         self.for_tests: dict[str, str] = {}
-        """Variables that become true only where tests are wanted, with the value that they get there."""
+        """Variables that are true only if tests are enabled, with the value that they then have."""
         self.gained: dict[str, frozenset[str]] = {}
-        """Elements that lists have only where tests are wanted, by the variable that holds the list."""
+        """Elements that a list has only if tests are enabled, by the variable of the list."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self._nested = 0
         self.characters = MOST_CHARACTERS
-        """How many more may be made and read."""
+        """Characters that may still be written and read."""
         self.unpaired = False
-        """Whether some value holds a square bracket without its partner, so that unknown texts may hold one too."""
+        """True if some value has an unpaired square bracket, because unknown texts may then have one too."""
 
     # --- writing
 
     def charge(self, size: int) -> None:
-        """Count characters that a command makes or reads. Raises BudgetError when there are too many."""
+        """Subtract the characters that a command writes or reads from the budget. Raises BudgetError if it is exceeded."""
         self.characters -= size
         if self.characters < 0:
             raise BudgetError
 
     def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
-        """Write an entry; everything that a branch may write goes through here. A text that is too long is unknown."""
+        """Write an entry and log the old value. A branch writes only with this method. A text that is too long becomes HOLE."""
         if self.log is not None:
             self.log.append((mapping, key, mapping.get(key, MISSING)))
         if type(value) is str:
@@ -141,7 +144,7 @@ class State:
         mapping[key] = value
 
     def notice(self, value: str) -> None:
-        """Look for brackets without partners in a value that can be read from now on."""
+        """Update ``unpaired`` for a value that scripts can now read."""
         if ("[" in value or "]" in value or "\3" in value) and not self.unpaired:
             self.charge(SLOW * len(value))
             self.unpaired = unpaired(value)
@@ -157,7 +160,7 @@ class State:
         self.put(self.scopes[-1], name, value)
 
     def set_all(self, values: Mapping[str, str | None]) -> None:
-        """Set several variables of the innermost scope; None unsets one."""
+        """Set several variables of the innermost scope; the value None unsets a variable."""
         scope = self.scopes[-1]
         if self.log is not None:
             self.log += [(scope, name, scope.get(name, MISSING)) for name in values]
@@ -168,15 +171,15 @@ class State:
                 self.notice(value)
 
     def set_outer(self, name: str, value: str | None) -> None:
-        """Set a variable of the scope around the innermost (PARENT_SCOPE)."""
+        """Set a variable of the scope that encloses the innermost one (PARENT_SCOPE)."""
         if len(self.scopes) > 1:
-            if name not in self.scopes[-1]:  # the inner scope keeps what it saw so far
+            if name not in self.scopes[-1]:  # the inner scope keeps the value that it had
                 seen = self.found(name)
                 self.put(self.scopes[-1], name, None if seen is MISSING else seen)
             self.put(self.scopes[-2], name, value)
 
     def return_to_caller(self, name: str, value: str | None) -> None:
-        """Set a variable of the scope that a function is called from, whatever blocks of it are open (return(PROPAGATE))."""
+        """Set a variable of the caller's scope, even from within a block() of the function (return(PROPAGATE))."""
         inner = next((index for index in range(len(self.scopes) - 1, 0, -1) if type(self.scopes[index]) is Variables), 0)
         if inner == len(self.scopes) - 1:
             self.set_outer(name, value)
@@ -186,18 +189,18 @@ class State:
     # --- reading
 
     def brought(self, name: str) -> str | None:
-        """Return what CMake itself sets a variable to, None when it does not, or nobody knows to what."""
+        """Return the value that CMake itself gives a variable, None if it sets none or the value is unknown."""
         return self.places.get(name) or VARIABLES.get(name)
 
     def normal(self, name: str) -> str | None:
-        """Return a variable as the scopes hold it, without the cache."""
+        """Return the value of a variable in the scopes, ignoring the cache."""
         for scope in reversed(self.scopes):
             if name in scope:
                 return scope[name]
         return None
 
     def found(self, name: str, depth: int | None = None) -> Any:
-        """Return a variable as scopes and cache hold it, or MISSING. ``depth`` leaves inner scopes out."""
+        """Return the value of a variable in the scopes and the cache, or MISSING. ``depth`` is the number of scopes to search."""
         scopes = self.scopes if depth is None else self.scopes[:depth]
         for scope in reversed(scopes):
             if name in scope:
@@ -212,9 +215,9 @@ class State:
     # --- branching
 
     def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
-        """Run something, take back all that it wrote, and return how it ended and what it wrote.
+        """Call ``run``, undo its changes, and return its exit with these changes.
 
-        Raises BudgetError where branches are nested too deeply.
+        Raises BudgetError if branches are nested too deeply.
         """
         if self._nested > _DEEPEST:
             raise BudgetError
@@ -238,9 +241,9 @@ class State:
         return ended, changes
 
     def join(self, alternatives: Sequence[Changes], default: int | None = None) -> None:
-        """Write what holds after one of several branches, each given by what it changed.
+        """Write the state after one of several branches ran, given the changes of each branch.
 
-        ``default`` is the index of the branch that is taken unless the user asks for another.
+        ``default`` is the index of the branch that runs with default options.
         """
         if len(alternatives) == 1:
             for change in alternatives[0].values():
@@ -253,7 +256,7 @@ class State:
         fresh = {id(change.value) for change in slots.values() if isinstance(change.value, Properties)}
         for slot, (mapping, key, value) in slots.items():
             if id(mapping) in fresh and value is not MISSING:
-                self.put(mapping, key, value)  # of a target that one branch has made, which no other has seen
+                self.put(mapping, key, value)  # property of a target that only this branch creates
                 continue
             before = self._held(mapping, key)
             values = [changes[slot].value if slot in changes else before for changes in alternatives]
@@ -264,13 +267,13 @@ class State:
                 self.put(mapping, key, merged)
 
     def forget(self, changes: Changes) -> None:
-        """Take every value that something changed for unknown from now on."""
+        """Make every value that was changed unknown."""
         for mapping, key, value in changes.values():
             if isinstance(value, str) or value is None or isinstance(mapping, Variables):
                 self.put(mapping, key, HOLE)
 
     def _held(self, mapping: dict[str, Any], key: str) -> Any:
-        """Return an entry; what a scope does not hold itself is taken from the scopes around it, and from CMake."""
+        """Return an entry. A variable that its scope does not set is looked up in the outer scopes and in CMake's defaults."""
         value = mapping.get(key, MISSING)
         if value is MISSING and isinstance(mapping, Variables):
             for depth, scope in enumerate(self.scopes):
@@ -303,19 +306,19 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
 
 
 class InstalledTarget(NamedTuple):
-    """A target to install. Its file name is known only when the whole script has run."""
+    """A target of install(TARGETS). Its file name is known only after the whole script has run."""
 
     target: str
     executables: str | None
-    """Where an executable goes, None when it is not installed."""
+    """The destination if the target is an executable, None if executables are not installed."""
     libraries: str | None
     archives: str | None
     conditional: bool
     span: Span
     exported_in: str = ""
-    """The set that it is exported in."""
+    """The export set of the target."""
     headers: tuple[tuple[str, str | None], ...] = ()
-    """Where headers go that belong to it, by artifact."""
+    """Destinations of the headers of the target, by artifact."""
 
 
 class Frame:
@@ -331,5 +334,5 @@ class Frame:
         self.procedure = procedure
         self.provider = provider
         self.given: dict[str, str] | None = None
-        """What a macro puts in the place of references to its parameters."""
+        """Texts that replace references to the parameters of a macro."""
         self.command: Command | None = None

@@ -1,4 +1,4 @@
-"""Answers to conditions: true, false, unknown, or *likely* and *unlikely*, which an option or the user can turn round."""
+"""Answers to conditions: true, false, unknown, *likely* or *unlikely*. The user can reverse the last two by an option."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ NUMBER = re.compile(
     r"|(?!0[xX])(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)",
     re.ASCII,
 )
-"""As much of a text as C's scanf() takes for a number, infinities left out."""
+"""The part of a text that scanf() in C parses as a number, without infinities."""
 TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
 
 class Truth(NamedTuple):
-    """An answer, and whether the tests must be enabled for it to be true, or to be false."""
+    """An answer, and whether tests must be enabled for it to be true, or for it to be false."""
 
     value: int
     test_if_true: bool = False
@@ -37,53 +37,53 @@ class Truth(NamedTuple):
 
 
 class Token(NamedTuple):
-    """A word of a condition, evaluated."""
+    """An evaluated word of a condition."""
 
     text: str
     quoted: bool
     soft: bool
-    """Whether its value is one that a user may change."""
+    """True if a user may change its value."""
 
 
 def negated(truth: Truth) -> Truth:
-    """Return the answer to NOT."""
+    """Return the answer to NOT of an answer."""
     return Truth(TRUE - truth.value, truth.test_if_false, truth.test_if_true)
 
 
 def both(left: Truth, right: Truth) -> Truth:
-    """Return the answer to AND."""
-    # min() is Kleene's AND, and with the two half-sure answers between the others it keeps what is true by default.
+    """Return the answer to AND of two answers."""
+    # min() is Kleene's AND. With LIKELY and UNLIKELY ordered between the others, it also gives the default answer.
     return Truth(
         min(left.value, right.value), left.test_if_true or right.test_if_true, left.test_if_false and right.test_if_false
     )
 
 
 def either(left: Truth, right: Truth) -> Truth:
-    """Return the answer to OR."""
+    """Return the answer to OR of two answers."""
     return Truth(
         max(left.value, right.value), left.test_if_true and right.test_if_true, left.test_if_false or right.test_if_false
     )
 
 
 def softened(value: int) -> int:
-    """Return an answer that holds unless the user wants it otherwise."""
+    """Return an answer that the user can reverse: LIKELY for TRUE, UNLIKELY for FALSE."""
     return {TRUE: LIKELY, FALSE: UNLIKELY}.get(value, value)
 
 
 def softened_by(value: int, run: Run, *tokens: Token) -> Truth:
-    """Return an answer, less sure if it rests on something that a user may change."""
+    """Return an answer, softened if a token depends on a value that a user may change."""
     soft = any(token.soft or (not token.quoted and run.is_soft(token.text)) for token in tokens)
     return Truth(softened(value) if soft else value)
 
 
 def is_off(text: str) -> bool:
-    """Return whether a value counts as false."""
+    """Return whether CMake treats a value as false."""
     return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
 
 
 @kept(1024)
 def constant(text: str) -> bool | None:
-    """Return what a word means as a condition, or None when it is neither a true nor a false constant nor a number."""
+    """Return the truth of a word that is a constant or a number, None for any other word."""
     if text.upper() in TRUE_WORDS:
         return True
     if is_off(text):
@@ -93,7 +93,7 @@ def constant(text: str) -> bool | None:
 
 
 def number_of(text: str) -> float:
-    """Return the value of a text that NUMBER matches."""
+    """Return the number in a text that matches NUMBER."""
     text = text.strip()
     if "x" not in text.lower():
         return float(text)

@@ -1,12 +1,12 @@
 """Values of CMake variables: strings in which some pieces may be unknown.
 
-A value is a ``str``. Four characters that no CMake file can hold (the parser sees to it) mark what is not plain text:
+A value is a ``str``. Four control characters, which the parser removes from CMake files, mark the unknown pieces:
 
-- :data:`HOLE` stands for any text, also for none and for several list elements, whose square brackets come in pairs;
-- :data:`WILD` is a HOLE whose brackets may lack their partners: nobody knows which elements after it are glued to it;
-- :data:`ATOM` and the letters after it stand for one text that is fixed and not empty, but unknown: where the package lies
-  on the disk, say. It holds no semicolon, and two equal atoms are the same text;
-- :data:`MAYBE` at the start of a list element says that the element may be missing.
+- :data:`HOLE` is any text, such as none or several list elements. Its square brackets come in pairs.
+- :data:`WILD` is a HOLE whose square brackets may be unpaired, so it is unknown which later elements are joined to it.
+- :data:`ATOM` with the letters after it is one fixed, non-empty text that is unknown, such as the folder of the package
+  on the disk. It has no semicolon, and two equal atoms are the same text.
+- :data:`MAYBE` at the start of a list element marks an element that may be missing.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ T = TypeVar("T")
 HOLE: Final = "\0"
 ATOM: Final = "\1"
 MAYBE: Final = "\2"
-WILD: Final = f"{HOLE}\3{HOLE}"  # whoever looks for a HOLE, also at the ends of a text, finds one
+WILD: Final = f"{HOLE}\3{HOLE}"  # a search for a HOLE also finds a WILD, even at the ends of a text
 
 TREE: Final = f"/{ATOM}source"
-"""Where the tree that is looked at lies. The folder of the package is in it."""
+"""The root of the analysed tree, which contains the folder of the package."""
 BINARY: Final = f"/{ATOM}build"
 """The build folder of the package."""
 PREFIX: Final = f"/{ATOM}prefix"
-"""Where the package is installed."""
+"""The install prefix of the package."""
 FOREIGN: Final = f"/{ATOM}foreign-"
-"""Followed by the name of another package of the workspace: where that one is installed."""
+"""The install prefix of another package of the workspace, whose name follows."""
 
 LONGEST: Final = 1 << 20
-"""A longer value is taken for unknown, so that no script can make a run take all memory."""
+"""Characters of the longest value. A longer one becomes unknown, so that no script can exhaust the memory."""
 ELEMENT: Final = 64
-"""Characters that an element of a list counts for, because of the memory that Python takes for it."""
+"""Cost of a list element in characters, because of the memory of a Python string."""
 FILE: Final = 256
-"""Characters that an installed file counts for."""
+"""Cost of an installed file in characters."""
 SLOW: Final = 16
-"""Characters that one counts for where a text is read letter by letter."""
+"""Cost of a character where a text is read letter by letter."""
 
 
 def is_known(value: str) -> bool:
@@ -48,12 +48,12 @@ def is_known(value: str) -> bool:
 
 
 def is_fixed(value: str) -> bool:
-    """Return whether the value is one text, even if a piece of it cannot be seen."""
+    """Return whether the value is one fixed text, even if a piece of it (an ATOM) is unknown."""
     return HOLE not in value and MAYBE not in value
 
 
 def natural(text: str) -> int | None:
-    """Return the number that a text of at most nine ASCII digits is, None for any other text."""
+    """Return the number written in a text of at most nine ASCII digits, None for any other text."""
     return int(text) if _NATURAL.fullmatch(text) else None
 
 
@@ -61,7 +61,10 @@ _NATURAL: Final = re.compile("[0-9]{1,9}")
 
 
 def kept(most: int) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
-    """Return a decorator that keeps the results of a function for as many texts, but for long ones, which fill the memory."""
+    """Return a decorator that caches the results of a function for up to ``most`` texts.
+
+    Results for long texts are not cached, because they would fill the memory.
+    """
 
     def decorate(function: Callable[[str], T]) -> Callable[[str], T]:
         remembered = lru_cache(maxsize=most)(function)
@@ -74,12 +77,12 @@ _LONGEST_KEPT: Final = 1024
 
 
 def flat(value: str) -> str:
-    """Return a value for use within a longer text: elements that may be missing make it unknown."""
+    """Return a value for use within a longer text: HOLE if it has elements that may be missing."""
     return HOLE if MAYBE in value else value
 
 
 def split(value: str) -> list[str]:
-    """Return the elements of a list without the empty ones, as an unquoted argument is split (cmake-language(7))."""
+    """Return the non-empty elements of a list, as CMake splits an unquoted argument (cmake-language(7))."""
     if ";" not in value:
         return [value] if value else []
     if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
@@ -88,7 +91,7 @@ def split(value: str) -> list[str]:
 
 
 def elements(value: str) -> list[str]:
-    """Return the elements of a list, the empty ones too. The empty text is the list without elements."""
+    """Return the elements of a list, including empty ones. The empty text is a list without elements."""
     if not value:
         return []
     if ";" not in value:
@@ -98,7 +101,7 @@ def elements(value: str) -> list[str]:
     else:
         found = _split(value)
     if found.count("") == 1 and all(element[:1] in ("", MAYBE, HOLE) for element in found):
-        return [element or MAYBE for element in found]  # where it turns out to be the only one, it is none
+        return [element or MAYBE for element in found]  # if the other elements are missing, the list is empty
     return found
 
 
@@ -126,17 +129,17 @@ def _split(value: str) -> list[str]:
         position += 1
     found.append("".join(piece))
     if depth and (MAYBE in value or HOLE in value):
-        return [WILD]  # a bracket without its partner holds together what follows, if it is there
+        return [WILD]  # an unpaired bracket joins the elements after it
     return found
 
 
 def effort(value: str) -> int:
-    """Return how many characters it counts for to take a list apart."""
+    """Return the cost of splitting a list, in characters."""
     return SLOW * len(value) if "[" in value or "\\" in value else ELEMENT * value.count(";")
 
 
 def unpaired(value: str) -> bool:
-    """Return whether a text holds a square bracket without its partner, or may hold one."""
+    """Return whether a text has an unpaired square bracket, or may have one."""
     if "\3" in value:
         return True
     depth = lowest = 0
@@ -147,21 +150,21 @@ def unpaired(value: str) -> bool:
 
 
 def wild(value: str | None) -> str | None:
-    """Return a value in a script where unknown texts may hold brackets without partners."""
+    """Return a value as read in a script whose unknown texts may have unpaired brackets."""
     if not value:
         return value
     if MAYBE in value and unpaired(value):
-        return WILD  # which elements are glued depends on which are there
+        return WILD  # the elements that are joined depend on which ones are missing
     return value.replace(HOLE, WILD) if HOLE in value and WILD not in value else value
 
 
 def join(values: Iterable[str]) -> str:
-    """Return a list as CMake stores it, a HOLE for one that is too long."""
+    """Return a list as CMake stores it, HOLE if it is too long."""
     if isinstance(values, (list, tuple)):
         return ";".join(values) if sum(map(len, values)) <= LONGEST else HOLE
     found = []
     size = 0
-    for value in values:  # each may be made on the way, and all together be more than memory holds
+    for value in values:  # values of a generator may together exceed the memory
         size += len(value)
         if size > LONGEST:
             return HOLE
@@ -170,41 +173,41 @@ def join(values: Iterable[str]) -> str:
 
 
 def glued(glue: str, texts: Sequence[str]) -> str:
-    """Return texts with another one between them, a HOLE when that is too long: a loop may double it each time."""
+    """Return texts joined by ``glue``, HOLE if the result is too long (a loop can double a text in each round)."""
     if len(glue) * len(texts) + sum(map(len, texts)) > LONGEST:
         return HOLE
     return flat(glue).join(map(flat, texts))
 
 
 def sure(element: str) -> tuple[str, bool]:
-    """Return a list element without its mark, and whether it is certainly there."""
+    """Return a list element without its MAYBE mark, and whether it certainly exists."""
     return (element[1:], False) if element[:1] == MAYBE else (element, True)
 
 
 def maybe(element: str) -> str:
-    """Return a list element that may be missing."""
+    """Return a list element marked as one that may be missing."""
     return element if element.startswith(MAYBE) or element in (HOLE, WILD) else MAYBE + element
 
 
 def certainly_set(value: str) -> bool:
-    """Return whether a variable with this value is set for sure.
+    """Return whether a variable with this value is certainly set.
 
-    Where one branch sets a variable to nothing and another does not set it, it is held to be empty.
+    A variable that one branch sets to the empty text and another leaves unset counts as empty.
     """
     return any(element and element not in (HOLE, WILD) and not element.startswith(MAYBE) for element in elements(value))
 
 
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
-    """Return what a variable holds after one of several branches ran, each of which left it with one of the values.
+    """Return the value of a variable after one of several branches ran. ``values`` has its value after each branch.
 
-    ``None`` is an unset variable. ``default`` is the index of the value that it has unless the user asks for another; then
-    what the others add is kept as elements that may be missing, and nothing of the default is lost.
+    ``None`` is an unset variable. ``default`` is the index of the branch that runs with default options. The result then
+    keeps every element of that value, and elements of the other values are marked as possibly missing.
     """
     first = values[0]
     if all(value == first for value in values):
         return first
     if any(value and any(letter in value for letter in "\\[]") for value in values):
-        return HOLE if default is None else values[default]  # taking such lists apart would change them
+        return HOLE if default is None else values[default]  # splitting and joining such a list would change it
     if default is not None:
         base = values[default]
         have = set(elements(base or ""))
