@@ -1,4 +1,4 @@
-"""Commands of ROS packages: the released macros, and the primitives that their effects are written in."""
+"""Commands of ROS packages: calls of released macros, and the ``ros_lint_*`` primitives of ``ros_macros.cmake``."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ from ros_lint.facts.sources import Purpose
 from ros_lint.facts.visibility import ALL_FACETS, Facet
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
-"""Names of unknown commands that may well install something."""
+"""Names of unknown commands that probably install something."""
 _BUILDER = re.compile(r"librar|executable|target|plugin|component|node|kernel|module|build|(?:\A|_)add(?:_|\Z)")
-"""Names of unknown commands that may well build something."""
+"""Names of unknown commands that probably build something."""
 _TESTER = re.compile(
     r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
 )
-"""Names of unknown commands that test, and install nothing."""
+"""Names of unknown commands that define tests and install nothing."""
 _GENERATES: Final = "rosidl_generate_interfaces"
 
 
 def foreign(run: Run, name: str, args: list[str]) -> int | None:
-    """Carry out a command that neither CMake nor the package defines."""
+    """Run a command that neither CMake nor the package defines."""
     macro = released(name)
     if macro is not None:
         provider = macro.procedure.provider
@@ -57,20 +57,23 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
 
 
 def _is_given_data(run: Run, args: list[str]) -> bool:
-    """Whether an argument is the path or the name of a folder of the package without sources: such is there to be installed."""
+    """Return whether an argument is the path or name of a folder of the package without sources.
+
+    The command probably installs such a folder.
+    """
     words = frozenset([plain for arg in args if is_known(plain := sure(arg)[0])])
     below = [file for file in run.files if not words.isdisjoint(_folders(file))]
     return bool(below) and not any(file.endswith(SOURCES) for file in below)
 
 
 def _folders(file: str) -> list[str]:
-    """Return the folders that a file lies in, by their paths and by their names."""
+    """Return the paths and the names of the folders that contain a file."""
     names = file.split("/")[:-1]
     return [*names, *accumulate(names, join_path)]
 
 
 def _component(run: Run, args: list[str]) -> None:
-    """``ros_lint_component(class...)``."""
+    """``ros_lint_component(class...)``: classes that a component container can load."""
     for arg in args:
         name, certain = sure(arg)
         if not is_known(name):
@@ -81,7 +84,7 @@ def _component(run: Run, args: list[str]) -> None:
 
 
 def _exported(run: Run, args: list[str]) -> None:
-    """``ros_lint_exported(sets...)``: whoever finds the package has the targets in these sets."""
+    """``ros_lint_exported(sets...)``: packages that find this one have the targets of these export sets."""
     if not (run.muted or run.conditional or run.testing):
         run.exported_sets.update(dict.fromkeys([name for name, certain in map(sure, args) if certain]))
 
@@ -109,7 +112,7 @@ def _interfaces(run: Run, args: list[str]) -> None:
             run.missing.append((source, span, conditional))
         if args[0] == "install":
             written = source if source is not None and source not in run.generated else ""
-            # rosidl_adapter puts what it makes into the folder of its kind, wherever the definition lies
+            # rosidl_adapter writes a generated .idl file to the folder of its kind (msg, srv, action)
             places = [(folder, "idl", written)] if suffix == "idl" else [(kind, suffix, written), (suffix, "idl", "")]
             for place, end, made in places:
                 run.installed.append(InstalledFile(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
@@ -151,7 +154,7 @@ def _python(run: Run, args: list[str]) -> None:
 
 
 def _scripts(run: Run, args: list[str]) -> None:
-    """``ros_lint_console_scripts(destination setup.cfg)``: console_scripts of a setup.cfg become programs."""
+    """``ros_lint_console_scripts(destination setup.cfg)``: the console_scripts of a setup.cfg are installed as programs."""
     path = run.source(args[1])
     text = run.sources.texts.get(path) if path is not None else None
     destination = run.destination(args[0])
@@ -163,7 +166,7 @@ def _scripts(run: Run, args: list[str]) -> None:
 
 
 def console_scripts(text: str) -> list[str]:
-    """Return the names of the console_scripts that a setup.cfg declares, none when it cannot be parsed."""
+    """Return the names of the console_scripts of a setup.cfg; empty if the file cannot be parsed."""
     import configparser  # noqa: PLC0415  (few packages have one)
 
     parser = configparser.ConfigParser(interpolation=None)
@@ -184,7 +187,7 @@ def _provide(run: Run, args: list[str]) -> None:
 
 
 def _headers(run: Run, args: list[str]) -> None:
-    """``ros_lint_headers(scoped)``: the headers of ament_auto_package() (reference, section H13)."""
+    """``ros_lint_headers(scoped)``: ament_auto_package() of ament_cmake_auto installs include/."""
     scoped = args[:1] == ["TRUE"] or run.distro in _SCOPED
     folder = f"include/{run.get('PROJECT_NAME') or ''}" if scoped else "include"
     run_handler(run, "install", ["DIRECTORY", "include/", "DESTINATION", folder, "OPTIONAL"])
@@ -194,7 +197,7 @@ _SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
 
 
 def _package(run: Run, args: list[str]) -> None:
-    """``ros_lint_package(...)``: ament_package(), which makes the package findable and hands on its CONFIG_EXTRAS."""
+    """``ros_lint_package(...)``: ament_package(), which installs the files for find_package() with the CONFIG_EXTRAS."""
     if run.muted:
         return
     name = run.get("PROJECT_NAME") or ""
@@ -220,16 +223,18 @@ def _package(run: Run, args: list[str]) -> None:
 
 _COMPONENT_INDEX: Final = "share/ament_index/resource_index/rclcpp_components/"
 _REGISTERED: Final = "_RCLCPP_COMPONENTS"
-"""How the variables begin in which rclcpp_components notes what ament_package() has to write: some packages hand them on."""
+"""Prefix of the variables with which rclcpp_components passes its resource index to ament_package().
+
+Some packages pass these variables to the scope of ament_package() themselves."""
 _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 
 def _needed(run: Run, args: list[str]) -> None:
-    """``ros_lint_needed(files...)``: files without which ament stops (assert_file_exists)."""
+    """``ros_lint_needed(files...)``: files that must exist, because ament stops without them (assert_file_exists)."""
     for arg in args:
         plain, certain = sure(arg)
         path, span = run.source(plain), run.where(arg)
-        # It looks beside the file that has the call, and elsewhere that need not be where CMake takes paths from.
+        # The path is relative to the file with the call, which is the current directory only for a CMakeLists.txt.
         if path and path not in run.files and not (run.muted or run.is_unseen(path)) and span.path.endswith("CMakeLists.txt"):
             run.missing.append((path, span, run.conditional or run.testing or not certain))
 
@@ -250,7 +255,7 @@ def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
 
 
 def _end(run: Run) -> None:
-    """Note the place before ament_package(): install rules belong there, set off as it is itself."""
+    """Record the place before ament_package(), where fixes insert install rules, and whether a blank line precedes it."""
     frame = next(frame for frame in reversed(run.frames) if frame.own)
     top = join_path(run.sources.path, "CMakeLists.txt")
     if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
@@ -259,25 +264,25 @@ def _end(run: Run) -> None:
         before = next((one for one, other in pairwise(commands) if other.start == frame.command.start), None)
         if before is not None:
             lines = frame.command.line - before.line - len(before.breaks)
-            if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # with either kind of line ends
+            if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # LF or CRLF
                 run.behind = before.span(frame.path, before.end, before.end)
 
 
 def _unknown(run: Run, args: list[str]) -> None:
-    """``ros_lint_unknown(variables...)``: variables hold something that cannot be known here."""
+    """``ros_lint_unknown(variables...)``: variables have values that cannot be known."""
     for arg in args:
         if is_known(arg):
             run.set(arg, HOLE)
 
 
 def _of_index(run: Run, args: list[str]) -> None:
-    """``ros_lint_of_index(variable)``: a variable holds what some package has registered in the index."""
+    """``ros_lint_of_index(variable)``: the value of a variable is read from the ament index."""
     _unknown(run, args)
     run.of_index.update(args)
 
 
 def _package_xml(run: Run, _args: list[str]) -> None:
-    """``ros_lint_package_xml()``: the manifest gives name and version."""
+    """``ros_lint_package_xml()``: sets the name and the version of the package from package.xml."""
     name = run.sources.name
     run.set("_AMENT_PACKAGE_NAME", name)
     run.set(f"{name}_VERSION", run.sources.version or HOLE)
@@ -285,9 +290,9 @@ def _package_xml(run: Run, _args: list[str]) -> None:
 
 
 def _test_executable(run: Run, args: list[str]) -> None:
-    """``ros_lint_test_executable(target sources...)``: a program that tests, whether or not it stands in a test scope."""
+    """``ros_lint_test_executable(target sources...)``: a test program, even outside of if(BUILD_TESTING)."""
     testing, run.testing = run.testing, True
-    given = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # whether it runs is no matter here
+    given = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # drops SKIP_TEST etc.
     try:
         run_handler(run, "add_executable", sections(given, _TEST_WORDS)[""])
     finally:
@@ -301,14 +306,14 @@ _TEST_WORDS: Final = {
 
 
 def _vendor(run: Run, args: list[str]) -> None:
-    """``ros_lint_vendor(target ...)``: a project from elsewhere is built and installed below opt/."""
+    """``ros_lint_vendor(target ...)``: ament_vendor() builds an external project and installs it below opt/."""
     if args:
         run.put(run.targets, args[0], Properties(KIND="other"))
     run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
 
 
 def _tests(run: Run, args: list[str]) -> None:
-    """``ros_lint_runs(files or folders...)``: an interpreter runs these as tests."""
+    """``ros_lint_runs(files or folders...)`` and ``add_test()``: files or folders that an interpreter runs as tests."""
     for arg in args:
         path = run.source(sure(arg)[0])
         if path is None and HOLE in arg:
@@ -318,11 +323,11 @@ def _tests(run: Run, args: list[str]) -> None:
 
 
 RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
-"""What runs tests that are not compiled: CMake's own command, and what the commands of released packages come down to."""
+"""Commands that run tests which are not compiled: add_test() of CMake, and the primitive of released macros."""
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
-    """Carry out one of CMake's own commands."""
+    """Run a command of CMake itself."""
     HANDLERS[name](run, args)
 
 

@@ -1,4 +1,4 @@
-"""CMake's commands for variables, files of code and control: set(), option(), include(), project(), return() ..."""
+"""Commands for variables, options, projects and control flow: set(), option(), project(), return() ..."""
 
 from __future__ import annotations
 
@@ -55,13 +55,13 @@ def _set(run: Run, args: list[str]) -> None:
         run.note_gained(name, split(value))
     command = run.frames[-1].command
     if run.distro and run.distro in value and command and any("$ENV{ROS_DISTRO}" in text for text, *_ in command.args):
-        run.settable.add(name)  # as soft as the variable of the environment itself
+        run.settable.add(name)  # the user may change ROS_DISTRO, and with it this variable
     run.set(name, value)
     run.remember(1)
 
 
 def _note_switch(run: Run, name: str, value: str) -> None:
-    """Note a variable that becomes true, if that happens only where tests are wanted."""
+    """Record a variable that becomes true only if tests are enabled."""
     if is_off(value):
         return
     before = run.get(name)
@@ -87,7 +87,7 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
 
 
 def _path(value: str) -> str:
-    """Return what the cache makes of a path."""
+    """Return a path as the cache stores it, HOLE if its normalization is not modelled."""
     odd = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
     return HOLE if odd else value.rstrip("/") or value
 
@@ -127,7 +127,7 @@ def _option(run: Run, args: list[str]) -> None:
 
 
 def _switch(value: str) -> str:
-    """Return the word that option() makes of a value."""
+    """Return the value that option() stores: ON, OFF or HOLE."""
     if not is_fixed(value):
         return HOLE
     return "ON" if value.upper() in TRUE_WORDS else "OFF"
@@ -170,7 +170,7 @@ def _policies(run: Run, wanted: str) -> None:
 
 @kept(256)
 def _version(wanted: str) -> tuple[int, int] | None:
-    """Return the version up to which policies are new, given ``3.5`` or ``3.5...3.20``."""
+    """Return the version up to which policies have their NEW behaviour, given ``3.5`` or ``3.5...3.20``."""
     match = re.match(r"([0-9]+)(?:\.([0-9]+))?", wanted.rpartition("...")[2])
     if match is None or not is_known(wanted):
         return None
@@ -212,11 +212,11 @@ def _project(run: Run, args: list[str]) -> None:
 
 
 def _parse_arguments(run: Run, args: list[str]) -> None:
-    """cmake_parse_arguments(prefix options one multi args...) and its PARSE_ARGV form."""
+    """``cmake_parse_arguments(prefix options one multi args...)`` and its PARSE_ARGV form."""
     if args[:1] == ["PARSE_ARGV"]:
         prefix, options, ones, multis = (*args[2:6], "", "", "", "")[:4]
         rest = _rest_of_call(run, args[1])
-        if rest is None:  # any keyword may be given
+        if rest is None:  # the arguments are unknown, so any keyword may be among them
             run.set_all(dict.fromkeys(parse_keywords(prefix, options, ones, multis, ()), HOLE))
             return
         given = [arg.replace(";", "\\;") for arg in rest]
@@ -234,7 +234,7 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
 
 
 def _rest_of_call(run: Run, first: str) -> list[str] | None:
-    """Return the arguments of the function from one on; None if nobody knows which these are."""
+    """Return the arguments of the current function from index ``first``; None if they are unknown."""
     begin, end = natural(first), natural(run.get("ARGC") or "")
     if begin is None:
         return None
@@ -249,7 +249,7 @@ def _rest_of_call(run: Run, first: str) -> list[str] | None:
 
 
 _NOT_ONE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
-"""What stands in values that may be no argument or several, or are not what they were before they were put into a list."""
+"""Characters of values that may be no argument or several arguments, or that a list does not preserve."""
 
 
 def _language(run: Run, args: list[str]) -> int | None:
@@ -289,7 +289,7 @@ def _folder_sources(run: Run, args: list[str]) -> None:
 
 
 def _execute_process(run: Run, args: list[str]) -> None:
-    """``execute_process(COMMAND cmake -S folder ...)`` and others: a project among the sources is built along then."""
+    """``execute_process()``. With ``COMMAND cmake -S folder ...`` it builds a project in a folder of the package."""
     folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
     if folder and run.is_folder(folder) and not run.muted:
         run.bundled[posixpath.basename(folder)] = None
@@ -301,7 +301,7 @@ def _execute_process(run: Run, args: list[str]) -> None:
 
 
 def nothing(_run: Run, _args: list[str]) -> None:
-    """Carry out a command that changes nothing that matters here."""
+    """Run a command without effects on the model."""
 
 
 COMMANDS: Final[dict[str, Handler]] = {

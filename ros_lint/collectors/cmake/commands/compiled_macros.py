@@ -1,7 +1,7 @@
-"""Released macros, compiled: most are a cmake_parse_arguments() and a few commands, and each is called in hundreds of packages.
+"""Compiled forms of the released macros, because a workspace calls them very often.
 
-A macro that is made of such commands alone runs without variables and scopes of its own, as long as what it is given is plain
-text. All others, and all functions, run step by step.
+Most macros are a cmake_parse_arguments() and a few commands. Such a macro runs in compiled form if its arguments are plain
+text. All other macros, and all functions, are interpreted.
 """
 
 from __future__ import annotations
@@ -28,30 +28,30 @@ _TESTS: Final = "BUILD_TESTING"
 
 
 _Reference = tuple[str, Template, bool]
-"""An argument with references: the variable if it is nothing but one reference, its parts, and whether it is quoted."""
+"""An argument with references: the variable if it is a single reference (else ""), its parts, and whether it is quoted."""
 _Conditions = tuple[tuple[str, bool], ...]
-"""Keywords that must be given, or must not."""
+"""Keywords of the call, each with whether it must be present or absent."""
 _Step = tuple[str, tuple[str | _Reference, ...], _Conditions]
-"""A command with its arguments."""
+"""A command with its arguments and the conditions under which it runs."""
 _Keywords = tuple[str, str, str, str]
-"""Prefix, options, keywords with one value and keywords with many, as cmake_parse_arguments() is given them."""
+"""The first arguments of cmake_parse_arguments(): prefix, options, keywords with one value, keywords with many values."""
 
 
 class Released(NamedTuple):
-    """A released macro or function."""
+    """A released macro or function with its compiled form."""
 
     procedure: Procedure
     direct: tuple[str, list[str]] | None
-    """A primitive and its first arguments, when the macro does nothing but hand all that it is given to it."""
+    """A primitive and its first arguments, if the macro only passes all of its own arguments on to that primitive."""
     keywords: _Keywords | None
     steps: tuple[_Step, ...] | None
-    """None when it cannot be compiled."""
+    """The commands of the macro, None if it cannot be compiled."""
     frame: Frame
 
 
 @cache
 def released(name: str) -> Released | None:
-    """Return a macro by its name in lower case, None when there is none of that name."""
+    """Return a released macro by its name in lower case, None if there is none."""
     macro = macros().get(name)
     if macro is None:
         return None
@@ -85,11 +85,11 @@ def _split_keywords(body: Body) -> tuple[_Keywords | None, Body]:
 
 
 def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step | None]:
-    """Yield the commands of a body, None for what cannot be compiled."""
+    """Yield the commands of a body, None for a node that cannot be compiled."""
     for node in body:
         if isinstance(node, Command):
             if node.name == "set" and prefix and node.args[0][0].startswith(f"{prefix}_"):
-                yield None  # what is given by keywords stays as it is
+                yield None  # the values of keywords must not change
             yield node.name, tuple([_argument(text, kind) for text, kind, _, _ in node.args]), conditions
         elif isinstance(node, If) and len(node.branches) <= 2 and node.branches[-1][0] in (None, node.command):
             words = [argument[0] for argument in node.command.args]
@@ -112,7 +112,7 @@ def _argument(text: str, kind: int) -> str | _Reference:
 
 
 def run_released(run: Run, macro: Released, args: list[str]) -> Exit:
-    """Run a released macro or function, given its evaluated arguments."""
+    """Run a released macro or function with evaluated arguments."""
     text = "".join(args)
     if macro.direct is not None and ";" not in text:
         primitive, words = macro.direct
@@ -162,7 +162,7 @@ def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], 
             continue
         if not ended & NEXT:
             return ended
-        run.steps -= len(steps) - index - 1  # they are counted once more
+        run.steps -= len(steps) - index - 1  # _run_steps() counts the rest again
         rest, changes = perhaps(run, partial(_run_steps, run, steps, values, index + 1), ended)
         run.join([{}, changes], 1 if ended & USUAL else None)
         return (ended & ~(NEXT | USUAL | TESTS)) | rest

@@ -1,4 +1,4 @@
-"""FetchContent and ExternalProject: projects from elsewhere that are built along with the package."""
+"""FetchContent and ExternalProject: external projects that the build of the package downloads and builds."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from ros_lint.collectors.cmake.evaluator.values import HOLE, PREFIX, is_known
 from ros_lint.facts.visibility import Facet
 
 _ADDRESS: Final = re.compile(r"(?:/|@|\A)git(?:hub|lab)\.[\w.-]+[/:]([\w.-]+)/([\w.-]+?)(?:\.git)?(?:/|\Z)")
-"""Where a project is had from, up to its owner and name."""
+"""The address of a repository on GitHub or GitLab: groups are its owner and its name."""
 
 _FETCHED: Final = "_deps"
-"""The folder that CMake puts what it fetches into, below that of the build."""
+"""The folder below the build folder into which FetchContent downloads."""
 
 
 def _declare(run: Run, args: list[str]) -> None:
-    """``fetchcontent_declare(name options...)``: the address tells what the project is called where it is used."""
+    """``fetchcontent_declare(name options...)``: the address of the project has the names under which it may be used."""
     if args and is_known(args[0]):
         run.fetched[args[0].lower()] = _called(args)
 
 
 def _called(args: list[str]) -> list[str]:
-    """Return what a project may be called by those who use it, going by where it is had from."""
+    """Return the possible names of a project, taken from the address of its repository."""
     found = (_ADDRESS.search(arg) for arg in args if is_known(arg))
     places = [(place[1], place[2]) for place in found if place]
     return [name for owner, own in places for name in (own, f"{owner}_{own}", f"{owner}/{own}")]
@@ -55,14 +55,14 @@ def _fetch(run: Run, given: list[str], args: list[str]) -> None:
 
 
 def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
-    """Note projects from elsewhere: these know neither lib/<package> nor share/<package> unless they are told."""
+    """Record external projects. These install to lib/<package> or share/<package> only if an argument names such a folder."""
     run.open_world = True
     if not run.muted:
         run.bundled.update(dict.fromkeys(names))
     hidden = Facet.USES | Facet.LIBRARIES
     if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
         hidden |= Facet.EXECUTABLES | Facet.SHARE
-    # It has sources of its own, unless it is told that they are those of the package.
+    # The project has its own sources, unless SOURCE_DIR says that they are in the package.
     inside = "" if "SOURCE_DIR" in args else _FETCHED
     run.hide(hidden, "what a project from elsewhere builds and installs is not in sight", inside=inside)
 

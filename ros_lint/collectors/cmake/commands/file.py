@@ -1,4 +1,4 @@
-"""file(), get_filename_component(), configure_file(): paths and files."""
+"""Commands for paths and files: file(), get_filename_component(), configure_file()."""
 
 from __future__ import annotations
 
@@ -46,18 +46,21 @@ def _file(run: Run, args: list[str]) -> None:
     elif mode in ("TO_CMAKE_PATH", "TO_NATIVE_PATH") and len(args) > 2:
         run.set(args[2], args[1] if _SAME_EVERYWHERE.fullmatch(args[1]) else HOLE)
     elif mode == "REAL_PATH" and len(args) > 2:
-        # Whether a backslash parts folders depends on a policy (CMP0152).
+        # Whether a backslash separates folders depends on policy CMP0152.
         run.set(args[2], HOLE if "\\" in args[1] else _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
     elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256", "STRINGS"):
         run.set(args[2] if len(args) > 2 else "", HOLE)
 
 
 _SAME_EVERYWHERE: Final = re.compile(rf"[/{ATOM}]?(?:[^/:;\\ \0\2\3]+/)*[^/:;\\ \0\2\3]+")
-"""A path that file(TO_CMAKE_PATH) and file(TO_NATIVE_PATH) leave as it is."""
+"""A path that file(TO_CMAKE_PATH) and file(TO_NATIVE_PATH) do not change."""
 
 
 def _copy(run: Run, copied: list[str], destination: str) -> None:
-    """``file(COPY)``: a folder with its name, unless it ends with a slash. A relative destination lies in the build folder."""
+    """``file(COPY)``: a path that ends with a slash is copied without its name.
+
+    A relative destination is in the build folder.
+    """
     for path in copied if destination.startswith("/") else ():
         source = run.source(path)
         generate(run, f"{destination}/{posixpath.basename(path)}", folder=source is not None and run.is_folder(source))
@@ -93,7 +96,10 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
-    """Return the files, and folders if they are wanted, that a pattern matches, as paths that begin as the pattern does."""
+    """Return the files that a pattern matches, as paths with the beginning of the pattern.
+
+    With ``folders``, matching folders are included.
+    """
     path = pattern if pattern.startswith(TREE) else f"{run.places['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
     parts = path.split("/")
     fixed = next((index for index, part in enumerate(parts) if any(letter in part for letter in "*?[")), len(parts) - 1)
@@ -110,7 +116,7 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}
         if recurse and len(parts) - fixed > 1:
             return [HOLE]
-        # The search lists every folder that it enters.
+        # GLOB_RECURSE lists every folder that it enters.
         found += [name for name in above if recurse or whole.fullmatch(octets(name))]
     return [f"{top}/{name}" for name in found]
 
@@ -125,7 +131,7 @@ def _relative(path: str, base: str) -> str:
     if found == ".":
         return ""
     if ATOM in found and found.startswith(".."):
-        return HOLE  # from above what is looked at, whose name is not known
+        return HOLE  # the path leaves the analysed tree, whose own name is unknown
     return f"{found}/" if found.endswith("..") else found
 
 
@@ -135,10 +141,13 @@ _ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
 def _absolute(path: str, base: str) -> str:
     if not is_fixed(path) or not is_fixed(base) or _DRIVE.match(path):
         return HOLE
-    path, base = path.replace("\\", "/"), base.replace("\\", "/")  # on every system, where a path is made a whole one
+    path, base = (
+        path.replace("\\", "/"),
+        base.replace("\\", "/"),
+    )  # CMake converts these on every system
     whole = path if path.startswith("/") else posixpath.join(base, path)
     found = posixpath.normpath(whole)
-    # What lies above the package is not known.
+    # The folders above the tree are unknown.
     return found if whole.split("/")[1][:1] != ATOM or found.split("/")[1] == whole.split("/")[1] else HOLE
 
 

@@ -1,4 +1,4 @@
-"""Which packages a script names: find_package() and its kin, pkg-config, targets of others."""
+"""Packages that a script uses: find_package() and similar commands, pkg-config, targets of other packages."""
 
 from __future__ import annotations
 
@@ -21,14 +21,18 @@ _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
-"""Packages that turn BUILD_SHARED_LIBS on (reference, section C1.6)."""
+"""Packages that set BUILD_SHARED_LIBS to ON when they are found (build_shared_libs.cmake of ament_cmake_ros)."""
 _BUILD_TOOL: Final = "ament_cmake"
 _OF_ROS_1: Final = frozenset({"catkin", "roscpp"})
-"""What scripts for both ask for; a build for ROS 2 does not find it."""
+"""Packages of ROS 1 that scripts for both ROS versions search. A build for ROS 2 does not find them."""
 _FOUND_DECLARED: Final = f"{ATOM}found-build-depends"
-"""What stands for all that ament_auto_find_build_dependencies() finds: a target that is given it uses none of it for sure."""
+"""A value for all packages that ament_auto_find_build_dependencies() finds.
+
+A target that is linked with it does not certainly use any of them."""
 _PYTHON: Final = frozenset({"Python", "Python3"})
-"""What finds the interpreter, which is always there, and as a component the headers and libraries, which are not."""
+"""Packages that find the Python interpreter, which always exists.
+
+Their component Development finds headers and libraries, which need a dependency."""
 
 
 def find_package(run: Run, args: list[str]) -> int | None:
@@ -40,11 +44,11 @@ def find_package(run: Run, args: list[str]) -> int | None:
             run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
     if (run.get(f"{name}_DIR") or "").startswith(f"{TREE}/") and not run.muted:
-        run.bundled[name] = None  # the script says where it lies among the sources
+        run.bundled[name] = None  # the script sets X_DIR to a folder of the sources
     required = "REQUIRED" in args
     module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
     span = run.where(args[0]) if name else run.here()
-    told = run.at_home() or (run.is_helped() and span != run.here())  # or the package tells a helper what to find
+    told = run.at_home() or (run.is_helped() and span != run.here())  # or the package passes the name to a helper
     if name and module is None and told and not run.is_bundled(name):
         optional = not certain or ("QUIET" in args and not required)
         run.mention(name, "cmake", span, optional=optional)
@@ -62,16 +66,16 @@ def find_package(run: Run, args: list[str]) -> int | None:
 
 
 def _may_become_package(name: str) -> bool:
-    """Return whether a name that is known in part may be that of a ROS package: those are in lower case (REP 144)."""
+    """Return whether a partly known name may be that of a ROS package, which has no upper case (REP 144)."""
     return not any(letter.isupper() for letter in name)
 
 
 def found(run: Run, name: str, *, required: bool) -> None:
-    """Take a package for found: what it sets is unknown from now on, and its CMake code runs if it is in sight."""
+    """Mark a package as found: its variables become unknown, and its CMake code runs if it is in the workspace."""
     if name in _OF_ROS_1 and not required and name not in run.helpers:
         run.set(f"{name}_FOUND", "0")
         return
-    # Scripts for several build tools ask whether it is there; it is, where the manifest names it for the build.
+    # Scripts for several build tools test whether ament_cmake is found. It is, if package.xml declares it for the build.
     if required or (name == _BUILD_TOOL and name in run.sources.build_depends):
         run.put(run.packages, name, "1")
         if run.normal(f"{name}_FOUND") is not None:
@@ -98,7 +102,7 @@ def found(run: Run, name: str, *, required: bool) -> None:
 
 
 def _find_all(run: Run, args: list[str]) -> None:
-    """``ros_lint_find(build|test)``: what the manifest declares is searched."""
+    """``ros_lint_find(build|test)``: the dependencies that package.xml declares are searched."""
     names = run.sources.test_depends
     if args[:1] == ["build"]:
         names = run.sources.build_depends
@@ -118,7 +122,7 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 
 
 def _uses(run: Run, args: list[str]) -> None:
-    """``ros_lint_uses(for how names...)``: a macro is given the names of packages."""
+    """``ros_lint_uses(for how names...)``: the arguments of a macro are names of packages."""
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
@@ -126,7 +130,7 @@ def _uses(run: Run, args: list[str]) -> None:
         if name in _NO_PACKAGES:
             continue
         if name == _FOUND_DECLARED and purpose == "interfaces":
-            _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # keys are not found
+            _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # maybe, because rosdep keys are not found
         if HOLE in name:
             if _may_become_package(name):
                 run.hide(Facet.USES, "the name of a package is not known")
@@ -140,7 +144,7 @@ def _uses(run: Run, args: list[str]) -> None:
 
 
 def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
-    """Note what is given for packages to a command that asks whether they are found, and can never be."""
+    """Record arguments that a command rejects, because it expects found packages and these can never be found."""
     targets = [name for name in given if "::" in name] if command.startswith("ament_") else []
     if targets:
         are = "is a target" if len(targets) == 1 else "are targets"
@@ -157,7 +161,7 @@ def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """``ros_lint_target_uses(how target names...)``."""
+    """``ros_lint_target_uses(how target names...)``: a target uses packages."""
     _give(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
     given(run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names])
@@ -165,7 +169,7 @@ def _target_uses(run: Run, args: list[str]) -> None:
 
 
 def _give(run: Run, command: str, args: list[str]) -> None:
-    """Note that a target is given something, if so for sure, and where tests are not wanted, too."""
+    """Record that a command modifies a target, if this is certain even without tests."""
     name, certain = sure(args[0]) if args else ("", False)
     if certain and not (run.muted or run.unsure or run.testing) and is_known(name) and "::" not in name:
         run.given.setdefault((name, command), run.here())
@@ -180,7 +184,7 @@ def _pkg_config(run: Run, args: list[str]) -> None:
 
 
 def link(run: Run, args: list[str]) -> None:
-    """Note the packages whose targets or variables a target command names."""
+    """Record the packages whose targets or variables are arguments of a target command."""
     for arg in args[1:]:
         if "::" not in arg:
             continue
@@ -203,7 +207,7 @@ def link(run: Run, args: list[str]) -> None:
             if match[1] in run.sources.name or match[1] == "PROJECT_NAME":
                 continue
             package = found_as(run, match[1])
-            if package and run.prefixes[package]:  # and not by pkg-config, under a name of the script's own
+            if package and run.prefixes[package]:  # False for pkg-config, where the script chooses the prefix
                 place = command.span(frame.path, start, end) if frame.own else run.here()
                 run.mention(package, "target", place, match[0])
 
@@ -230,7 +234,7 @@ def _link_all(run: Run, args: list[str]) -> None:
 
 
 def _brings(run: Run, space: str, inner: str) -> bool:
-    """Return whether a target is of what is built along, or of a package that is found by the name of the target itself."""
+    """Return whether a target is of a bundled project, or of a package that is found by the name after ``::``."""
     return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
 
 
@@ -251,7 +255,7 @@ def _link_libraries(run: Run, args: list[str]) -> None:
 
 
 def _hide(run: Run, args: list[str]) -> None:
-    """``ros_lint_hide(facets reason)``."""
+    """``ros_lint_hide(facets reason)``: facets of the package are hidden."""
     facet = Facet(0)
     for name in split(args[0]):
         facet |= ALL_FACETS if name == "ANYTHING" else Facet[name]

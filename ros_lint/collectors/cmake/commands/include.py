@@ -1,4 +1,4 @@
-"""include() and add_subdirectory(): the package's own scripts, and those of other packages of the workspace."""
+"""include() and add_subdirectory(), with scripts of the package itself and of other packages of the workspace."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
     if optional:
         return None
     if is_module:
-        # Whatever a found package's or CMake's own module does, it is made to be called, not to build things itself.
+        # A module of CMake or of a found package defines commands, but does not build anything itself.
         run.open_world = True
         if not folders or HOLE not in folders:
             run.hide(Facet.USES, f"include() of the module {name}, which is not in sight")
@@ -74,7 +74,7 @@ def include_own(run: Run, path: str) -> int | None:
 
 
 def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
-    """Run a script of the package or of the tree around it, given by its path relative to the package."""
+    """Run a script of the package or of the tree around it. ``path`` is relative to the package."""
     around = is_outside(path)
     if around:
         run.around.append(parsed)
@@ -95,14 +95,14 @@ def _include_foreign(run: Run, name: str) -> int | None:
 
 
 def _skip(run: Run, what: str) -> int:
-    """Pass over a file of another package: it is made to be called, as a module is, and not to install things itself."""
+    """Skip a file of another package. Like a module, it probably defines commands and installs nothing itself."""
     run.open_world = True
     run.hide(Facet.USES, f"include() of {what} cannot be followed")
     return NEXT
 
 
 def _is_registered(run: Run) -> bool:
-    """Return whether include() is given a path that begins with what another package has put into the index."""
+    """Return whether the path of an include() begins with a value from the ament index."""
     command = run.frames[-1].command
     match = _BEGINS.match(command.args[0][0]) if command is not None and command.args else None
     return match is not None and match[1] in run.of_index
@@ -124,7 +124,7 @@ def include_foreign(run: Run, package: str, source: str) -> int | None:
 
 
 def _configured(command: Command, project: str) -> Command:
-    """Return a command of a template as it is installed. Other variables than the name are rarely asked for in code."""
+    """Return a command of a template with ``@PROJECT_NAME@`` replaced. Code rarely uses other variables."""
     args = [(text.replace("@PROJECT_NAME@", project), kind, start, end) for text, kind, start, end in command.args]
     return command._replace(args=tuple(args))
 
@@ -140,7 +140,7 @@ MODULES: Final = frozenset({
     "CheckStructHasMember", "CheckPIESupported", "CheckSourceCompiles", "DefaultPolicies", "FortranCInterface",
     "CMakePushCheckState", "CheckCXXLinkerFlag",
 })  # fmt: skip
-"""CMake's own modules. They define commands and build nothing by themselves."""
+"""Modules of CMake that only define commands."""
 
 
 def _module(run: Run, name: str) -> None:
@@ -163,7 +163,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
         run.entered_for_tests[path] = None
     last = posixpath.basename(run.place(path))
     if path and (parsed is None or run.is_folder(f"{path}/include/{last}")):
-        run.bundled[last] = None  # a library with a folder of its own, or one that is not checked out
+        run.bundled[last] = None  # a library in its own folder, or a submodule that is not checked out
     if parsed is None:
         if run.is_folder(path):
             run.open_world = run.wild = run.builds = True
@@ -186,7 +186,7 @@ _TOP: Final = "CMakeLists.txt"
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:
-    """Return where a folder is built: below where the current one is, as the arguments behind its name say, or as its path."""
+    """Return the build folder of a subdirectory: below that of the current directory, by its second argument or its path."""
     told = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
     below = told or relative(run.place(run.directory), run.place(path))
     if not is_fixed(below) or (is_outside(below) and not told):

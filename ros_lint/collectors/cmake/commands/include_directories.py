@@ -1,6 +1,6 @@
-"""Where targets get headers of other packages from: what they are linked with, and their include directories.
+"""Packages whose headers a target can include, from its linked libraries and its include directories.
 
-Everything counts that may be given to a target, under whatever conditions: what is not in here, no build gives it.
+Conditional arguments count too. So a package that is not listed provides no headers to the target in any build.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ if TYPE_CHECKING:
 FOREIGN_VARIABLE: Final = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
 )
-"""A reference to what a found package sets, with its name."""
+"""A reference to a variable of a found package. The group is the name of the package."""
 
 ALL_TARGETS: Final = ""
-"""What stands for every target, where include_directories() and link_libraries() give something."""
+"""The key for arguments of include_directories() and link_libraries(), which apply to every target."""
 
 _ANYTHING: Final = HOLE
 _NAME = re.compile(r"(?<![\w./+\1-])[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*(?![\w./+:-])")
 _OF_OURS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
-"""Folders that hold no headers of other ROS packages."""
+"""Folders without headers of other ROS packages."""
 
 
 def given(run: Run, target: str, args: Iterable[str]) -> None:
-    """Note what a target is given: targets, libraries or whole paths, as evaluated, and packages with ``::`` behind the name."""
+    """Record the sources of headers of a target: evaluated targets, libraries and paths. A package ends with ``::``."""
     have = run.headers.setdefault(target, {})
     known = True
     for arg in args:
-        if _PLAIN.match(arg):  # by far the most
+        if _PLAIN.match(arg):  # by far the most frequent case
             have[arg] = None
             continue
         known = known and HOLE not in arg
@@ -52,7 +52,7 @@ _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 
 
 def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
-    """Note the include directories that a target is given."""
+    """Record the include directories of a target."""
     folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
     here = run.places["CMAKE_CURRENT_SOURCE_DIR"]
     given(run, target, [f"{here}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
@@ -73,7 +73,7 @@ def _names(run: Run, arg: str) -> tuple[str, ...]:
 
 
 def _written(run: Run) -> list[str]:
-    """Return which packages the command that runs names by their variables, and what may be anything."""
+    """Return the packages whose variables the current command names, and _ANYTHING if another argument is unknown."""
     command = run.frames[-1].command
     found: list[str] = []
     for text, kind, _, _ in command.args if command is not None else ():
@@ -85,13 +85,13 @@ def _written(run: Run) -> list[str]:
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
-    """Return the package whose variable a reference names: anything where none is found that sets it, or the script does."""
+    """Return the package of a variable, _ANYTHING if no found package sets it or the script sets it itself."""
     name = found_as(run, variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING
 
 
 def found_as(run: Run, prefix: str) -> str:
-    """Return by what name was found what sets variables with a prefix, whatever its case; "" for nothing that was."""
+    """Return the found package whose variables have a prefix, ignoring case; "" if there is none."""
     if run.prefixes.get(prefix):
         return prefix
     letters = folded(prefix)
@@ -100,12 +100,12 @@ def found_as(run: Run, prefix: str) -> str:
 
 
 def _given(run: Run, args: list[str]) -> None:
-    """``ros_lint_headers_of(target names...)``: the target has the headers of packages."""
+    """``ros_lint_headers_of(target names...)``: the target has the include directories of packages."""
     given(run, args[0], args[1:])
 
 
 def _options(run: Run, args: list[str]) -> None:
-    """Note include directories that are given as options of the compiler."""
+    """Record include directories in compiler options (-I, -isystem)."""
     if any(_FOLDER_OPTION.search(arg) for arg in args):
         given(run, ALL_TARGETS, [f"/{ATOM}"])
 
@@ -121,12 +121,12 @@ _PROPERTIES: Final = frozenset(
 
 
 def are_in_flags(run: Run) -> bool:
-    """Whether the flags that every target is compiled with have include directories."""
+    """Return whether the compiler flags of all targets have include directories."""
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
 def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
-    """Return what a target may get headers from, as find_package() calls it or by another name; None if from anywhere."""
+    """Return the names of packages (and libraries) whose headers a target may include; None if these may be any."""
     found: dict[str, None] = {}
     waiting = [name, ALL_TARGETS]
     seen: set[str] = set()
@@ -141,7 +141,7 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
                 return None
             if target["KIND"] == "alias":
                 waiting.append(target["ALIASED"])
-        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}__"):  # its interfaces aside
+        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}__"):  # except its interfaces
             owners = _owners(run, each)
             if not owners:
                 return None
@@ -153,9 +153,9 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
 
 
 def _owners(run: Run, name: str) -> tuple[str, ...]:
-    """Return what a target or library that is none of this package may be called after; () if that may be any package.
+    """Return the possible packages of a target or library of another package; () if it may be any package.
 
-    ``BT::behaviortree_cpp`` is of behaviortree_cpp.
+    For example, ``BT::behaviortree_cpp`` is a target of behaviortree_cpp.
     """
     space, sign, inner = name.partition("::")
     if not sign or not inner:

@@ -1,4 +1,4 @@
-"""What install() puts where (cmake-commands install(7); reference, section C5)."""
+"""install() of files, programs, folders and targets (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FILE_WORDS: Final = {
 _WRITES = re.compile(
     r"\bfile\s*\(|symlink|\bcopy|\binstall|\b(?:ln|cp|mv)\b|configure_file|rename|\btar\b|\bmake\b", re.IGNORECASE
 )
-"""What code that puts files somewhere has in it."""
+"""Words in install(CODE) that write or copy files."""
 
 
 def _install(run: Run, args: list[str]) -> None:
@@ -95,7 +95,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
 
 
 def _may_lie(run: Run, value: str) -> bool:
-    """Return whether a path that is known in part may be that of a file: if it leads into the package, of one that is there."""
+    """Return whether a partly known path may be that of an existing file. True for a path outside of the package."""
     home = f"{run.named('')}/"
     if value.startswith(home):
         inside = value[len(home) :]

@@ -1,4 +1,4 @@
-"""Where in the prefix an install() puts something, and which side of the package that is."""
+"""Destinations of install() in the install prefix, and the facets of the package that they belong to."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TYPES: Final = {
 
 
 def facet_of(run: Run, destination: str | None) -> Facet:
-    """Return which side of the package something installed there belongs to."""
+    """Return the facet of the package for files that are installed to a destination, ANYWHERE if it is unknown."""
     if not destination or destination == ".":
         return ANYWHERE
     if destination == "lib":
@@ -33,12 +33,12 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 
 def hide(run: Run, destination: str | None, reason: str) -> None:
-    """Note that it is not known what comes to a place, None if that is unknown, too."""
+    """Record that the files installed to a destination are unknown; the destination is None if it is unknown too."""
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 
 def place_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
-    """Return where sections of arguments say that files go, None if that is not known or lies outside of the prefix."""
+    """Return the destination in sections of arguments (see ``sections()``), None if it is unknown or outside of the prefix."""
     found = parts.get("DESTINATION")
     if found:
         return run.destination(sure(found[0])[0]) if len(found) == 1 else None

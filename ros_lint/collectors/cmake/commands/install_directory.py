@@ -1,4 +1,4 @@
-"""install(DIRECTORY): folders with all that is in them, but for what patterns leave out."""
+"""install(DIRECTORY): folders with their files, except those that patterns exclude."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ class _Pattern(NamedTuple):
     matches: re.Pattern[str]
     excluded: bool
     executable: bool | None
-    """What its permissions say, None when it gives none."""
+    """True if its PERMISSIONS include an execute permission, None if it has no PERMISSIONS."""
 
 
 class _Rule(NamedTuple):
-    """What an install(DIRECTORY) says of all its folders."""
+    """The options of an install(DIRECTORY), which apply to all its folders."""
 
     patterns: list[_Pattern]
     only: bool
-    """Whether files that no pattern matches are left out (FILES_MATCHING)."""
+    """True if only files that match a pattern are installed (FILES_MATCHING)."""
     executable: bool | None
-    """What the permissions say, None when those of the source are kept."""
+    """True if installed files get an execute permission, None if they keep the permissions of the source."""
     optional: bool
 
 
 def install_directories(run: Run, args: list[str]) -> None:
-    """Install what ``install(DIRECTORY args...)`` names."""
+    """Run ``install(DIRECTORY args...)``."""
     at = min([args.index(word) for word in ("PATTERN", "REGEX") if word in args], default=len(args))
     parts = sections(args[:at], _WORDS)
     destination = place_of(run, parts)
@@ -58,7 +58,7 @@ def install_directories(run: Run, args: list[str]) -> None:
     for value in parts[""]:
         plain = sure(value)[0]
         source = run.reached(plain)
-        name = posixpath.basename(plain)  # that of the folder is kept, wherever it lies
+        name = posixpath.basename(plain)  # the folder keeps its name, even if it is outside of the package
         if destination is None or HOLE in plain or (source is not None and ATOM in name):
             known = destination is not None and name not in ("", ".", "..") and is_known(name)
             place = join_path(destination or "", name) if known else destination
@@ -85,7 +85,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     if filled:
         hide(run, target, "install(DIRECTORY) of a folder that the build fills")
     elif not (own or made) and source and not run.is_unseen(source):
-        # What is not there is no folder for CMake, but a file, which it passes over where patterns leave it out.
+        # CMake treats a path that does not exist as a file, and ignores it if patterns exclude that file.
         if not rule.optional and _chosen(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
             run.missing.append((f"{source}/", span, conditional))
         return
@@ -106,14 +106,14 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
 
 
 def _made(run: Run, folder: str) -> tuple[list[str], bool]:
-    """Return the files below a folder that come into being during the build, and whether there are more that nobody knows."""
+    """Return the files below a folder that the build generates, and whether it generates more, unknown files."""
     below = f"{folder}/" if folder else ""
     new = sorted(path for path in run.generated if path.startswith(below) and path not in run.files)
     return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.below(path[:-1]) for path in new)
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
-    """Install what configure_file() has put into a folder below the build folder. The build may put more there."""
+    """Install the files that configure_file() wrote to a folder below the build folder. The build may write more there."""
     plain, certain = sure(value)
     folder = run.build(plain)
     if folder is None or run.muted:
@@ -128,9 +128,9 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
-    """Return the files below a folder that are none of the package's own, but are installed with them all the same.
+    """Return the files below a folder that are not files of the package, but are installed with the folder.
 
-    These are those of nested packages, and of folders that colcon is told to ignore.
+    They are files of nested packages, or of folders with a COLCON_IGNORE.
     """
     found: list[str] = []
     for folder in run.sources.unseen:
@@ -144,12 +144,13 @@ def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
 
 
 def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
-    """Return whether patterns leave a file below a folder in, and what permissions they give it.
+    """Return whether the patterns include a file below a folder, and whether their permissions make it executable.
 
-    Patterns see the path of the folder as it is written.
+    The second value is None if no pattern with PERMISSIONS matches. ``top`` is the path of the folder as written in the script,
+    because patterns are matched against it.
     """
     end = -1
-    while True:  # the folder and those on the way to the file
+    while True:  # the folder itself and the folders between it and the file
         folder = f"{top}/{file[:end]}" if end > 0 else top
         if any(pattern.excluded and pattern.matches.search(octets(folder)) for pattern in rule.patterns):
             return False, None
@@ -190,6 +191,6 @@ def _patterns(args: list[str]) -> list[_Pattern] | None:
 
 
 def _regex(text: str) -> re.Pattern[str] | None:
-    from ros_lint.collectors.cmake.evaluator.regex import translated  # noqa: PLC0415  (few packages match by expressions)
+    from ros_lint.collectors.cmake.evaluator.regex import translated  # noqa: PLC0415  (few packages use REGEX)
 
     return translated(text)

@@ -1,4 +1,4 @@
-"""install(TARGETS): what targets build, and where it goes."""
+"""install(TARGETS): the files that targets build, and their destinations."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_lint.facts.visibility import Facet, Opaque
 
 
 def install_targets(run: Run, args: list[str]) -> None:
-    """Note the targets that ``install(TARGETS args...)`` names."""
+    """Record the targets of ``install(TARGETS args...)``."""
     names: list[str] = []
     destinations: dict[str, str] = {}
     exported_in = ""
@@ -30,7 +30,7 @@ def install_targets(run: Run, args: list[str]) -> None:
         elif arg in INSTALL_TARGETS_WORDS:
             keyword, room = arg, INSTALL_TARGETS_WORDS[arg]
         elif arg == "TARGETS":
-            keyword = ""  # said again, which CMake allows; likewise with files
+            keyword = ""  # CMake allows the word to be repeated
         elif not keyword:
             names.append(arg)
         elif keyword == "FILE_SET" and room:
@@ -65,7 +65,7 @@ _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 
 def installed_targets(run: Run) -> Iterator[InstalledFile]:
-    """Return the files of the targets that were installed, after the whole script has run."""
+    """Yield the files of the installed targets. Call it after the whole script has run."""
     for installed in run.installed_targets:
         name, span, conditional = installed.target, installed.span, installed.conditional
         target = real_target(run, name)
@@ -74,7 +74,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
                 run.undefined.append((name, span, conditional))
             reason = f"what the target {name} is, is not known"
             run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
-            if installed.executables is not None:  # should it be there after all, it is most likely a program
+            if installed.executables is not None:  # if the target exists, it is most likely a program
                 yield InstalledFile(join_path(installed.executables, name), "", True, True, span, name)
             continue
         yield from installed_headers(run, name, target, installed.headers, conditional or "CONDITIONAL" in target, span)
@@ -86,7 +86,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
 
 
 def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[InstalledFile]:
-    """Return the files of an installed target that builds some."""
+    """Yield the files of an installed target that builds files."""
     name, span, kind = installed.target, installed.span, target["KIND"]
     where = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
     file = output_name(target)

@@ -1,4 +1,4 @@
-"""list(): cmake-commands list(7)."""
+"""Modes of list() (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _prepend(run: Run, name: str, args: list[str]) -> None:
 
 def _remove_item(run: Run, name: str, args: list[str]) -> None:
     value = run.get(name)
-    if not value or not args:  # then CMake does not even take the list apart, which would lose its escapes
+    if not value or not args:  # CMake then does not split the list, so its escapes are kept
         return
     if not all(is_known(arg) for arg in args) and not all(is_fixed(arg) for arg in args):
         run.set(name, HOLE)
@@ -248,7 +248,7 @@ def _transformed(item: str, action: Callable[[str], str]) -> str:
 
 
 def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
-    """Return the indices that a selector picks, twice where it does so. Raises ValueError where CMake reports an error."""
+    """Return the indices of the elements that a selector selects, possibly repeated. Raises ValueError if CMake has an error."""
     if not selector:
         return range(len(items))
     if not is_fixed(join(items)):

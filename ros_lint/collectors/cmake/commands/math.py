@@ -1,4 +1,4 @@
-"""math(EXPR): 64-bit integers with C's operators (cmake-commands math(7))."""
+"""math(EXPR): expressions of 64-bit integers with operators of C (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, is_known
 _TOKEN = re.compile(r"\s*(?:(0[xX][0-9a-fA-F]+|[0-9]+)|(<<|>>|[-+*/%|&^~()]))")
 _BINARY: Final = {"|": 1, "^": 2, "&": 3, "<<": 4, ">>": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6}
 _MOST_DIGITS: Final = 19
-"""Of a number of 64 bits."""
+"""Digits of a number of 64 bits."""
 _LOWEST, _HIGHEST = -(1 << 63), (1 << 63) - 1
 
 
 class _MathError(Exception):
-    """CMake refuses the expression, or C does not define its value."""
+    """CMake rejects the expression, or C does not define its value."""
 
 
 def _math(run: Run, args: list[str]) -> None:
@@ -38,7 +38,7 @@ def _math(run: Run, args: list[str]) -> None:
 
 
 def evaluate(text: str) -> int:
-    """Return the value of an expression. Raises an error where CMake does."""
+    """Return the value of an expression. Raises _MathError if CMake rejects it or C does not define its value."""
     tokens: list[str] = []
     at = 0
     text = text.rstrip()

@@ -1,4 +1,4 @@
-"""Programs of other packages that the build of a package runs: ``COMMAND ros2 run p program``."""
+"""Programs of other packages that a build runs, as in ``COMMAND ros2 run package program``."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def started(run: Run, args: Sequence[str], *, optional: bool = False) -> None:
-    """Note the packages whose programs or launch files the commands among some arguments start.
+    """Record the packages whose programs or launch files are started by ``ros2 run`` or ``ros2 launch`` in the arguments.
 
-    With ``optional``, the command is there for whoever asks for it.
+    ``optional`` is True for a custom target that is not built by default.
     """
     for command, verb, package in zip(args, args[1:], args[2:], strict=False):
         if command == "ros2" and verb in ("run", "launch") and is_known(package):

@@ -1,4 +1,4 @@
-"""string(): cmake-commands string(7)."""
+"""Modes of string() (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _string(run: Run, args: list[str]) -> None:
 
 
 def _outputs(mode: str, args: list[str]) -> list[str]:
-    """Return the variables that a mode sets which is not followed, given the arguments after it."""
+    """Return the variables that a mode without a model sets, given the arguments after the mode."""
     if mode == "JSON":
         return [args[0], args[2]] if args[1:2] == ["ERROR_VARIABLE"] and len(args) > 2 else args[:1]
     if mode == "CONFIGURE":
@@ -66,7 +66,7 @@ def _outputs(mode: str, args: list[str]) -> list[str]:
 
 
 def _assign(run: Run, name: str, value: str, *texts: str) -> None:
-    """Set a variable to what was made of some texts; of those, an unknown value may hold one bracket of a pair."""
+    """Set a variable to a value that was computed from texts. An unknown part of it may have one bracket of a pair."""
     if HOLE in value and any("[" in text or "]" in text for text in texts):
         run.unpaired = True
     if HOLE not in name:
@@ -92,7 +92,7 @@ def ascii_lower(text: str) -> str:
 
 
 def _known(function: Callable[..., str]) -> Callable[..., str]:
-    """Return a function that answers HOLE as soon as one of its arguments is not plain text."""
+    """Return a function that returns HOLE if one of its arguments is not plain text."""
 
     def guarded(*args: str) -> str:
         return function(*args) if all(map(is_known, args)) else HOLE
@@ -126,7 +126,7 @@ def _substring(text: str, begin: str, length: str) -> str:
     try:
         return whole[start : len(whole) if count < 0 else start + count].decode()
     except UnicodeDecodeError:
-        return HOLE  # half a letter
+        return HOLE  # part of a multi-byte character
 
 
 def strip(text: str) -> str:
@@ -205,7 +205,7 @@ def _identifier(text: str) -> str:
 
 def _hash(name: str) -> Callable[..., str]:
     def hashed(text: str) -> str:
-        import hashlib  # noqa: PLC0415  (no package needs it but by accident)
+        import hashlib  # noqa: PLC0415  (few packages need it)
 
         return hashlib.new(name, to_bytes(text), usedforsecurity=False).hexdigest()
 
@@ -239,7 +239,7 @@ _FUNCTIONS: Final[dict[str, tuple[int, Callable[..., str]]]] = {
     "SHA3_384": (0, _hash("sha3_384")),
     "SHA3_512": (0, _hash("sha3_512")),
 }
-"""Where among the arguments after the mode the output variable stands, and what computes its value from the others."""
+"""For each mode, the index of the output variable in its arguments, and the function from the other arguments to the value."""
 
 
 # --- expressions ---------------------------------------------------------------------------------------------------
@@ -301,7 +301,7 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
 
 
 def replace_all(regex: str, template: str, text: str) -> str:
-    """Return a text with every match replaced. Raises RegexError."""
+    """Return a text with every match replaced. Raises RegexError if the expression or the template cannot be evaluated."""
     parts = _replacement(template)
     found: list[str] = []
     size = 0

@@ -1,4 +1,4 @@
-"""CMake's commands that ask the machine, or for what is not followed here, and put the answer into variables."""
+"""Commands that query the machine or properties without a model. Their output variables become unknown."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ def _unknown(run: Run, name: str) -> None:
 
 
 def _first(run: Run, args: list[str]) -> None:
-    """A command whose first argument names the variable."""
+    """Run a command whose first argument is the output variable."""
     if args:
         _unknown(run, args[0])
 
 
 def _found(run: Run, args: list[str]) -> None:
-    """A command that keeps its answer in the cache, where it outlives functions; its first argument names the variable."""
+    """Run a command whose first argument is the output variable, in the cache. The value survives the end of a function."""
     if args:
         _keep(run, args[0])
 
 
 def _checked(run: Run, args: list[str]) -> None:
-    """The same with the last argument."""
+    """Run a command whose last argument is the output variable, in the cache."""
     if args:
         _keep(run, args[-1])
 
@@ -46,7 +46,7 @@ def _host(run: Run, args: list[str]) -> None:
 
 
 def _path(run: Run, args: list[str]) -> None:
-    """``cmake_path()``: it changes the variable that it is given, or sets another one."""
+    """``cmake_path()``, which changes its input variable or sets an output variable."""
     if len(args) < 2:
         return
     if "OUTPUT_VARIABLE" in args[:-1]:

@@ -1,4 +1,4 @@
-"""Headers that belong to a target and are installed along with it: file sets, and those in its property PUBLIC_HEADER."""
+"""Headers that are installed with a target: file sets, and the property PUBLIC_HEADER."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet, Opaque
 
 FILE_SET: Final = "FILE_SET "
-"""How the name of a file set begins where artifacts of targets have names."""
+"""Prefix of the name of a file set among the names of artifacts."""
 DESTINATION: Final = "include"
-"""Where headers go of which install() does not say it."""
+"""Destination of headers without a DESTINATION in install()."""
 _WORDS: Final = {"FILE_SET": 1, "TYPE": 1, "BASE_DIRS": -1, "FILES": -1}
 
 
 def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
-    """Note the file sets of a call of target_sources(), and return all sources in it, those of the sets included."""
+    """Record the file sets of a target_sources() call, and return all of its sources, including those of the sets."""
     found: list[str] = []
     starts = [index for index, arg in enumerate(args) if arg in VISIBILITY or arg == "FILE_SET"]
     for start, end in zip([0, *starts], [*starts, len(args)], strict=True):
@@ -42,7 +42,10 @@ def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
 def installed_headers(
     run: Run, name: str, target: Properties, places: tuple[tuple[str, str | None], ...], unsure: bool, span: Span
 ) -> Iterator[InstalledFile]:
-    """Return the headers that install() puts to some places, by artifact. Sets that nobody knows hide what there is."""
+    """Yield the headers that install() installs with a target, given the destination of each artifact.
+
+    An unknown file set or destination hides the libraries of the package.
+    """
     for artifact, where in places:
         if artifact.startswith(FILE_SET):
             of_set = artifact.removeprefix(FILE_SET)

@@ -1,4 +1,4 @@
-"""Targets: add_executable(), add_library(), their sources and properties."""
+"""Commands for targets, their sources and their properties, such as add_executable()."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "U
 
 
 SOURCES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
-"""How sources end: what CMake adds to one that is not there without it (policy CMP0115)."""
+"""Suffixes of sources. CMake appends them to the name of a source that does not exist (policy CMP0115)."""
 
 
 def _add_executable(run: Run, args: list[str]) -> None:
@@ -43,7 +43,7 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
     if not args or not is_known(args[0]):
         if not run.testing:
             run.hide(Facet.LIBRARIES, "the name of a target is not known")
-        elif args:  # called after an implementation of the middleware, say
+        elif args:  # for example, a name with the RMW implementation in it
             name = "".join([letter for letter in args[0] if letter.isprintable()])
             _build(run, name, Properties(KIND=kind), args, keywords)
         return
@@ -59,7 +59,7 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
 
 
 def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
-    """Take a target for built, of the sources that the arguments name; the name is as much of it as is known."""
+    """Record that a target is built from the sources in the arguments. ``name`` is the known part of its name."""
     target["SOURCES"] = ""
     if run.conditional:
         target["CONDITIONAL"] = "1"
@@ -168,7 +168,7 @@ def _property(run: Run, name: str, wanted: str, missing: str) -> str:
 
 
 def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> None:
-    """What add_custom_command() writes may be named as a source before it is there."""
+    """Run add_custom_command(), whose outputs may be used as sources."""
     started(run, args, optional=optional)
     outputs = False
     for arg in args:
@@ -181,7 +181,7 @@ def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> Non
 
 
 def generate(run: Run, path: str, *, folder: bool = False) -> None:
-    """Note that a file, or a folder with nobody knows what in it, comes into being during the build."""
+    """Record that the build generates a file, or a folder with unknown files."""
     place = run.source(path)
     if place is not None:
         run.generated.add(f"{place}/" if folder else place)
@@ -194,7 +194,7 @@ def _custom_target(run: Run, args: list[str]) -> None:
 
 
 def output_name(target: Properties) -> str | None:
-    """Return the file name of what a target builds, None when it is unknown or there is none."""
+    """Return the name of the file that a target builds, None if it is unknown or the target builds none."""
     kind = target["KIND"]
     specific = {"executable": "RUNTIME", "shared": "LIBRARY", "module": "LIBRARY", "static": "ARCHIVE"}.get(kind)
     if specific is None:
@@ -232,7 +232,7 @@ _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "e
 
 
 def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
-    """Return the targets of the package that another one is linked with, aliases by the names of what they stand for."""
+    """Return the targets of the package that a target is linked with. An alias is replaced by its target."""
     found: dict[str, Span] = {}
     for other, span in run.links[name].items():
         target = real_target(run, other)
@@ -242,7 +242,7 @@ def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
 
 
 def real_target(run: Run, name: str) -> Properties | None:
-    """Return a target by its name or that of an alias, or None."""
+    """Return the target of a name or an alias, None if there is none."""
     target = run.targets.get(name)
     if target is not None and target["KIND"] == "alias":
         return run.targets.get(target["ALIASED"])
