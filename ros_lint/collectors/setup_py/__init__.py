@@ -1,1 +1,1 @@
-"""setup.py and setup.cfg: evaluation and edits."""
+"""Evaluation and edits of setup.py and setup.cfg."""

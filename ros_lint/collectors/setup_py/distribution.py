@@ -1,4 +1,4 @@
-"""What the options of setup() install, as distutils does it: the ways of data files, scripts, entry points, modules."""
+"""Files that setup() installs according to its options: data files, scripts, entry points, modules."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ros_lint.facts.setup_py import EntryPoint
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 INSTALLED = Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON
-"""What setup.py decides."""
+"""The facets of a package that setup.py determines."""
 _HARMLESS_COMMANDS = frozenset({"sdist", "test", "clean", "pytest", "lint", "upload", "docs", "build_sphinx"})
 _ENTRY = re.compile(r"\s*([^=\s][^=]*?)\s*=\s*(.*?)\s*\Z", re.DOTALL)
 _RESERVED_FOLDERS = frozenset(
@@ -27,23 +27,26 @@ _RESERVED_FOLDERS = frozenset(
         "exercise", "exercises", "htmlcov",
     }
 )  # fmt: skip
-"""Folders that setuptools does not take for packages when it looks for them by itself."""
+"""Folders that the automatic discovery of setuptools does not treat as packages."""
 
 
 class Context(NamedTuple):
-    """What the installed files depend on beside the options of setup()."""
+    """Data about the package that determines the installed files together with the options of setup()."""
 
     files: Files
     executables: AbstractSet[str]
     scripts: str | None
-    """The folder of programs relative to the prefix, None when it is not known."""
+    """The folder of programs relative to the prefix, None if it is unknown."""
     call: Span
-    """Where to point when nothing more exact is known."""
+    """The call of setup(), which is the place of values without a place of their own."""
     conditional: bool
 
 
 class Distribution:
-    """What one call of setup() installs. ``place`` says where a value comes from, if that is known."""
+    """The files that one call of setup() installs.
+
+    ``place`` is a function from a value and a default to the span of the value; the default is for a value without a place.
+    """
 
     def __init__(self, context: Context, place: Callable[[Value, Span], Span]) -> None:
         self._context = context
@@ -56,7 +59,7 @@ class Distribution:
         self.problems: list[Problem] = []
 
     def read(self, options: Mapping[str, Value]) -> None:
-        """Take in the options of setup()."""
+        """Compute the installed files from the options of setup()."""
         if REST in options:
             self._hide(INSTALLED, options[REST])
         self._python(options)
@@ -80,7 +83,7 @@ class Distribution:
         self.opaque.append(Opaque(facet, reason, self._place(value, self._context.call)))
 
     def _items(self, value: Value, facet: Facet) -> Iterator[tuple[Value, bool]]:
-        """Yield the elements of a list that are known, and whether each depends on something unknown."""
+        """Yield the known elements of a list, each with whether it depends on something unknown."""
         if value is None:
             return
         if not isinstance(value, (list, tuple, set)):
@@ -118,7 +121,7 @@ class Distribution:
 
     def _package(self, given: str, folders: Mapping[str, str]) -> None:
         files = self._context.files
-        name = given.strip("/").replace("/", ".")  # setuptools warns of a path, and installs what lies there
+        name = given.strip("/").replace("/", ".")  # setuptools warns about a path, but installs that package
         folder = folder_of(name, folders)
         self.python_packages.append(name)
         if not files.is_folder(folder or "."):
@@ -130,7 +133,7 @@ class Distribution:
             self.moved += [f"{lies}/"] if lies != "." else [f"{module}.py" for module in modules]
 
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
-        """Return what setuptools finds by itself (since 61): packages in src, or the only package there is."""
+        """Return the packages and folders that setuptools (since 61) discovers: those in src/, or a single top package."""
         files = self._context.files
         if "" in folders or files.is_folder("src"):
             top = folders.get("", "src")
@@ -179,7 +182,7 @@ class Distribution:
         if path is not None and not context.files.is_file(path):
             self._problem("missing-file", f"'{path}' does not exist", source, path)
             return
-        # Whether a file outside the package is there is not known.
+        # It is unknown whether a file outside of the package exists.
         self._provide(posixpath.join(folder, posixpath.basename(str(source))), path or "", maybe or not path, source)
 
     def _scripts(self, value: Value) -> None:
@@ -209,7 +212,7 @@ class Distribution:
             self._hide(Facet.EXECUTABLES, value)
 
     def _entry_lines(self, group: str, value: Value, maybe: bool) -> None:
-        """Take in the lines of a text, or of texts in lists however nested, as setuptools does."""
+        """Read the entry points on the lines of a text, or of texts in nested lists, as setuptools does."""
         if isinstance(value, str):
             for line in value.splitlines():
                 self._entry_point(group, line, value, maybe)
@@ -244,13 +247,13 @@ class Distribution:
 
 
 def _facet(folder: str) -> Facet:
-    """Return what a file in a folder of the prefix is."""
+    """Return the facet of a file in a folder of the install prefix."""
     top = folder.partition("/")[0]
     return {"share": Facet.SHARE, "lib": Facet.EXECUTABLES, "bin": Facet.EXECUTABLES}.get(top, INSTALLED)
 
 
 def folder_of(package: str, folders: Mapping[str, str]) -> str:
-    """Return the folder of a Python package, as the option package_dir has it."""
+    """Return the folder of a Python package according to the option package_dir, given as ``folders``."""
     head, tail = package.split("."), list[str]()
     while head:
         name = ".".join(head)

@@ -1,4 +1,4 @@
-"""Where a ``setup.py`` has lists that a fix can add to."""
+"""Lists in a ``setup.py`` to which a fix can add elements."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _OPTIONS = ("data_files", "packages")
 
 
 def collect(source: Text, package: str) -> tuple[EditableList, ...]:
-    """Return the lists of ``data_files``, ``packages`` and console scripts, as far as they are written out.
+    """Return the lists of ``data_files``, ``packages`` and console scripts that are list literals.
 
-    ``package`` is the name of the package, for the variable that holds it.
+    ``package`` is the name of the package. The variable with this value is recorded in each result.
     """
     try:
         tree = parse(source)
@@ -42,7 +42,7 @@ def collect(source: Text, package: str) -> tuple[EditableList, ...]:
 
 
 def _glob(node: ast.stmt) -> str:
-    """Return the name that an import gives to glob.glob, "" for any other statement."""
+    """Return the name under which an import makes glob.glob available, "" for any other statement."""
     if isinstance(node, ast.Import):
         return next((f"{alias.asname or 'glob'}.glob" for alias in node.names if alias.name == "glob"), "")
     if isinstance(node, ast.ImportFrom) and node.module == "glob":
@@ -99,7 +99,10 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Editable
 
 
 def _joins(found: ast.List) -> str:
-    """Return how the last folder of data_files is put together that is not written as one text."""
+    """Return how the last folder of data_files that is no plain text is composed.
+
+    The name of the join function as written, "f" for an f-string, "" for any other expression.
+    """
     folders = [element.elts[0] for element in found.elts if isinstance(element, ast.Tuple) and element.elts]
     for folder in reversed(folders):
         if isinstance(folder, ast.Call) and callee(folder) == "join":

@@ -1,4 +1,4 @@
-"""Texts in ``setup.py`` that a fix can change: the patterns of globs, and the places where a comma between two is missing."""
+"""Texts in ``setup.py`` that a fix can change: patterns of globs, and gaps between texts where a comma is missing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 def collect(source: Text) -> tuple[WrittenText, ...]:
-    """Return the last piece of each pattern that ``glob()`` is given, if written out, and gaps within texts with two ``=``."""
+    """Return the last literal of each pattern of ``glob()``, and the gaps in implicitly joined texts with several ``=``.
+
+    Example of a gap: two entry points ``'a = p.a:main' 'b = p.b:main'`` without a comma between them.
+    """
     try:
         tree = parse(source)
     except NotPythonError:
@@ -30,7 +33,7 @@ def _found(source: Text, tree: ast.Module) -> Iterator[WrittenText]:
             last = _last(node.args[0])
             if isinstance(last, ast.Constant) and isinstance(last.value, str):
                 span = span_of(source, last)
-                # With quotes of one letter and without escapes, on a line.
+                # The literal has quotes of one letter, no escapes and no line break.
                 if span.line == span.end_line and span.end_column - span.column == len(last.value) + 2:
                     inner = span._replace(column=span.column + 1, end_column=span.end_column - 1)
                     yield WrittenText("glob", last.value, inner)
@@ -41,7 +44,7 @@ def _found(source: Text, tree: ast.Module) -> Iterator[WrittenText]:
 
 
 def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
-    """Yield the ends of the texts that stand side by side and make one, but for the last."""
+    """Yield the ends of the literals of an implicitly joined text, except the last one."""
     from ros_lint.base.python_tokens import tokens  # noqa: PLC0415  (few files have such a text)
 
     start, end = range_of(source, node)
@@ -50,7 +53,7 @@ def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
 
 
 def _last(pattern: ast.expr) -> ast.expr:
-    """Return what a pattern ends with."""
+    """Return the last operand or argument of the expression of a pattern."""
     while isinstance(pattern, (ast.BinOp, ast.Call)):
         pattern = pattern.right if isinstance(pattern, ast.BinOp) else pattern.args[-1] if pattern.args else pattern.func
     return pattern

@@ -1,4 +1,4 @@
-"""Edits of setup.py and setup.cfg that keep their style: elements added to lists that are written out, options."""
+"""Edits of setup.py and setup.cfg in the style of the file: elements of list literals, and options."""
 
 from __future__ import annotations
 
@@ -12,27 +12,35 @@ from ros_lint.facts.setup_py import EditableList
 
 
 def slot(script: BuildScript, option: str) -> EditableList | None:
-    """Return the list of an option, None when it is not written out or is empty."""
+    """Return the list of an option, None if it is no list literal or is empty."""
     return next((found for found in script.editable_lists if found.option == option and found.size), None)
 
 
 def add(to: EditableList, element: str) -> Edit:
-    """Add an element after the last one: on a line of its own if that has one, and with a comma if that has one."""
+    """Return the edit that adds an element after the last one.
+
+    The new element has its own line, or a trailing comma, if the last one has it.
+    """
     gap = " " if to.indent is None else f"\n{to.indent}"
     return Edit(to.end, f"{gap}{element}," if to.comma else f",{gap}{element}")
 
 
 def place(script: BuildScript) -> Span:
-    """Return where a build script says what is installed: where a rule can be added, or else where it names the package."""
+    """Return the place in a build script where install rules can be added, else the name of the package."""
     found = slot(script, "data_files")
     return script.insertion or (found.end if found else script.name_span) or file_start(script.path)
 
 
 def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
-    """Add to data_files what installs files of the package under their folders in the share directory.
+    """Return the edit that adds files to data_files, so that they are installed to their folders in share/<package>.
 
-    Those of a folder are globbed if setup.py globs: by their ending, unless another file of the folder, among ``others``, has
-    it, or all of them, where it has no folder in it, which data_files do not take. What lies beside setup.py is listed.
+    ``others`` are the paths of all files of the package. The files of a folder are added as a glob if setup.py uses globs
+    and the glob matches no other file:
+
+    - a glob with the common suffix of the files
+    - without a common suffix, a glob of the whole folder, unless it has subfolders, which data_files do not accept
+
+    Otherwise, and in the folder of setup.py, the files are listed.
     """
     by_folder: dict[str, list[str]] = {}
     for path in sorted(paths):
@@ -54,16 +62,17 @@ def _files(to: EditableList, package: str, paths: Sequence[str], others: Sequenc
 
 
 def _ending(paths: Sequence[str]) -> str:
-    """Return what the names end with, from a dot on: as much as they share, "" if that is nothing."""
+    """Return the longest common suffix of the names that begins with a dot, "" if there is none."""
     names = [posixpath.basename(path) for path in paths]
     shared = posixpath.commonprefix([name[::-1] for name in names])[::-1] if len(names) > 1 else names[0][1:]
     return shared[shared.find(".") :] if "." in shared else ""
 
 
 def joined(to: EditableList, package: str, before: str, after: str = "") -> str:
-    """Return an expression for a text with the name of the package in it, by the variable that holds it if there is one.
+    """Return an expression for the text ``before`` + package + ``after``.
 
-    It is put together as others in the list are. Slashes stand between what goes before, the name, and what comes after.
+    The expression uses the variable with the package name if there is one, and is composed like others in the list.
+    Slashes separate the package name from the texts before and after it.
     """
     name = to.variable
     if to.joins not in ("", "f") and "/" in before + after:
@@ -77,30 +86,30 @@ def joined(to: EditableList, package: str, before: str, after: str = "") -> str:
 
 
 def quoted(to: EditableList, text: str) -> str:
-    """Return a text as Python writes it, with the quotes of the list."""
+    """Return a text as a Python literal, with the quotes that the list uses."""
     plain = repr(text)
     return plain if to.quote in plain[1:-1] or "\\" in plain else f"{to.quote}{text}{to.quote}"
 
 
 _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
-"""What setup.cfg says of where programs go: with links to the sources, and without."""
+"""Sections and options of setup.cfg for the folder of programs: with ``--symlink-install``, and without."""
 
 
 def program_folders(script: BuildScript) -> dict[str, Span]:
-    """Return the places where setup.cfg says where programs go, by section and option as ``install.install_scripts``."""
+    """Return the places of the folder of programs in setup.cfg, by section and option (``install.install_scripts``)."""
     wanted = {f"{section}.{option}" for section, option in _FOLDERS}
     return {text.text: text.span for text in script.editable_texts if text.kind == "option" and text.text in wanted}
 
 
 def config(place: Span, package: str) -> Edit:
-    """Write a setup.cfg where there is none, so that programs go to ``lib/<package>``."""
+    """Return the edit that writes a new setup.cfg, so that programs are installed to ``lib/<package>``."""
     return Edit(place, "".join(f"[{section}]\n{option}=$base/lib/{package}\n" for section, option in _FOLDERS))
 
 
 def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
-    """Add to a setup.cfg what it lacks so that programs go to ``lib/<package>``, and change what it says else.
+    """Return the edits of a setup.cfg that add or change options so that programs are installed to ``lib/<package>``.
 
-    Nothing where there is none.
+    Empty if there is no setup.cfg.
     """
     headers = {text.text: text.span for text in script.editable_texts if text.kind == "section"}
     end = headers.get("")

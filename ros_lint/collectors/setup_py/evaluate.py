@@ -1,7 +1,7 @@
-"""Evaluate ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package without running anything.
+"""Evaluation of ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package, without running them.
 
-Reference, section D: setup.py is a program, and colcon runs it. Here a small interpreter goes through it with the names
-of the package's files at hand. What it cannot know becomes opaque, for the side of the package that it hides.
+setup.py is a program that colcon runs. Here a small interpreter evaluates it with the names of the package's files. A
+value that it cannot know becomes an Opaque with the facet of the package that it hides.
 """
 
 from __future__ import annotations
@@ -46,11 +46,14 @@ def evaluate(
     pyproject: Text | None,
     executables: AbstractSet[str] = frozenset(),
 ) -> BuildScript:
-    """Return what building a Python package with setuptools does.
+    """Return the effects of building a Python package with setuptools.
 
-    ``name`` is that of package.xml, ``path_prefix`` the folder of the package, and ``files`` are those below it,
-    relative to it, ``executables`` those of them that have the executable bit. Problems are of the kinds
-    ``syntax``, ``missing-file``, ``directory-in-data-files``, ``empty-glob``, ``data-files-form``,
+    - ``name``: the name in package.xml.
+    - ``path_prefix``: the folder of the package.
+    - ``files``: all files below that folder, relative to it.
+    - ``executables``: the files with the executable bit.
+
+    Problems have the kinds ``syntax``, ``missing-file``, ``directory-in-data-files``, ``empty-glob``, ``data-files-form``,
     ``absolute-destination``, ``entry-point-form``, ``undefined-name``, ``no-function``, and those of
     :mod:`ros_lint.collectors.setup_py.setup_cfg`.
     """
@@ -85,7 +88,7 @@ def evaluate(
 
 
 def _run(program: Program, source: Text, start: Span) -> BuildScript:
-    """Run a setup.py. Return its imports, and what keeps it from being seen through."""
+    """Interpret a setup.py. Return a build script with its imports, its problems and the parts that cannot be evaluated."""
     script = BuildScript(source.path)
     try:
         tree, newer = read(source)
@@ -113,7 +116,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
 
 
 def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield what Python stops at, where nothing catches that."""
+    """Yield the errors at which Python stops, unless a try statement catches them."""
     for name in unbound(tree, program.strange):
         yield Problem("undefined-name", f"'{name.id}' is not defined", span_of(source, name))
     if not program.no_functions:
@@ -133,7 +136,7 @@ def _no_function(value: Value) -> str:
 
 
 def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
-    """Return what says where a value comes from."""
+    """Return the function from a value and a default to the span of the value; see :class:`Distribution`."""
 
     def place(value: Value, default: Span) -> Span:
         node = getattr(value, "node", None)
@@ -149,7 +152,10 @@ def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
 
 
 def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
-    """Return where programs go below the prefix, or what hides it. Reference, section D1.4 and D1.5."""
+    """Return the folder of programs below the prefix, and an Opaque if it cannot be evaluated.
+
+    The option install_scripts of the section [install] in setup.cfg sets it; the default is bin.
+    """
     option = cfg.section("install").get("install_scripts") if cfg else None
     if option is None:
         return "bin", None
@@ -169,7 +175,7 @@ def _with(
     place: Callable[[Value, Span], Span],
     call: Span,
 ) -> BuildScript:
-    """Return a script with what one call of setup() adds."""
+    """Return a build script with the results of one call of setup() added."""
     name, version = options.get("name"), options.get("version")
     return script._replace(
         name=str(name) if isinstance(name, str) else "",

@@ -1,4 +1,4 @@
-"""The arguments of setup(), completed by ``setup.cfg`` and ``pyproject.toml`` as setuptools does it."""
+"""Options of setup(), completed from ``setup.cfg`` and ``pyproject.toml`` as by setuptools."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _single(option: Option) -> Value:
 
 
 def _words(option: Option) -> list[Value]:
-    """Return a list that has an element on each line, or else between commas."""
+    """Return the elements of a list: one on each line, or separated by commas on a single line."""
     if len(option.lines) == 1:
         line = option.lines[0]
         return [_at(part.strip(), line.span) for part in line.text.split(",") if part.strip()]
@@ -92,7 +92,7 @@ def _globbed(line: Line, files: Files) -> list[str]:
     return files.glob(line.text, recursive=True) if re.search(r"[*?\[]", line.text) else [line.text]
 
 
-# --- pyproject.toml. Its values have no places: the first line where one stands serves
+# --- pyproject.toml. tomllib reports no places, so the place of a value is its first occurrence in the text
 
 
 def _from_pyproject(source: Text, files: Files) -> dict[str, Value]:

@@ -1,4 +1,4 @@
-"""Read ``setup.cfg``, as ``configparser`` does, but with places."""
+"""Reader of ``setup.cfg`` with the syntax of ``configparser`` and the place of each option."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Line(NamedTuple):
-    """A line of a value, without blanks around it."""
+    """A line of a value, without surrounding white space."""
 
     text: str
     span: Span
@@ -24,11 +24,11 @@ class Option(NamedTuple):
 
     section: str
     key: str
-    """As written, except that it has underscores for dashes: distutils takes both for one."""
+    """The key with underscores instead of dashes, because distutils treats both as the same key."""
     lines: tuple[Line, ...]
-    """Those of the value that are not empty, comments left out."""
+    """Lines of the value that are neither empty nor comments."""
     span: Span
-    """Of the key."""
+    """The span of the key."""
 
     @property
     def value(self) -> str:
@@ -36,12 +36,12 @@ class Option(NamedTuple):
 
 
 class SetupCfg(NamedTuple):
-    """A ``setup.cfg``, as far as it can be read."""
+    """The readable parts of a ``setup.cfg``, and its problems."""
 
     options: tuple[Option, ...]
     problems: tuple[Problem, ...]
     texts: tuple[WrittenText, ...] = ()
-    """Where options can be added or changed."""
+    """Places where a fix can add or change options."""
 
     def section(self, name: str) -> dict[str, Option]:
         """Return the options of a section by key."""
@@ -50,22 +50,22 @@ class SetupCfg(NamedTuple):
 
 _SECTION = re.compile(r"\[(.+)\]")
 _OPTION = re.compile(r"(.*?)\s*[=:]\s*(.*)$")
-# Where distutils looks for options of commands. Elsewhere a dash is part of the key.
+# Sections with options of setuptools or distutils. In any other section, a dash is part of the key.
 _DASHED = frozenset({"develop", "install", "metadata", "options"})
 
 
 def collect(source: Text) -> SetupCfg:
     """Return the options of a ``setup.cfg``.
 
-    Problems are what setuptools stops at (``setup-cfg-syntax``), and keys with a dash, which it rejects or warns about
-    (``dashed-key``; reference, section D1.6).
+    Problems have the kinds ``setup-cfg-syntax`` (setuptools stops with an error) and ``dashed-key`` (a key with a dash, which
+    setuptools rejects or warns about, depending on its version).
     """
     options: list[Option] = []
     problems: list[Problem] = []
     texts: list[WrittenText] = []
     section = ""
     last = source.span(0, 0)
-    indent: int | None = None  # of the option that goes on with what is indented more
+    indent: int | None = None  # of the current option; lines that are indented more continue it
     for number in range(1, source.line_count + 1):
         line = source.line(number)
         text = line.strip()

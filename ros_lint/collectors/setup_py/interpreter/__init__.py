@@ -1,1 +1,1 @@
-"""An evaluator of setup.py that executes nothing."""
+"""Interpreter of setup.py that executes nothing."""

@@ -1,4 +1,4 @@
-"""Expressions of a setup.py: their values as far as the text and the files of the package give them."""
+"""Evaluation of the expressions of a setup.py, from its text and the names of the package's files."""
 
 from __future__ import annotations
 
@@ -29,28 +29,28 @@ from ros_lint.collectors.setup_py.interpreter.values import (
 )
 
 MOST_STEPS: Final = 100_000
-"""Expressions and statements that one setup.py may evaluate. Real ones need some hundreds."""
+"""Expressions and statements that one setup.py may evaluate. Real ones need a few hundred."""
 Scopes = tuple[dict[str, Value], ...]
 
 
 class Expressions(ABC):
-    """Evaluates expressions in scopes. What happens in a call is the business of the classes that inherit."""
+    """Evaluator of expressions in scopes. Subclasses define calls, attributes and builtins."""
 
     def __init__(self, files: Files) -> None:
         self.files = files
         self.journal = Journal()
         self.scopes: Scopes = ({"__file__": f"{ROOT}/setup.py", "__name__": "__main__"},)
         self.strange: list[ast.Name] = []
-        """Names that are asked for on the way that is surely taken, and mean nothing that is known."""
+        """Undefined names in code that certainly runs."""
         self.caught = 0
-        """How many try statements around catch what fails."""
+        """Number of enclosing try statements with handlers."""
         self.inner = 0
-        """How many of the innermost scopes are those of comprehensions."""
+        """Number of the innermost scopes that are scopes of comprehensions."""
         self._steps = 0
 
     @abstractmethod
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:
-        """Return what a call gives."""
+        """Return the result of a call."""
 
     @abstractmethod
     def attribute(self, owner: Value, name: str, node: ast.AST) -> Value:
@@ -58,7 +58,7 @@ class Expressions(ABC):
 
     @abstractmethod
     def builtin(self, name: str) -> Value | None:
-        """Return what a name means that the program does not define, None if nothing known."""
+        """Return the value of a name that the program does not define, None if it is no known builtin."""
 
     def step(self) -> None:
         self._steps += 1
@@ -71,7 +71,10 @@ class Expressions(ABC):
         self.step()
 
     def value(self, node: ast.expr) -> Value:
-        """Return the value of an expression. Raises LeaveError when it ends the program, and ExhaustedError."""
+        """Return the value of an expression.
+
+        Raises LeaveError if the expression ends the program or raises a caught exception, and ExhaustedError.
+        """
         self.step()
         handler = _HANDLERS.get(type(node))
         if handler is None:
@@ -79,7 +82,7 @@ class Expressions(ABC):
         try:
             found = handler(self, node)
             if isinstance(found, (str, list, tuple)):
-                self._steps += len(found) >> 8  # copying is work, too
+                self._steps += len(found) >> 8  # copying takes time too
             return found
         except TooLargeError:
             return Unknown(f"{at(node)} is too large", node)
@@ -89,7 +92,7 @@ class Expressions(ABC):
             return Unknown(f"{at(node)} fails with {type(error).__name__}", node)
 
     def truth(self, value: Value) -> bool | None:
-        """Return whether a value counts as true, None when that is not known."""
+        """Return the truth of a value, None if it is unknown."""
         if isinstance(value, Unknown):
             return None
         if isinstance(value, list) and value and all(isinstance(item, (Unknown, Maybe)) for item in value):
@@ -99,7 +102,7 @@ class Expressions(ABC):
         return bool(value)
 
     def elements(self, value: Value, node: ast.AST) -> Iterator[Value]:
-        """Yield what iterating over a value gives; an unknown value gives one unknown element."""
+        """Yield the elements of a value. An unknown value has one unknown element."""
         if isinstance(value, Unknown):
             yield value
         elif isinstance(value, dict):
@@ -117,7 +120,7 @@ class Expressions(ABC):
         self.scopes[0][name] = value
 
     def bind(self, target: ast.expr, value: Value) -> None:
-        """Assign a value to a name, an element, or to several of them."""
+        """Assign a value to a name, to an element, or to a tuple of these."""
         if isinstance(target, ast.Name):
             self.assign(target.id, value)
         elif isinstance(target, ast.Starred):
@@ -155,7 +158,7 @@ class Expressions(ABC):
                 self.bind(target, item)
 
     def taint(self, value: Value, node: ast.AST) -> None:
-        """Say that something unknown may have changed a container."""
+        """Mark a container as possibly changed by something unknown."""
         if isinstance(value, list):
             self.journal.touch(value)
             value.append(Unknown(f"{at(node)} may change it", node))
@@ -187,7 +190,7 @@ class Expressions(ABC):
         parts = [self.value(part) for part in node.values]
         self.weigh(*parts)
         unknown = unknown_in(parts)
-        if unknown is not None and unknown.node in node.values:  # whose places are not the same under each Python
+        if unknown is not None and unknown.node in node.values:  # its place depends on the version of Python
             return Unknown(unknown.reason, node)
         return unknown or Word.at("".join(parts), node)
 
@@ -278,7 +281,7 @@ class Expressions(ABC):
         return found
 
     def _enter(self, found: dict[Value, Value], node: ast.expr, value: Value, sure: bool = True) -> None:
-        """Enter a value into a dict, by the key that an expression gives."""
+        """Set a value in a dict, with the value of an expression as the key."""
         key = self.value(node)
         self.weigh(key)
         if sure and certain(key):
@@ -304,13 +307,13 @@ class Expressions(ABC):
         return unknown_in(parts) or slice(*parts)
 
     def function(self, node: ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef) -> Function:
-        """Return a function as a value."""
+        """Return the value of a function definition or lambda."""
         defaults = tuple(self.value(default) for default in node.args.defaults)
         keywords = tuple(None if default is None else self.value(default) for default in node.args.kw_defaults)
         return Function(node, self.scopes, defaults, keywords)
 
     def _named(self, node: ast.NamedExpr) -> Value:
-        """Return a value, and name it in the innermost function: a comprehension has no names of its own for it."""
+        """Return the value of ``name := value``, and assign it in the innermost scope that is no comprehension."""
         value = self.value(node.value)
         inner, self.scopes = self.scopes[: self.inner], self.scopes[self.inner :]
         try:
@@ -367,7 +370,7 @@ class Expressions(ABC):
         return found
 
     def _generate(self, generators: Sequence[ast.comprehension], add: Callable[[bool], None]) -> None:
-        """Go through the loops of a comprehension. ``add`` is told whether it is sure to be reached."""
+        """Run the loops of a comprehension. ``add`` is called for each round, with whether the round certainly happens."""
         outer = self.scopes
         self.scopes = ({}, *outer)
         self.inner += 1

@@ -1,7 +1,7 @@
-"""The files of a package as its setup.py sees them: what exists, and what glob, os.walk and pathlib find.
+"""Files of a package for its setup.py: existence, and the results of glob, os.walk and pathlib.
 
-setup.py runs in the folder of the package. That folder has no place on a disk here, so an absolute path that no file
-system has stands for it.
+setup.py runs in the folder of the package. The analysis is independent of the place of that folder on the disk, so
+:data:`ROOT`, a path that exists on no file system, is used as its absolute path.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import translate
 
 ROOT = "/\ue001"
-"""The absolute path of the package folder."""
+"""The absolute path that represents the folder of the package."""
 
 
 class Files:
@@ -31,10 +31,10 @@ class Files:
                 entries.add(name)
                 if known:
                     break
-                path = folder  # noqa: PLW2901  (up to a folder that is known)
+                path = folder  # noqa: PLW2901  (up to a folder that is already known)
 
     def inside(self, path: str) -> str | None:
-        """Return a path relative to the folder, "" for the folder itself; None when it is outside."""
+        """Return a path relative to the folder, "" for the folder itself, None if it is outside of the folder."""
         if path in self._files or path in self._entries:
             return path
         path = posixpath.normpath(posixpath.join(ROOT, path))
@@ -52,12 +52,12 @@ class Files:
         return self.is_file(path) or self.is_folder(path)
 
     def names(self, path: str) -> list[str] | None:
-        """Return the sorted names in a folder, None when it is none."""
+        """Return the sorted names in a folder, None if the path is no folder."""
         inside = self.inside(path)
         return None if inside is None or inside not in self._entries else sorted(self._entries[inside])
 
     def walk(self, top: str) -> Iterator[tuple[str, list[str], list[str]]]:
-        """Do as ``os.walk``: a caller may remove folders from the list that it gets."""
+        """Yield the results of ``os.walk``. A caller may remove names from the list of folders to skip them."""
         names = self.names(top)
         if names is None:
             return
@@ -67,7 +67,7 @@ class Files:
             yield from self.walk(posixpath.join(top, name))
 
     def glob(self, pattern: str, *, recursive: bool = False, hidden: bool = False) -> list[str]:
-        """Return what ``glob.glob`` returns, sorted."""
+        """Return the sorted result of ``glob.glob``."""
         return sorted(filter(None, self._glob(pattern, recursive, hidden, False)))
 
     def _glob(self, pattern: str, recursive: bool, hidden: bool, folders: bool) -> Iterator[str]:
@@ -98,7 +98,7 @@ class Files:
                 yield from self._below(posixpath.join(top, name), f"{before}{name}/", hidden)
 
     def find(self, where: str, *, namespaces: bool, include: Sequence[str] = ("*",), exclude: Sequence[str] = ()) -> list[str]:
-        """Return the dotted names of the Python packages below a folder, as setuptools' find_packages() does."""
+        """Return the dotted names of the Python packages below a folder, like find_packages() of setuptools."""
         included, excluded = (_any_of(patterns) for patterns in (include, exclude))
         names = self._packages(where, "", namespaces)
         return [name for name in names if included.match(name) and not excluded.match(name)]

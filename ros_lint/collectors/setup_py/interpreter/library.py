@@ -1,4 +1,4 @@
-"""What setup.py files call: the parts of Python's library that need nothing but values and the package's files."""
+"""Library functions that setup.py files call, evaluated on values and the package's files."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ _SAME_AS = {
 
 
 def member(name: str) -> Value | None:
-    """Return what a dotted name of the library means, None when it is not known."""
+    """Return the value of a dotted name of the library, None if it is unknown."""
     name = _SAME_AS.get(name, name)
     if name in CONSTANTS:
         return CONSTANTS[name]
@@ -67,17 +67,17 @@ def member(name: str) -> Value | None:
 
 
 def environment(node: ast.AST) -> dict[str, Value]:
-    """Return what is known of the environment of a build: what is the same in every one of ROS 2."""
+    """Return the environment variables that are the same in every build of ROS 2; all others are unknown."""
     return {**ROS_2, REST: Unknown("os.environ is not known", node)}
 
 
 def builtin(name: str) -> Value | None:
-    """Return what a name means that needs no import, None when it is not known."""
+    """Return the value of a builtin name, None if it is unknown."""
     return Native(name) if name in FUNCTIONS and "." not in name else None
 
 
 def method(owner: Value, name: str, node: ast.AST) -> Value:
-    """Return an attribute of a value that is no module."""
+    """Return an attribute of a value that is not a module."""
     if is_path(owner):
         if name in _PATH_PROPERTIES:
             found = getattr(owner, name)
@@ -91,7 +91,7 @@ _PATH_PROPERTIES = frozenset({"parent", "parents", "name", "stem", "suffix", "su
 
 
 def call(program: Expressions, function: Native, arguments: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:
-    """Return what a known function or method gives."""
+    """Return the result of a known function or method."""
     if function.name in FUNCTIONS:
         known = FUNCTIONS[function.name]
         owner = [] if function.owner is None else [function.owner]
@@ -109,7 +109,7 @@ def call(program: Expressions, function: Native, arguments: list[Value], keyword
     return setup_py_methods.call(program, function, arguments, keywords, node)
 
 
-# --- functions. Each gets the program, the call, and its arguments
+# --- functions. The parameters of each are the program, the call and the arguments of the call
 
 
 def _variable(_: Expressions, node: ast.Call, key: str, *_default: Value, **_named: Value) -> Value:

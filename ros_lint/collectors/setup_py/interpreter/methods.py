@@ -1,4 +1,4 @@
-"""Methods of the texts, lists, dictionaries and sets of setup.py files."""
+"""Methods of texts, lists, dictionaries and sets in setup.py files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _METHODS: dict[type, frozenset[str]] = {
 
 
 def method(owner: Value, name: str) -> Native | None:
-    """Return a method of a value, None when it is not known."""
+    """Return a method of a value, None if it is unknown."""
     for kind, known in _METHODS.items():
         if isinstance(owner, kind) and name in known:
             return Native(f"{kind.__name__}.{name}", owner)
@@ -28,7 +28,7 @@ def method(owner: Value, name: str) -> Native | None:
 
 
 def call(program: Expressions, function: Native, arguments: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:
-    """Return what a method gives, and do to its owner what it does."""
+    """Return the result of a method, and apply its changes to the owner."""
     kind, _, name = function.name.partition(".")
     if kind == "str":
         return _text_method(program, name, function.owner, arguments, keywords, node)

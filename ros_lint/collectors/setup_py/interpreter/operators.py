@@ -1,4 +1,4 @@
-"""Operators of Python on values that may be unknown, and never on more than a setup.py has use for."""
+"""Operators of Python on values that may be unknown, with a limit on the size of results."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from ros_lint.collectors.setup_py.interpreter.values import (
 )
 
 LONGEST: Final = 100_000
-"""Elements or characters of a value that is computed."""
+"""Greatest number of elements or characters of a computed value."""
 
 
 class TooLargeError(ValueError):
-    """A value is larger than what is computed."""
+    """A computed value would exceed LONGEST."""
 
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
@@ -55,7 +55,7 @@ _WIDE = re.compile(r"\d{4,}|\*")
 
 
 def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) -> Value:
-    """Return what a binary operator gives. Raises what the operator raises, and TooLargeError."""
+    """Return the result of a binary operator. Raises TooLargeError and the exceptions of the operator."""
     if isinstance(operation, ast.Add):
         if hasattr(left, "__len__") and hasattr(right, "__len__") and len(left) + len(right) > LONGEST:
             raise TooLargeError
@@ -83,14 +83,14 @@ def binary(operation: ast.operator, left: Value, right: Value, node: ast.AST) ->
 
 
 def check_size(template: str, values: Iterable[Value]) -> None:
-    """Raise TooLargeError when values put into a template could make a text that is too long."""
+    """Raise TooLargeError if a template filled with values may become too long."""
     longest = max((len(value) if isinstance(value, str) else 100 for value in values), default=0)
     if len(template) * longest > 100 * LONGEST:
         raise TooLargeError
 
 
 def check_format(template: str) -> None:
-    """Raise TooLargeError when a field of a format is too wide, or as wide as a value says."""
+    """Raise TooLargeError if a field of a format is too wide, or if a value determines its width."""
     if _WIDE.search(template):
         raise TooLargeError
 
@@ -100,7 +100,7 @@ def _size(value: Value) -> float:
 
 
 def compare(operation: ast.cmpop, left: Value, right: Value) -> Value:
-    """Return whether a comparison holds, or Unknown. Raises what the comparison raises."""
+    """Return whether a comparison holds, or Unknown. Raises the exceptions of the comparison."""
     if isinstance(operation, (ast.In, ast.NotIn)):
         negated = isinstance(operation, ast.NotIn)
         if not certain(left) or isinstance(right, Unknown):
@@ -116,7 +116,7 @@ def compare(operation: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def formatted(value: Value, conversion: int, spec: str) -> str:
-    """Return what a replacement field of an f-string gives. Raises TooLargeError for a field that is too wide."""
+    """Return the text of a replacement field of an f-string. Raises TooLargeError for a field that is too wide."""
     check_format(spec)
     if conversion >= 0:
         value = _CONVERSIONS[chr(conversion)](value)

@@ -1,4 +1,4 @@
-"""Statements of a setup.py, its functions and imports, and its calls of setup()."""
+"""Interpretation of the statements, functions and imports of a setup.py, up to its calls of setup()."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_lint.collectors.setup_py.interpreter.state import ExhaustedError, Leave
 from ros_lint.collectors.setup_py.interpreter.values import Class, Function, Maybe, Module, Native, Unknown, Value
 
 DEEPEST: Final = 40
-"""Calls within calls."""
+"""Greatest depth of nested calls."""
 
 
 class Setup(NamedTuple):
@@ -24,25 +24,25 @@ class Setup(NamedTuple):
     options: dict[str, Value]
     node: ast.Call | None
     module: str
-    """Where the function comes from: setuptools, or something that adds to it."""
+    """The module of the function: setuptools, or a package that extends it."""
 
 
 class Program(Expressions):
-    """A setup.py that is evaluated. :meth:`run` fills the other attributes."""
+    """Interpreter of one setup.py. :meth:`run` fills the attributes with the results."""
 
     def __init__(self, package: str, files: Files) -> None:
         super().__init__(files)
         self.package = package
         self.setups: list[Setup] = []
         self.generated: list[str] = []
-        """Python modules that a generator adds to the package, dotted."""
+        """Dotted names of Python modules that a generator adds to the package."""
         self.no_functions: list[tuple[ast.Call, Value]] = []
-        """Calls of what cannot be called, on the way that is surely taken."""
+        """Calls of values that cannot be called, in code that certainly runs."""
         self.end: str = ""
-        """Why the evaluation stopped before the end, a clause; "" when it did not."""
+        """The reason why the evaluation stopped before the end, as a clause; "" if it did not."""
         self._depth = 0
         self._declared: dict[str, dict[str, Value]] = {}
-        """The scopes of names in a function that are declared global or nonlocal."""
+        """Scopes of the names that the current function declares global or nonlocal."""
 
     def run(self, tree: ast.Module) -> None:
         try:
@@ -54,7 +54,7 @@ class Program(Expressions):
         except RecursionError:
             self.end = "it is nested too deeply"
 
-    # --- what expressions ask for
+    # --- methods that the evaluation of expressions needs
 
     def builtin(self, name: str) -> Value | None:
         return library.builtin(name)
@@ -321,7 +321,7 @@ def _generate_parameter_module(program: Program, arguments: list[Value], keyword
 
 
 def _generate_distutils_setup(program: Program, _: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:
-    """Do as catkin_pkg: add what package.xml says."""
+    """Return the options of generate_distutils_setup() in catkin_pkg, which adds data of package.xml."""
     version = Unknown("the version in package.xml is not looked at", node)
     return {"name": program.package, "version": version, **keywords}
 

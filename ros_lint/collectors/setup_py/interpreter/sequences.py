@@ -1,4 +1,4 @@
-"""What setup.py files make of sequences: the functions of Python that take and give them."""
+"""Functions of Python from sequences to sequences, as setup.py files use them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _in_reverse(program: Expressions, node: ast.Call, values: Value) -> Value:
 
 
 def in_order(program: Expressions, node: ast.Call, values: Value, key: Value = None, reverse: Value = False) -> Value:
-    """Return what sorted() gives; as it is, if something in it is not known."""
+    """Return the result of sorted(); unsorted if an element is unknown."""
     found = _sequence(program, node, values)
     program.weigh(found)
     if all(map(certain, found)):
@@ -90,4 +90,4 @@ FUNCTIONS: dict[str, Callable[..., Value]] = {
     "filter": _filtered,
     "sum": _total,
 }
-"""Each gets the program, the call, and its arguments."""
+"""Functions by name. The parameters of each are the program, the call and the arguments of the call."""

@@ -1,4 +1,4 @@
-"""What changes while a setup.py is evaluated, and how to try both ways of a condition that is not known."""
+"""Journal of changes during the evaluation of a setup.py, to run both branches of an unknown condition."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any, Final
 from ros_lint.collectors.setup_py.interpreter.values import Unknown, Value, either, merged
 
 Container = Any
-"""A list, dict or set. Scopes are dicts, too."""
+"""A list, dict or set. Scopes are dicts as well."""
 
 
 class ExhaustedError(Exception):
-    """The program takes more steps than a setup.py has."""
+    """The evaluation of the program stops, because it exceeds a limit or cannot be continued."""
 
 
 class LeaveError(Exception):
@@ -24,15 +24,15 @@ class LeaveError(Exception):
         self.kind = kind
         self.value = value
         self.raised = raised
-        """Of an exception: its class, if that is one of Python."""
+        """The name of the class of a raised exception, if it is a class of Python."""
 
 
 MOST_FORKS: Final = 200
-"""How many times both ways of an unknown condition are tried. Real programs have a handful."""
+"""Unknown conditions of which both branches may be run. Real programs have a handful."""
 
 
 class Journal:
-    """Remembers containers before they change, so that a block can be undone."""
+    """Log of the contents of containers before they change, so that a block can be undone."""
 
     def __init__(self) -> None:
         self._open: list[dict[int, tuple[Container, Container]]] = []
@@ -40,17 +40,17 @@ class Journal:
 
     @property
     def unsure(self) -> bool:
-        """Whether what is done now is one of two ways."""
+        """True while a branch of an unknown condition runs."""
         return bool(self._open)
 
     def touch(self, container: Container) -> None:
-        """Say that a container is about to change."""
+        """Log the content of a container. Call it before the container changes."""
         for changes in self._open:
             if id(container) not in changes:
                 changes[id(container)] = (container, container.copy())
 
     def both(self, ways: tuple[Callable[[], None], Callable[[], None]], unknown: Unknown) -> None:
-        """Go two ways one of which is taken, and leave behind what may be true after either."""
+        """Run the two branches of an unknown condition, each from the same initial state, and join the final states."""
         self._forks += 1
         if self._forks > MOST_FORKS:
             raise ExhaustedError("more conditions are unknown than are followed")
@@ -72,7 +72,7 @@ class Journal:
                 self.touch(container)
                 _refill(container, before)
                 touched.setdefault(key, (container, before))
-        # A way that ends the program is a check that fails: taken to hold.
+        # A branch that ends the program is usually a failed check, so the other branch is assumed.
         fails = [leave is not None and leave.kind == "raise" for leave in left]
         for key, (container, before) in touched.items():
             first, second = after[0].get(key, before), after[1].get(key, before)
@@ -114,17 +114,21 @@ def _join(first: Container, second: Container, unknown: Unknown) -> Container:
 
 
 def at(node: ast.AST | None) -> str:
-    """Return a short text of an expression, to be quoted in a reason."""
+    """Return a short text of an expression, for use in a reason."""
     text = ast.unparse(_shown(node, _DEEPEST)) if node is not None else "it"
     return text if len(text) <= 40 else text[:37] + "..."
 
 
 _DEEPEST = 30
-"""How deep an expression is shown."""
+"""Greatest depth of an expression that is shown."""
 
 
 def _shown(node: ast.AST, levels: int) -> ast.AST:
-    """Return a copy of a node without f-strings, which each Python writes in its own way, and without what is too deep."""
+    """Return a copy of a node to unparse.
+
+    F-strings are replaced, because ast.unparse() writes them differently in each version of Python. Nodes that are nested too
+    deeply become ``...``.
+    """
     if isinstance(node, (ast.JoinedStr, ast.FormattedValue)):
         return ast.Name(_template(node))
     if levels <= 0 and isinstance(node, ast.expr):
@@ -139,7 +143,7 @@ def _shown_in(value: Any, levels: int) -> Any:
 
 
 def _template(node: ast.JoinedStr | ast.FormattedValue) -> str:
-    """Return an f-string as it can be written."""
+    """Return the source of an f-string, the same in each version of Python."""
     parts = []
     pieces: list[ast.expr] = node.values if isinstance(node, ast.JoinedStr) else [node]
     for part in pieces:

@@ -1,4 +1,4 @@
-"""The values of a setup.py that is evaluated without being run: those of Python, and what is not known about them."""
+"""Values in the evaluation of a setup.py: values of Python, and classes for unknown values."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Value = Any
 
 
 class Unknown:
-    """A value that is not known. As an element of a list it stands for any number of unknown elements."""
+    """An unknown value. As an element of a list it means any number of unknown elements."""
 
     __slots__ = ("node", "reason")
 
@@ -28,11 +28,11 @@ class Unknown:
 
 
 REST = "\ue002"
-"""The key of a dict that stands for unknown keys; its value is Unknown."""
+"""The key of a dict for all unknown keys. Its value is an Unknown."""
 
 
 class Maybe:
-    """An element of a list that is there or not, depending on something that is not known."""
+    """An element of a list that may be missing, because its presence depends on something unknown."""
 
     __slots__ = ("value",)
 
@@ -41,7 +41,7 @@ class Maybe:
 
 
 class Word(str):
-    """A text that knows where it comes from: an expression, or a place in another file than setup.py."""
+    """A text with its origin: an expression of setup.py, or a place in another file."""
 
     __slots__ = ("node",)
     node: ast.AST | Span
@@ -54,27 +54,27 @@ class Word(str):
 
 
 class Globbed(list[Value]):
-    """What one glob gave, nothing added."""
+    """The unchanged result of one glob."""
 
     __slots__ = ("pattern",)
     pattern: str
 
 
 def globbed(pattern: str, paths: list[Value]) -> Globbed:
-    """Return paths that a pattern gives."""
+    """Return paths as the result of a glob pattern."""
     found = Globbed(paths)
     found.pattern = pattern
     return found
 
 
 class Module(NamedTuple):
-    """A module that is imported, dotted, or a part of one."""
+    """An imported module, or a submodule, by its dotted name."""
 
     name: str
 
 
 class Native(NamedTuple):
-    """A function that is known by its name: ``os.path.join``, or the method of a value."""
+    """A function or method with a model, by its name, such as ``os.path.join``. The owner is the value of a method."""
 
     name: str
     owner: Value = None
@@ -94,7 +94,7 @@ class Function(NamedTuple):
 
     node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
     scopes: tuple[dict[str, Value], ...]
-    """Of the place where it is defined, innermost first."""
+    """The scopes in which it is defined, innermost first."""
     defaults: tuple[Value, ...]
     keyword_defaults: tuple[Value, ...]
 
@@ -109,7 +109,7 @@ class Function(NamedTuple):
 
 
 class Class(NamedTuple):
-    """A class of setup.py, or one that it imports: known by name only."""
+    """A class that setup.py defines. Only its name is known."""
 
     name: str
 
@@ -194,7 +194,7 @@ def _unknown_in(values: Iterable[Value]) -> Unknown | None:
 
 
 def located(value: Value, node: ast.AST) -> Value:
-    """Return a value whose texts, also those in a list, know the expression that gave them."""
+    """Return a value with ``node`` as the origin of its text, or of the texts in its list or tuple."""
     if type(value) is str:
         return Word.at(value, node)
     if isinstance(value, list):
@@ -210,7 +210,7 @@ def same(left: Value, right: Value) -> bool:
 
 
 def either(left: Value, right: Value, unknown: Unknown) -> Value:
-    """Return what a value is that is one of two, depending on what is unknown."""
+    """Return the value that represents one of two values, chosen by an unknown condition."""
     if same(left, right):
         return left
     if isinstance(left, list) and isinstance(right, list):
@@ -219,7 +219,7 @@ def either(left: Value, right: Value, unknown: Unknown) -> Value:
 
 
 def merged(left: list[Value], right: list[Value]) -> list[Value]:
-    """Return the list that is one of two: what both start with, and the rest of each as Maybe."""
+    """Return the list that represents one of two lists: their common start, then the other elements as Maybe."""
     shared = 0
     while shared < min(len(left), len(right)) and same(left[shared], right[shared]):
         shared += 1
@@ -237,5 +237,5 @@ def path_of(*parts: Value) -> PurePosixPath:
 
 
 def is_path(value: Value) -> TypeGuard[PurePosixPath]:
-    """Return whether a value is a path of pathlib's."""
+    """Return whether a value is a path of pathlib."""
     return type(value).__name__ == "PurePosixPath"
