@@ -88,7 +88,10 @@ def evaluate(
 
 
 def _run(program: Program, source: Text, start: Span) -> BuildScript:
-    """Interpret a setup.py. Return a build script with its imports, its problems and the parts that cannot be evaluated."""
+    """Interpret a setup.py.
+
+    Return a build script with its imports, its problems and the parts that cannot be evaluated.
+    """
     script = BuildScript(source.path)
     try:
         tree, newer = read(source)

@@ -289,7 +289,10 @@ def _folder_sources(run: Run, args: list[str]) -> None:
 
 
 def _execute_process(run: Run, args: list[str]) -> None:
-    """``execute_process()``. With ``COMMAND cmake -S folder ...`` it builds a project in a folder of the package."""
+    """``execute_process()``.
+
+    With ``COMMAND cmake -S folder ...`` it builds a project in a folder of the package.
+    """
     folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
     if folder and run.is_folder(folder) and not run.muted:
         run.bundled[posixpath.basename(folder)] = None

@@ -55,7 +55,10 @@ def _fetch(run: Run, given: list[str], args: list[str]) -> None:
 
 
 def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
-    """Record external projects. These install to lib/<package> or share/<package> only if an argument names such a folder."""
+    """Record external projects.
+
+    These install to lib/<package> or share/<package> only if an argument names such a folder.
+    """
     run.open_world = True
     if not run.muted:
         run.bundled.update(dict.fromkeys(names))

@@ -95,7 +95,10 @@ def _include_foreign(run: Run, name: str) -> int | None:
 
 
 def _skip(run: Run, what: str) -> int:
-    """Skip a file of another package. Like a module, it probably defines commands and installs nothing itself."""
+    """Skip a file of another package.
+
+    Like a module, it probably defines commands and installs nothing itself.
+    """
     run.open_world = True
     run.hide(Facet.USES, f"include() of {what} cannot be followed")
     return NEXT

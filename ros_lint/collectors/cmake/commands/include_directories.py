@@ -34,7 +34,10 @@ _OF_OURS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
 
 
 def given(run: Run, target: str, args: Iterable[str]) -> None:
-    """Record the sources of headers of a target: evaluated targets, libraries and paths. A package ends with ``::``."""
+    """Record the sources of headers of a target: evaluated targets, libraries and paths.
+
+    A package ends with ``::``.
+    """
     have = run.headers.setdefault(target, {})
     known = True
     for arg in args:
@@ -126,7 +129,10 @@ def are_in_flags(run: Run) -> bool:
 
 
 def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
-    """Return the names of packages (and libraries) whose headers a target may include; None if these may be any."""
+    """Return the names of packages (and libraries) whose headers a target may include.
+
+    None if these may be any.
+    """
     found: dict[str, None] = {}
     waiting = [name, ALL_TARGETS]
     seen: set[str] = set()

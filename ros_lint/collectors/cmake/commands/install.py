@@ -95,7 +95,10 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
 
 
 def _may_lie(run: Run, value: str) -> bool:
-    """Return whether a partly known path may be that of an existing file. True for a path outside of the package."""
+    """Return whether a partly known path may be that of an existing file.
+
+    True for a path outside of the package.
+    """
     home = f"{run.named('')}/"
     if value.startswith(home):
         inside = value[len(home) :]

@@ -33,12 +33,18 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 
 def hide(run: Run, destination: str | None, reason: str) -> None:
-    """Record that the files installed to a destination are unknown; the destination is None if it is unknown too."""
+    """Record that the files installed to a destination are unknown.
+
+    The destination is None if it is unknown too.
+    """
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 
 def place_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
-    """Return the destination in sections of arguments (see ``sections()``), None if it is unknown or outside of the prefix."""
+    """Return the destination in sections of arguments (see ``sections()``).
+
+    None if it is unknown or outside of the prefix.
+    """
     found = parts.get("DESTINATION")
     if found:
         return run.destination(sure(found[0])[0]) if len(found) == 1 else None

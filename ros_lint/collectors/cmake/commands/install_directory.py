@@ -113,7 +113,10 @@ def _made(run: Run, folder: str) -> tuple[list[str], bool]:
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
-    """Install the files that configure_file() wrote to a folder below the build folder. The build may write more there."""
+    """Install the files that configure_file() wrote to a folder below the build folder.
+
+    The build may write more there.
+    """
     plain, certain = sure(value)
     folder = run.build(plain)
     if folder is None or run.muted:

@@ -248,7 +248,10 @@ def _transformed(item: str, action: Callable[[str], str]) -> str:
 
 
 def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
-    """Return the indices of the elements that a selector selects, possibly repeated. Raises ValueError if CMake has an error."""
+    """Return the indices of the elements that a selector selects, possibly repeated.
+
+    Raises ValueError if CMake has an error.
+    """
     if not selector:
         return range(len(items))
     if not is_fixed(join(items)):

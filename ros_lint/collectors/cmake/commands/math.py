@@ -38,7 +38,10 @@ def _math(run: Run, args: list[str]) -> None:
 
 
 def evaluate(text: str) -> int:
-    """Return the value of an expression. Raises _MathError if CMake rejects it or C does not define its value."""
+    """Return the value of an expression.
+
+    Raises _MathError if CMake rejects it or C does not define its value.
+    """
     tokens: list[str] = []
     at = 0
     text = text.rstrip()

@@ -66,7 +66,10 @@ def _outputs(mode: str, args: list[str]) -> list[str]:
 
 
 def _assign(run: Run, name: str, value: str, *texts: str) -> None:
-    """Set a variable to a value that was computed from texts. An unknown part of it may have one bracket of a pair."""
+    """Set a variable to a value that was computed from texts.
+
+    An unknown part of it may have one bracket of a pair.
+    """
     if HOLE in value and any("[" in text or "]" in text for text in texts):
         run.unpaired = True
     if HOLE not in name:
@@ -301,7 +304,10 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
 
 
 def replace_all(regex: str, template: str, text: str) -> str:
-    """Return a text with every match replaced. Raises RegexError if the expression or the template cannot be evaluated."""
+    """Return a text with every match replaced.
+
+    Raises RegexError if the expression or the template cannot be evaluated.
+    """
     parts = _replacement(template)
     found: list[str] = []
     size = 0

@@ -1,4 +1,7 @@
-"""Commands that query the machine or properties without a model. Their output variables become unknown."""
+"""Commands that query the machine or properties without a model.
+
+Their output variables become unknown.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,10 @@ def _first(run: Run, args: list[str]) -> None:
 
 
 def _found(run: Run, args: list[str]) -> None:
-    """Run a command whose first argument is the output variable, in the cache. The value survives the end of a function."""
+    """Run a command whose first argument is the output variable, in the cache.
+
+    The value survives the end of a function.
+    """
     if args:
         _keep(run, args[0])
 

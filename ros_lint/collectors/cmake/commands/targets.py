@@ -19,7 +19,9 @@ _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "U
 
 
 SOURCES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
-"""Suffixes of sources. CMake appends them to the name of a source that does not exist (policy CMP0115)."""
+"""Suffixes of sources.
+
+CMake appends them to the name of a source that does not exist (policy CMP0115)."""
 
 
 def _add_executable(run: Run, args: list[str]) -> None:
@@ -59,7 +61,10 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
 
 
 def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
-    """Record that a target is built from the sources in the arguments. ``name`` is the known part of its name."""
+    """Record that a target is built from the sources in the arguments.
+
+    ``name`` is the known part of its name.
+    """
     target["SOURCES"] = ""
     if run.conditional:
         target["CONDITIONAL"] = "1"

@@ -55,7 +55,10 @@ _BRANCHES = frozenset({"else", "elseif"})
 
 
 class UnbalancedError(Exception):
-    """A block is not closed, or a command closes no block. ``command`` is that command, ``body`` the nodes before it."""
+    """A block is not closed, or a command closes no block.
+
+    ``command`` is that command, ``body`` the nodes before it.
+    """
 
     def __init__(self, message: str, command: Command, body: Body) -> None:
         super().__init__(message)

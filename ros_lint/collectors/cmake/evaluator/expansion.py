@@ -97,7 +97,10 @@ _SIMPLE = re.compile(r"\$\{(\w+)\}")
 
 
 def substituted(text: str, given: Mapping[str, str]) -> str:
-    """Return an argument in a macro with the references to parameters replaced by their values, HOLE if it is too long."""
+    """Return an argument in a macro with the references to parameters replaced by their values.
+
+    HOLE if it is too long.
+    """
     alone = _SIMPLE.fullmatch(text)
     if alone is not None:
         return given.get(alone[1], text)
@@ -118,7 +121,10 @@ def substituted(text: str, given: Mapping[str, str]) -> str:
 
 
 def expand(parts: Template, lookup: Lookup) -> str:
-    """Return the value of an argument. An argument that is a single reference keeps the MAYBE marks of its list elements."""
+    """Return the value of an argument.
+
+    An argument that is a single reference keeps the MAYBE marks of its list elements.
+    """
     if len(parts) == 1:
         part = parts[0]
         if isinstance(part, str):

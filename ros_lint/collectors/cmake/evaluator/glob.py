@@ -64,7 +64,10 @@ def _pieces(pattern: str) -> tuple[str, ...] | None:
 
 
 def _end(pattern: str, at: int) -> int:
-    """Return the offset of the closing bracket, given the offset after the opening one; -1 if it is not closed."""
+    """Return the offset of the closing bracket, given the offset after the opening one.
+
+    -1 if it is not closed.
+    """
     at += pattern[at : at + 1] in ("!", "^")
     return pattern.find("]", at + 1)
 

@@ -55,7 +55,10 @@ class Paths(State):
         return join_path(self.sources.path, path) if path else self.sources.path
 
     def relative(self, value: str) -> str | None:
-        """Return a path relative to the package, even one outside of it; None if it is outside of the tree or unknown."""
+        """Return a path relative to the package, even one outside of it.
+
+        None if it is outside of the tree or unknown.
+        """
         return _seen(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
@@ -64,7 +67,10 @@ class Paths(State):
         return None if path is None or is_outside(path) else path
 
     def beside(self, value: str) -> str | None:
-        """Return the path, relative to the package, of an existing file or folder outside of it; None if none is visible."""
+        """Return the path, relative to the package, of an existing file or folder outside of it.
+
+        None if none is visible.
+        """
         path = self.relative(value)
         return path if path is not None and is_outside(path) and self.sources.around.kind(self.place(path)) else None
 
@@ -74,11 +80,17 @@ class Paths(State):
         return self.beside(value) if path is None else path
 
     def script(self, path: str) -> Parsed | None:
-        """Return the commands of the CMake file at a path relative to the package, None if no such file is visible."""
+        """Return the commands of the CMake file at a path relative to the package.
+
+        None if no such file is visible.
+        """
         return self.sources.around.script(self.place(path)) if is_outside(path) else self.sources.scripts.get(path)
 
     def leads_out(self, value: str) -> bool:
-        """Return whether a path is a source folder outside of the package. ``$<BUILD_INTERFACE:`` before it is ignored."""
+        """Return whether a path is a source folder outside of the package.
+
+        ``$<BUILD_INTERFACE:`` before it is ignored.
+        """
         plain = value.lstrip(MAYBE).removeprefix(_OF_BUILD)
         if HOLE in plain or plain.startswith("$<") or (plain[:1] == "/" and not plain.startswith(TREE)):
             return False
@@ -86,11 +98,17 @@ class Paths(State):
         return ".." in plain if path is None else is_outside(path)
 
     def destination(self, value: str) -> str | None:
-        """Return an install destination relative to the prefix, None if it is unknown or outside of the prefix."""
+        """Return an install destination relative to the prefix.
+
+        None if it is unknown or outside of the prefix.
+        """
         return _destination(value) if len(value) <= LONGEST else None
 
     def build(self, value: str) -> str | None:
-        """Return a path relative to the build folder of the package, None if it is outside of that folder or unknown."""
+        """Return a path relative to the build folder of the package.
+
+        None if it is outside of that folder or unknown.
+        """
         if HOLE in value or len(value) > LONGEST or not (value.startswith(f"{BINARY}/") or value == BINARY):
             return None
         path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
@@ -119,7 +137,10 @@ class Paths(State):
         return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
 
     def below(self, path: str) -> Sequence[str]:
-        """Return the files below a folder, sorted. For a folder outside of the package, empty if not all files are visible."""
+        """Return the files below a folder, sorted.
+
+        For a folder outside of the package, empty if not all files are visible.
+        """
         if is_outside(path):
             place = self.place(path)
             return [f"{path}/{strip_folder(place, file)}" for file in self.sources.around.below(place)]
@@ -159,7 +180,9 @@ class Paths(State):
 
 @lru_cache(maxsize=4096)
 def _seen(package: str, directory: str, value: str) -> str | None:
-    """Return a path relative to ``package``. ``directory`` is the folder of the script that names it, relative to the package.
+    """Return a path relative to ``package``.
+
+    ``directory`` is the folder of the script that names it, relative to the package.
 
     None if the path is outside of the tree or unknown.
     """
@@ -185,7 +208,10 @@ def _seen(package: str, directory: str, value: str) -> str | None:
 
 @lru_cache(maxsize=1024)
 def _destination(value: str) -> str | None:
-    """Return an install destination relative to the prefix, None if it is unknown or outside of the prefix."""
+    """Return an install destination relative to the prefix.
+
+    None if it is unknown or outside of the prefix.
+    """
     if value.startswith(PREFIX):
         value = value[len(PREFIX) :].lstrip("/")
     value = _MODULES.sub(VARIABLES["PYTHON_INSTALL_DIR"], value)

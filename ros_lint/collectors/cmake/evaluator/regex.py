@@ -229,7 +229,9 @@ def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
 
 
 _STAND_INS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
-"""Two example folders of a workspace. A result that is the same for both does not depend on the folder."""
+"""Two example folders of a workspace.
+
+A result that is the same for both does not depend on the folder."""
 
 
 def anywhere(compute: Callable[..., str], *values: str) -> str:

@@ -245,7 +245,9 @@ class Run(Paths):
         return values
 
     def firm_arguments(self, command: Command) -> int | None:
-        """Return the index of the first argument whose position is uncertain, None if all positions are certain.
+        """Return the index of the first argument whose position is uncertain.
+
+        None if all positions are certain.
 
         An unquoted unknown text may be any number of arguments. A list element that may be missing shifts later arguments.
         """

@@ -10,11 +10,16 @@ from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.facts.build import BuildScript
 
 AROUND: Final = ".."
-"""The provider of scripts that lie outside of the package, but in the same tree. They run like its own scripts."""
+"""The provider of scripts that lie outside of the package, but in the same tree.
+
+They run like its own scripts."""
 
 
 class Around(NamedTuple):
-    """Access to the tree around a package. Paths are relative to the base of the tree; nothing outside of it is visible."""
+    """Access to the tree around a package.
+
+    Paths are relative to the base of the tree; nothing outside of it is visible.
+    """
 
     kind: Callable[[str], str] = lambda path: ""
     """Returns "file" or "directory", or "" if the path does not exist or is not visible."""
@@ -47,7 +52,9 @@ class Sources(NamedTuple):
     texts: Mapping[str, str] = {}
     """Contents of files that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
     look: Callable[[str], Sequence[str]] = lambda folder: ()
-    """Lists the files below one of the ``unseen`` folders, relative to the package; empty if that is not possible."""
+    """Lists the files below one of the ``unseen`` folders, relative to the package.
+
+    Empty if that is not possible."""
     around: Around = Around()
 
 

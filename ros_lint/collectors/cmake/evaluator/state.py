@@ -72,7 +72,10 @@ class Choice(NamedTuple):
 
 
 class Change(NamedTuple):
-    """A change of one entry of a mapping by a branch. ``value`` is MISSING if the branch removed the entry."""
+    """A change of one entry of a mapping by a branch.
+
+    ``value`` is MISSING if the branch removed the entry.
+    """
 
     mapping: dict[str, Any]
     key: str
@@ -83,7 +86,9 @@ Changes = dict[tuple[int, str], Change]
 
 MISSING: Final = object()
 _DEEPEST: Final = 100
-"""Greatest depth of nested branches. The commands after a possible return() or break() also form a branch.
+"""Greatest depth of nested branches.
+
+The commands after a possible return() or break() also form a branch.
 
 Real packages need less than 20."""
 
@@ -127,13 +132,19 @@ class State:
     # --- writing
 
     def charge(self, size: int) -> None:
-        """Subtract the characters that a command writes or reads from the budget. Raises BudgetError if it is exceeded."""
+        """Subtract the characters that a command writes or reads from the budget.
+
+        Raises BudgetError if it is exceeded.
+        """
         self.characters -= size
         if self.characters < 0:
             raise BudgetError
 
     def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
-        """Write an entry and log the old value. A branch writes only with this method. A text that is too long becomes HOLE."""
+        """Write an entry and log the old value.
+
+        A branch writes only with this method. A text that is too long becomes HOLE.
+        """
         if self.log is not None:
             self.log.append((mapping, key, mapping.get(key, MISSING)))
         if type(value) is str:
@@ -200,7 +211,10 @@ class State:
         return None
 
     def found(self, name: str, depth: int | None = None) -> Any:
-        """Return the value of a variable in the scopes and the cache, or MISSING. ``depth`` is the number of scopes to search."""
+        """Return the value of a variable in the scopes and the cache, or MISSING.
+
+        ``depth`` is the number of scopes to search.
+        """
         scopes = self.scopes if depth is None else self.scopes[:depth]
         for scope in reversed(scopes):
             if name in scope:
@@ -273,7 +287,10 @@ class State:
                 self.put(mapping, key, HOLE)
 
     def _held(self, mapping: dict[str, Any], key: str) -> Any:
-        """Return an entry. A variable that its scope does not set is looked up in the outer scopes and in CMake's defaults."""
+        """Return an entry.
+
+        A variable that its scope does not set is looked up in the outer scopes and in CMake's defaults.
+        """
         value = mapping.get(key, MISSING)
         if value is MISSING and isinstance(mapping, Variables):
             for depth, scope in enumerate(self.scopes):

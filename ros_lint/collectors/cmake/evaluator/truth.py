@@ -1,4 +1,7 @@
-"""Answers to conditions: true, false, unknown, *likely* or *unlikely*. The user can reverse the last two by an option."""
+"""Answers to conditions: true, false, unknown, *likely* or *unlikely*.
+
+The user can reverse the last two by an option.
+"""
 
 from __future__ import annotations
 

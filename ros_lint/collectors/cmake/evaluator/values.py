@@ -33,7 +33,9 @@ FOREIGN: Final = f"/{ATOM}foreign-"
 """The install prefix of another package of the workspace, whose name follows."""
 
 LONGEST: Final = 1 << 20
-"""Characters of the longest value. A longer one becomes unknown, so that no script can exhaust the memory."""
+"""Characters of the longest value.
+
+A longer one becomes unknown, so that no script can exhaust the memory."""
 ELEMENT: Final = 64
 """Cost of a list element in characters, because of the memory of a Python string."""
 FILE: Final = 256
@@ -173,7 +175,10 @@ def join(values: Iterable[str]) -> str:
 
 
 def glued(glue: str, texts: Sequence[str]) -> str:
-    """Return texts joined by ``glue``, HOLE if the result is too long (a loop can double a text in each round)."""
+    """Return texts joined by ``glue``.
+
+    HOLE if the result is too long (a loop can double a text in each round).
+    """
     if len(glue) * len(texts) + sum(map(len, texts)) > LONGEST:
         return HOLE
     return flat(glue).join(map(flat, texts))
@@ -198,7 +203,9 @@ def certainly_set(value: str) -> bool:
 
 
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
-    """Return the value of a variable after one of several branches ran. ``values`` has its value after each branch.
+    """Return the value of a variable after one of several branches ran.
+
+    ``values`` has its value after each branch.
 
     ``None`` is an unset variable. ``default`` is the index of the branch that runs with default options. The result then
     keeps every element of that value, and elements of the other values are marked as possibly missing.

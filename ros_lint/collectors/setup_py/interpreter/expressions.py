@@ -370,7 +370,10 @@ class Expressions(ABC):
         return found
 
     def _generate(self, generators: Sequence[ast.comprehension], add: Callable[[bool], None]) -> None:
-        """Run the loops of a comprehension. ``add`` is called for each round, with whether the round certainly happens."""
+        """Run the loops of a comprehension.
+
+        ``add`` is called for each round, with whether the round certainly happens.
+        """
         outer = self.scopes
         self.scopes = ({}, *outer)
         self.inner += 1

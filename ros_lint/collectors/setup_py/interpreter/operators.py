@@ -116,7 +116,10 @@ def compare(operation: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def formatted(value: Value, conversion: int, spec: str) -> str:
-    """Return the text of a replacement field of an f-string. Raises TooLargeError for a field that is too wide."""
+    """Return the text of a replacement field of an f-string.
+
+    Raises TooLargeError for a field that is too wide.
+    """
     check_format(spec)
     if conversion >= 0:
         value = _CONVERSIONS[chr(conversion)](value)

@@ -74,7 +74,10 @@ class Module(NamedTuple):
 
 
 class Native(NamedTuple):
-    """A function or method with a model, by its name, such as ``os.path.join``. The owner is the value of a method."""
+    """A function or method with a model, by its name, such as ``os.path.join``.
+
+    The owner is the value of a method.
+    """
 
     name: str
     owner: Value = None
