@@ -157,7 +157,7 @@ _MAKES_NOTHING: Final = frozenset(
 
 
 def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
-    """Yield the packages that CONFIG_EXTRAS files and package templates search, and whether each search always runs.
+    """Yield the packages that CONFIG_EXTRAS and templates search, with whether the search always runs.
 
     Searches in functions and macros are left out, because they run only when the macro is called.
     """
@@ -225,7 +225,7 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 
 
 def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
-    """Return the mentions, with the searches that are not REQUIRED classified by the result of :func:`_taken`.
+    """Return the mentions. Searches without REQUIRED are classified by the result of :func:`_taken`.
 
     Such a search is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
     macros of the package.
@@ -265,7 +265,9 @@ def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
 
 
 _WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
-"""Names of packages that provide commands, find modules or settings, so a script uses them without naming them again."""
+"""Names of packages that a script uses without naming them again.
+
+They provide commands, find modules or settings."""
 
 
 def _unnamed(run: Run, names: Iterable[str]) -> list[str]:

@@ -1,7 +1,7 @@
-"""CMake files as lists of commands: CMakeLists.txt, ``*.cmake`` and their templates (``*.cmake.in``, ``*.in.cmake``).
+"""Parser of CMake files: CMakeLists.txt, ``*.cmake`` and templates (``*.cmake.in``, ``*.in.cmake``).
 
-The syntax is cmake-language(7) as parsed by CMake 3.25, including legacy unquoted arguments (``-Da="b c"``).
-Nothing is evaluated here: see :mod:`ros_lint.collectors.cmake.evaluate`.
+The result is a list of commands. The syntax is cmake-language(7) as parsed by CMake 3.25, including legacy unquoted
+arguments (``-Da="b c"``). Nothing is evaluated here: see :mod:`ros_lint.collectors.cmake.evaluate`.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class Parsed(NamedTuple):
     """The commands before the first problem."""
     problems: tuple[Problem, ...]
     set_aside: tuple[str, ...] = ()
-    """Interface files on commented lines, as ``msg/Name``: usually elements of a list that were commented out."""
+    """Interface files that are named on commented lines, as ``msg/Name``: usually elements of a list."""
 
 
 _SET_ASIDE = re.compile(r"""^[ \t]*\#[ \t\#"]*((?:msg|srv|action)/\w+)\.(?:msg|srv|action|idl)\b""", re.MULTILINE)
@@ -103,7 +103,7 @@ _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
 def is_template(path: str) -> bool:
-    """Return whether a file is a template by its name: configure_file() generates a file from it, but it is no script."""
+    """Return whether a file is a template by its name: CMake configures another file from it."""
     return path.endswith((".in", ".in.cmake")) or _OTHER.search(path) is not None
 
 
@@ -242,7 +242,7 @@ class _Reader:
         return _SyntaxError(reasons.get(what, f"{what!r} cannot stand here"), at, at + 1)
 
     def _count_lines(self) -> None:
-        """Recount the lines of the commands in a file with carriage returns, because Text also ends lines at these."""
+        """Recount the lines of commands in a file with carriage returns, because Text ends lines at these too."""
         for number, command in enumerate(self.commands):
             line, column = self.source.position(command.start)
             last = self.source.position(command.end)[0]
@@ -251,5 +251,5 @@ class _Reader:
 
 
 def _cleaned(value: str) -> str:
-    """Return an argument with line ends normalized and the marks of unknown values (see ``values.py``) replaced."""
+    """Return an argument with normalized line ends and without marks of unknown values (``values.py``)."""
     return value.replace("\r\n", "\n").translate(_MARKS)

@@ -133,7 +133,10 @@ class Distribution:
             self.moved += [f"{lies}/"] if lies != "." else [f"{module}.py" for module in modules]
 
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
-        """Return the packages and folders that setuptools (since 61) discovers: those in src/, or a single top package."""
+        """Return the packages and folders that setuptools (since 61) discovers.
+
+        These are the packages in src/, or those of a single top-level package.
+        """
         files = self._context.files
         if "" in folders or files.is_folder("src"):
             top = folders.get("", "src")

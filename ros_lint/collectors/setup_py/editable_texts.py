@@ -1,4 +1,4 @@
-"""Texts in ``setup.py`` that a fix can change: patterns of globs, and gaps between texts where a comma is missing."""
+"""Texts in ``setup.py`` that a fix can change: patterns of globs, and gaps where a comma is missing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def collect(source: Text) -> tuple[WrittenText, ...]:
-    """Return the last literal of each pattern of ``glob()``, and the gaps in implicitly joined texts with several ``=``.
+    """Return the last literal of each ``glob()`` pattern, and gaps in joined literals with several ``=``.
 
     Example of a gap: two entry points ``'a = p.a:main' 'b = p.b:main'`` without a comma between them.
     """

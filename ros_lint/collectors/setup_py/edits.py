@@ -32,7 +32,7 @@ def place(script: BuildScript) -> Span:
 
 
 def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
-    """Return the edit that adds files to data_files, so that they are installed to their folders in share/<package>.
+    """Return the edit that adds files to data_files, to install them in share/<package>.
 
     ``others`` are the paths of all files of the package. The files of a folder are added as a glob if setup.py uses globs
     and the glob matches no other file:
@@ -92,11 +92,11 @@ def quoted(to: EditableList, text: str) -> str:
 
 
 _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
-"""Sections and options of setup.cfg for the folder of programs: with ``--symlink-install``, and without."""
+"""Sections and options of setup.cfg for the folder of programs, with and without symlink-install."""
 
 
 def program_folders(script: BuildScript) -> dict[str, Span]:
-    """Return the places of the folder of programs in setup.cfg, by section and option (``install.install_scripts``)."""
+    """Return the places in setup.cfg that set the folder of programs, by ``section.option``."""
     wanted = {f"{section}.{option}" for section, option in _FOLDERS}
     return {text.text: text.span for text in script.editable_texts if text.kind == "option" and text.text in wanted}
 
@@ -107,7 +107,7 @@ def config(place: Span, package: str) -> Edit:
 
 
 def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
-    """Return the edits of a setup.cfg that add or change options so that programs are installed to ``lib/<package>``.
+    """Return the edits of a setup.cfg that make programs install to ``lib/<package>``.
 
     Empty if there is no setup.cfg.
     """

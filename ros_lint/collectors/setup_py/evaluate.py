@@ -1,7 +1,7 @@
-"""Evaluation of ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package, without running them.
+"""Evaluation of the ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package.
 
-setup.py is a program that colcon runs. Here a small interpreter evaluates it with the names of the package's files. A
-value that it cannot know becomes an Opaque with the facet of the package that it hides.
+colcon runs setup.py, but nothing is run here: a small interpreter evaluates it with the names of the package's files.
+A value that it cannot know becomes an Opaque with the facet of the package that it hides.
 """
 
 from __future__ import annotations

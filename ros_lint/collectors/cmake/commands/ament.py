@@ -1,4 +1,4 @@
-"""Commands of ROS packages: calls of released macros, and the ``ros_lint_*`` primitives of ``ros_macros.cmake``."""
+"""Commands of ROS packages: released macros, and the ``ros_lint_*`` primitives of their definitions."""
 
 from __future__ import annotations
 
@@ -154,7 +154,7 @@ def _python(run: Run, args: list[str]) -> None:
 
 
 def _scripts(run: Run, args: list[str]) -> None:
-    """``ros_lint_console_scripts(destination setup.cfg)``: the console_scripts of a setup.cfg are installed as programs."""
+    """``ros_lint_console_scripts(destination setup.cfg)``: its console_scripts are installed as programs."""
     path = run.source(args[1])
     text = run.sources.texts.get(path) if path is not None else None
     destination = run.destination(args[0])
@@ -197,7 +197,7 @@ _SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
 
 
 def _package(run: Run, args: list[str]) -> None:
-    """``ros_lint_package(...)``: ament_package(), which installs the files for find_package() with the CONFIG_EXTRAS."""
+    """``ros_lint_package(...)``: ament_package(), which installs the files for find_package()."""
     if run.muted:
         return
     name = run.get("PROJECT_NAME") or ""
@@ -230,7 +230,7 @@ _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 
 def _needed(run: Run, args: list[str]) -> None:
-    """``ros_lint_needed(files...)``: files that must exist, because ament stops without them (assert_file_exists)."""
+    """``ros_lint_needed(files...)``: files without which ament stops with an error (assert_file_exists)."""
     for arg in args:
         plain, certain = sure(arg)
         path, span = run.source(plain), run.where(arg)
@@ -255,7 +255,10 @@ def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
 
 
 def _end(run: Run) -> None:
-    """Record the place before ament_package(), where fixes insert install rules, and whether a blank line precedes it."""
+    """Record the place of ament_package(), before which fixes insert install rules.
+
+    If a blank line precedes ament_package(), the end of the command before it is recorded as well.
+    """
     frame = next(frame for frame in reversed(run.frames) if frame.own)
     top = join_path(run.sources.path, "CMakeLists.txt")
     if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
@@ -306,14 +309,14 @@ _TEST_WORDS: Final = {
 
 
 def _vendor(run: Run, args: list[str]) -> None:
-    """``ros_lint_vendor(target ...)``: ament_vendor() builds an external project and installs it below opt/."""
+    """``ros_lint_vendor(target ...)``: ament_vendor() builds and installs an external project below opt/."""
     if args:
         run.put(run.targets, args[0], Properties(KIND="other"))
     run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
 
 
 def _tests(run: Run, args: list[str]) -> None:
-    """``ros_lint_runs(files or folders...)`` and ``add_test()``: files or folders that an interpreter runs as tests."""
+    """``ros_lint_runs(paths...)`` and ``add_test()``: files or folders that an interpreter runs as tests."""
     for arg in args:
         path = run.source(sure(arg)[0])
         if path is None and HOLE in arg:
@@ -323,7 +326,7 @@ def _tests(run: Run, args: list[str]) -> None:
 
 
 RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
-"""Commands that run tests which are not compiled: add_test() of CMake, and the primitive of released macros."""
+"""Commands that run tests without compiling them: add_test(), and the primitive of released macros."""
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:

@@ -28,13 +28,15 @@ _TESTS: Final = "BUILD_TESTING"
 
 
 _Reference = tuple[str, Template, bool]
-"""An argument with references: the variable if it is a single reference (else ""), its parts, and whether it is quoted."""
+"""An argument with references: a variable, its parts, and whether it is quoted.
+
+The variable is "" unless the argument is a single reference."""
 _Conditions = tuple[tuple[str, bool], ...]
 """Keywords of the call, each with whether it must be present or absent."""
 _Step = tuple[str, tuple[str | _Reference, ...], _Conditions]
 """A command with its arguments and the conditions under which it runs."""
 _Keywords = tuple[str, str, str, str]
-"""The first arguments of cmake_parse_arguments(): prefix, options, keywords with one value, keywords with many values."""
+"""Arguments of cmake_parse_arguments(): prefix, options, keywords with one value and with many values."""
 
 
 class Released(NamedTuple):
@@ -42,7 +44,7 @@ class Released(NamedTuple):
 
     procedure: Procedure
     direct: tuple[str, list[str]] | None
-    """A primitive and its first arguments, if the macro only passes all of its own arguments on to that primitive."""
+    """A primitive and its first arguments, if the macro only passes its arguments on to that primitive."""
     keywords: _Keywords | None
     steps: tuple[_Step, ...] | None
     """The commands of the macro, None if it cannot be compiled."""

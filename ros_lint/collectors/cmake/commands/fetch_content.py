@@ -1,4 +1,4 @@
-"""FetchContent and ExternalProject: external projects that the build of the package downloads and builds."""
+"""FetchContent and ExternalProject: external projects that are built together with the package."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ _FETCHED: Final = "_deps"
 
 
 def _declare(run: Run, args: list[str]) -> None:
-    """``fetchcontent_declare(name options...)``: the address of the project has the names under which it may be used."""
+    """``fetchcontent_declare(name options...)``.
+
+    Scripts may use the project under names that are derived from its address.
+    """
     if args and is_known(args[0]):
         run.fetched[args[0].lower()] = _called(args)
 

@@ -1,4 +1,4 @@
-"""Packages that a script uses: find_package() and similar commands, pkg-config, targets of other packages."""
+"""Commands that name packages, such as find_package() and target_link_libraries()."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
-"""Packages that set BUILD_SHARED_LIBS to ON when they are found (build_shared_libs.cmake of ament_cmake_ros)."""
+"""Packages that set BUILD_SHARED_LIBS to ON if found (ament_cmake_ros: build_shared_libs.cmake)."""
 _BUILD_TOOL: Final = "ament_cmake"
 _OF_ROS_1: Final = frozenset({"catkin", "roscpp"})
 """Packages of ROS 1 that scripts for both ROS versions search. A build for ROS 2 does not find them."""
@@ -71,7 +71,10 @@ def _may_become_package(name: str) -> bool:
 
 
 def found(run: Run, name: str, *, required: bool) -> None:
-    """Mark a package as found: its variables become unknown, and its CMake code runs if it is in the workspace."""
+    """Mark a package as found. Its variables become unknown.
+
+    Its CMake code runs if it is a package of the workspace.
+    """
     if name in _OF_ROS_1 and not required and name not in run.helpers:
         run.set(f"{name}_FOUND", "0")
         return
@@ -144,7 +147,7 @@ def _uses(run: Run, args: list[str]) -> None:
 
 
 def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
-    """Record arguments that a command rejects, because it expects found packages and these can never be found."""
+    """Record arguments that a command rejects, because they can never be found as packages."""
     targets = [name for name in given if "::" in name] if command.startswith("ament_") else []
     if targets:
         are = "is a target" if len(targets) == 1 else "are targets"
@@ -234,7 +237,7 @@ def _link_all(run: Run, args: list[str]) -> None:
 
 
 def _brings(run: Run, space: str, inner: str) -> bool:
-    """Return whether a target is of a bundled project, or of a package that is found by the name after ``::``."""
+    """Return whether a target ``space::inner`` is of a bundled project, or of a found package ``inner``."""
     return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
 
 

@@ -1,4 +1,4 @@
-"""include() and add_subdirectory(), with scripts of the package itself and of other packages of the workspace."""
+"""include() and add_subdirectory() of scripts in the package and in other packages of the workspace."""
 
 from __future__ import annotations
 
@@ -189,7 +189,10 @@ _TOP: Final = "CMakeLists.txt"
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:
-    """Return the build folder of a subdirectory: below that of the current directory, by its second argument or its path."""
+    """Return the build folder of a subdirectory, which is below that of the current directory.
+
+    Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
+    """
     told = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
     below = told or relative(run.place(run.directory), run.place(path))
     if not is_fixed(below) or (is_outside(below) and not told):

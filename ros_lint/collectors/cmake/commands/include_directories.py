@@ -76,7 +76,10 @@ def _names(run: Run, arg: str) -> tuple[str, ...]:
 
 
 def _written(run: Run) -> list[str]:
-    """Return the packages whose variables the current command names, and _ANYTHING if another argument is unknown."""
+    """Return the packages whose variables the current command names.
+
+    The result has _ANYTHING if another part of an argument is unknown.
+    """
     command = run.frames[-1].command
     found: list[str] = []
     for text, kind, _, _ in command.args if command is not None else ():
@@ -88,7 +91,7 @@ def _written(run: Run) -> list[str]:
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
-    """Return the package of a variable, _ANYTHING if no found package sets it or the script sets it itself."""
+    """Return the package of a variable, _ANYTHING if no found package sets it or the script itself does."""
     name = found_as(run, variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING
 

@@ -18,7 +18,7 @@ _TYPES: Final = {
 
 
 def facet_of(run: Run, destination: str | None) -> Facet:
-    """Return the facet of the package for files that are installed to a destination, ANYWHERE if it is unknown."""
+    """Return the facet of files that are installed to a destination, ANYWHERE if that is unknown."""
     if not destination or destination == ".":
         return ANYWHERE
     if destination == "lib":

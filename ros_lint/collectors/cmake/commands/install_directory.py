@@ -106,7 +106,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
 
 
 def _made(run: Run, folder: str) -> tuple[list[str], bool]:
-    """Return the files below a folder that the build generates, and whether it generates more, unknown files."""
+    """Return the files that the build generates below a folder, and whether it generates unknown ones."""
     below = f"{folder}/" if folder else ""
     new = sorted(path for path in run.generated if path.startswith(below) and path not in run.files)
     return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.below(path[:-1]) for path in new)
@@ -131,7 +131,7 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
-    """Return the files below a folder that are not files of the package, but are installed with the folder.
+    """Return the files below a folder of other packages or ignored folders that are installed with it.
 
     They are files of nested packages, or of folders with a COLCON_IGNORE.
     """
@@ -147,7 +147,7 @@ def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
 
 
 def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
-    """Return whether the patterns include a file below a folder, and whether their permissions make it executable.
+    """Return whether the patterns include a file below a folder, and whether they make it executable.
 
     The second value is None if no pattern with PERMISSIONS matches. ``top`` is the path of the folder as written in the script,
     because patterns are matched against it.

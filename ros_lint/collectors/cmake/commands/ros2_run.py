@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def started(run: Run, args: Sequence[str], *, optional: bool = False) -> None:
-    """Record the packages whose programs or launch files are started by ``ros2 run`` or ``ros2 launch`` in the arguments.
+    """Record the packages that arguments of a command name in ``ros2 run`` or ``ros2 launch``.
 
     ``optional`` is True for a custom target that is not built by default.
     """

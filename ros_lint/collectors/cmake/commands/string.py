@@ -242,7 +242,9 @@ _FUNCTIONS: Final[dict[str, tuple[int, Callable[..., str]]]] = {
     "SHA3_384": (0, _hash("sha3_384")),
     "SHA3_512": (0, _hash("sha3_512")),
 }
-"""For each mode, the index of the output variable in its arguments, and the function from the other arguments to the value."""
+"""The index of the output variable among the arguments of each mode, and the function for its value.
+
+The function takes the other arguments."""
 
 
 # --- expressions ---------------------------------------------------------------------------------------------------

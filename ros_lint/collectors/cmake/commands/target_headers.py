@@ -24,7 +24,7 @@ _WORDS: Final = {"FILE_SET": 1, "TYPE": 1, "BASE_DIRS": -1, "FILES": -1}
 
 
 def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
-    """Record the file sets of a target_sources() call, and return all of its sources, including those of the sets."""
+    """Record the file sets of a target_sources() call, and return all of its sources."""
     found: list[str] = []
     starts = [index for index, arg in enumerate(args) if arg in VISIBILITY or arg == "FILE_SET"]
     for start, end in zip([0, *starts], [*starts, len(args)], strict=True):

@@ -86,7 +86,7 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
 
 
 def with_one_destination(args: list[str]) -> list[str]:
-    """Return the arguments with a HOLE for a DESTINATION that has alternative values from the branches of a condition."""
+    """Return the arguments with a HOLE for a DESTINATION that differs between branches of a condition."""
     result: list[str] = []
     for arg in args:
         if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):

@@ -162,7 +162,10 @@ _COMPONENT = re.compile(r"\s*([-+]?)(\d+)", re.ASCII)
 
 
 def compare_versions(left: str, right: str) -> int:
-    """Return -1, 0 or 1 like VERSION_LESS: components are compared in order, each parsed like strtoul() in C."""
+    """Return -1, 0 or 1 for versions as VERSION_LESS compares them.
+
+    Components are compared in order, each parsed like strtoul() in C.
+    """
     at, other = 0, 0
     while "0" <= left[at : at + 1] <= "9" or "0" <= right[other : other + 1] <= "9":
         first, at = _component(left, at)

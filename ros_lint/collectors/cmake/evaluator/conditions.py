@@ -222,7 +222,10 @@ def _asks_for_tests(name: str) -> bool:
 
 
 def _tests_wanted(run: Run) -> Truth:
-    """Return the truth of BUILD_TESTING: likely, unless the script itself sets it to false (option() keeps that value)."""
+    """Return the truth of BUILD_TESTING: likely, unless the script itself sets it to false.
+
+    A later option(BUILD_TESTING) keeps that value.
+    """
     value = run.get("BUILD_TESTING")
     return _NO_TESTS if value and is_fixed(value) and is_off(value) else _TESTS_WANTED
 

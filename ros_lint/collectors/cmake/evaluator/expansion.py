@@ -25,7 +25,7 @@ _LONGEST_KEPT: Final = 4096
 
 
 class ExpansionError(Exception):
-    """CMake rejects the argument: an unclosed reference, an invalid escape or an invalid character in a name."""
+    """CMake rejects the argument: an unclosed reference, an invalid escape or an invalid name."""
 
 
 templates: Final[dict[str, Compiled]] = {}

@@ -1,4 +1,4 @@
-"""Glob patterns of CMake (KWSys Glob.cxx) as regular expressions: ``*`` and ``?`` do not match a slash."""
+"""Glob patterns of CMake (KWSys Glob.cxx) as regular expressions; ``*`` and ``?`` match no slash."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from ros_lint.base.wildcards import LONGEST, letters, spaced
 
 
 def of_paths(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
-    """Return the expression for a whole path, as :func:`~ros_lint.base.text.octets`, from a pattern for each of its names.
+    """Return the expression for a whole path, from a pattern for each of its names.
 
-    With ``recurse``, any folders may precede the last name. No name matches an invalid pattern.
+    The expression matches the :func:`~ros_lint.base.text.octets` of the path. With ``recurse``, any
+    folders may precede the last name. No name matches an invalid pattern.
     """
     numbers = count()
     *heads, last = (_expression(part, numbers) or "(?!)" for part in parts)

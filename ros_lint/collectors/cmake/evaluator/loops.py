@@ -89,7 +89,7 @@ def _elements(run: Run, name: str) -> list[str]:
 
 
 def _unknown_whole(items: list[str]) -> list[str]:
-    """Return list elements with a HOLE for each element that has an unknown piece, because it may be several."""
+    """Return list elements. Each one with an unknown piece becomes a HOLE, because it may be several."""
     return [WILD if WILD in item else HOLE if HOLE in item else item for item in items]
 
 
@@ -151,7 +151,10 @@ def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> 
 
 
 def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
-    """Run the body of a loop whose number of rounds is unknown: one muted round, then one with all changed values unknown."""
+    """Run the body of a loop whose number of rounds is unknown.
+
+    A first, muted round determines the variables that change. The second round runs with these unknown.
+    """
     run.muted += 1
     try:
         _, changes = perhaps(run, round_)

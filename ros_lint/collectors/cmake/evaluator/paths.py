@@ -29,12 +29,12 @@ class Paths(State):
         self.files = frozenset(sources.files)
         self.frames: list[Frame] = []
         self.directories: list[tuple[str, str]] = [("", BINARY)]
-        """The folders whose CMakeLists.txt runs, outermost first: each relative to the package, with its build folder."""
+        """The current directories, outermost first: each relative to the package, with its build folder."""
         self.places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.named("")))
         self._place_directory()
 
     def at_home(self) -> bool:
-        """Return whether the current command is in a file of the package, or in a script around it that runs like its own."""
+        """Return whether the current command is in a file of the package, or in a script around it (AROUND)."""
         frame = self.frames[-1]
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == AROUND
 
@@ -115,9 +115,9 @@ class Paths(State):
         return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
 
     def listed(self, path: str) -> str:
-        """Return the normalized path of a file relative to the package, "" if it is in the package's folder but does not exist.
+        """Return the normalized path of a file, relative to the package.
 
-        A path such as ``../package/file`` leads back into the package.
+        "" if the path is in the package but no such file exists. A path such as ``../package/file`` leads back into the package.
         """
         path = relative(self.sources.path, self.place(path)) if is_outside(path) else path
         return path if path in self.files or is_outside(path) else ""

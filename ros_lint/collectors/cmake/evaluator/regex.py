@@ -1,4 +1,7 @@
-"""Regular expressions of CMake (KWSys RegularExpression.cxx): simpler than Python's, and matched byte by byte."""
+"""Regular expressions of CMake (KWSys RegularExpression.cxx), translated to Python's.
+
+They are simpler than Python's, and match bytes.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +71,7 @@ class _Translator:
         return found[0]
 
     def branches(self) -> tuple[str, bool]:
-        """Return the expression up to the end or a closing parenthesis, and whether it can match the empty text."""
+        """Return the expression up to the end or a closing parenthesis, and whether it can match nothing."""
         pieces, empty = self.branch()
         while self.text[self.at : self.at + 1] == "|":
             self.at += 1

@@ -69,9 +69,9 @@ class Run(Paths):
         self.packages: Properties = Properties()
         """Packages that are certainly found."""
         self.prefixes: dict[str, bool] = {}
-        """Prefixes of variables that found packages may have set, and whether the prefix is the name of a package.
+        """Prefixes of variables that found packages may have set, each with whether it is a package name.
 
-        It is not for pkg_check_modules(), whose first argument chooses the prefix."""
+        It is none for pkg_check_modules(), whose first argument chooses the prefix."""
         self._folded: tuple[str, ...] = ()
         self.open_world = False
         """True if code that cannot be read has run."""
@@ -211,7 +211,7 @@ class Run(Paths):
         return (self.distro or HOLE) if name == "ROS_DISTRO" else ROS_2.get(name, HOLE)
 
     def _use_of_ros(self, name: str) -> None:
-        """Record a use of ros_environment, because only its environment hooks reliably set ROS_DISTRO and the like."""
+        """Record a use of ros_environment, because only its environment hooks reliably set such a variable."""
         command = self.frames[-1].command
         if command is None or command.name == "message":
             return
@@ -372,7 +372,7 @@ class Run(Paths):
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def is_helped(self) -> bool:
-        """Return whether the running code is of another package of the workspace, or of a script around the package."""
+        """Return whether the running code is in another package of the workspace, or in a script around it."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False

@@ -45,7 +45,7 @@ class Sources(NamedTuple):
     version: str = ""
     """The version in package.xml."""
     build_depends: tuple[str, ...] = ()
-    """Packages that ament_auto_find_build_dependencies() finds: declared as <build_depend>, <buildtool_depend> or <depend>."""
+    """Packages that package.xml declares for the build. ament_auto_find_build_dependencies() finds them."""
     test_depends: tuple[str, ...] = ()
     unseen: tuple[str, ...] = ()
     """Existing folders below the package, relative to it, whose files are not in ``files``."""

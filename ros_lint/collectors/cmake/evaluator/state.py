@@ -117,7 +117,7 @@ class State:
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
         self.places: dict[str, str] = {}
-        """Variables for places: the source folder, the current directory and file, and the install folders of documentation."""
+        """Variables for places: the source folder, the current directory and file, CMAKE_INSTALL_DOCDIR."""
         self.for_tests: dict[str, str] = {}
         """Variables that are true only if tests are enabled, with the value that they then have."""
         self.gained: dict[str, frozenset[str]] = {}
@@ -190,7 +190,7 @@ class State:
             self.put(self.scopes[-2], name, value)
 
     def return_to_caller(self, name: str, value: str | None) -> None:
-        """Set a variable of the caller's scope, even from within a block() of the function (return(PROPAGATE))."""
+        """Set a variable of the caller's scope, even from a block() in the function (return(PROPAGATE))."""
         inner = next((index for index in range(len(self.scopes) - 1, 0, -1) if type(self.scopes[index]) is Variables), 0)
         if inner == len(self.scopes) - 1:
             self.set_outer(name, value)

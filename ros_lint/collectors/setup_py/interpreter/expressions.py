@@ -313,7 +313,7 @@ class Expressions(ABC):
         return Function(node, self.scopes, defaults, keywords)
 
     def _named(self, node: ast.NamedExpr) -> Value:
-        """Return the value of ``name := value``, and assign it in the innermost scope that is no comprehension."""
+        """Return the value of ``name := value``, assigned in the innermost scope that is no comprehension."""
         value = self.value(node.value)
         inner, self.scopes = self.scopes[: self.inner], self.scopes[self.inner :]
         try:

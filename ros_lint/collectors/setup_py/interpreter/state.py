@@ -1,4 +1,4 @@
-"""Journal of changes during the evaluation of a setup.py, to run both branches of an unknown condition."""
+"""Journal of changes in an evaluation of setup.py, to run both branches of an unknown condition."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Journal:
                 changes[id(container)] = (container, container.copy())
 
     def both(self, ways: tuple[Callable[[], None], Callable[[], None]], unknown: Unknown) -> None:
-        """Run the two branches of an unknown condition, each from the same initial state, and join the final states."""
+        """Run both branches of an unknown condition from the same initial state, and join the final states."""
         self._forks += 1
         if self._forks > MOST_FORKS:
             raise ExhaustedError("more conditions are unknown than are followed")

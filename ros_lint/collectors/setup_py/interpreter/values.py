@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import PurePosixPath
 
 Value = Any
-"""A str, int, float, bool, None, list, tuple, dict, set or PurePosixPath as in Python, or one of the classes below."""
+"""A value of Python (str, number, None, container, PurePosixPath), or one of the classes below."""
 
 
 class Unknown:
@@ -222,7 +222,7 @@ def either(left: Value, right: Value, unknown: Unknown) -> Value:
 
 
 def merged(left: list[Value], right: list[Value]) -> list[Value]:
-    """Return the list that represents one of two lists: their common start, then the other elements as Maybe."""
+    """Return a list that represents one of two lists: their common start, then other elements as Maybe."""
     shared = 0
     while shared < min(len(left), len(right)) and same(left[shared], right[shared]):
         shared += 1
