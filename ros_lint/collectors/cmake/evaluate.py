@@ -215,13 +215,13 @@ def _is_known(run: Run, call: str) -> bool:
 
 def _installed_files(run: Run) -> list[InstalledFile]:
     files, generated = run.files, run.generated
-    found = []
+    installed_files = []
     for provided in run.installed:
         if not provided.source or is_outside(provided.source) or provided.source in files:
-            found.append(provided)
+            installed_files.append(provided)
         elif provided.source in generated:
-            found.append(provided._replace(source=""))
-    return found
+            installed_files.append(provided._replace(source=""))
+    return installed_files
 
 
 def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
@@ -272,25 +272,25 @@ They provide commands, find modules or settings."""
 
 def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
     """Return the names that occur in no command of the package except find_package()."""
-    left = list(names)
-    if not left:
-        return left
+    candidates = list(names)
+    if not candidates:
+        return candidates
     commands = (command for parsed in (*run.sources.scripts.values(), *run.around) for command in parsed.commands)
     words = [argument[0] for command in commands if command.name != "find_package" for argument in command.args]
     text = "\n".join(words).replace("_", "").replace("-", "").lower()
-    return [name for name in left if folded(name) not in text]
+    return [name for name in candidates if folded(name) not in text]
 
 
 def _missing(run: Run) -> list[Problem]:
-    found = []
+    problems = []
     for path, span, unsure in run.missing:
         source = path.rstrip("/")
         # CMake accepts a folder in a list of sources and ignores it.
         if not unsure and run.generated.isdisjoint((source, path)) and not run.is_folder(source):
             empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
             message = f"'{source}' does not exist" if source == path else empty
-            found.append(Problem("missing-file", message, span, subject=source))
-    return list(dict.fromkeys(found))
+            problems.append(Problem("missing-file", message, span, subject=source))
+    return list(dict.fromkeys(problems))
 
 
 def _undefined(run: Run) -> list[Problem]:

@@ -178,7 +178,7 @@ class _Reader:
                         continue
                     breaks: tuple[int, ...] = ()
                     if text.find("\n", begin, position) >= 0:
-                        breaks = tuple([found.end() for found in _NEW_LINE.finditer(text, begin, position)])
+                        breaks = tuple([line_end.end() for line_end in _NEW_LINE.finditer(text, begin, position)])
                     if strange:
                         args = [(_cleaned(value), kind, start, stop) for value, kind, start, stop in args]
                     add(Command(name.lower(), name, tuple(args), begin, position, line, column, breaks))

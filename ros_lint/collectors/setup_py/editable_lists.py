@@ -37,8 +37,8 @@ def collect(source: Text, package: str) -> tuple[EditableList, ...]:
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and _is_setup(node.func)]
     if len(calls) != 1:
         return ()
-    glob = next((said for node in tree.body if (said := _glob(node))), "")
-    return tuple(_slot(source, option, found, name)._replace(glob=glob) for option, found in _lists(calls[0], variables))
+    glob = next((glob_name for node in tree.body if (glob_name := _glob(node))), "")
+    return tuple(_slot(source, option, literal, name)._replace(glob=glob) for option, literal in _lists(calls[0], variables))
 
 
 def _glob(node: ast.stmt) -> str:

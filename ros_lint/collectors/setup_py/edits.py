@@ -13,7 +13,7 @@ from ros_lint.facts.setup_py import EditableList
 
 def slot(script: BuildScript, option: str) -> EditableList | None:
     """Return the list of an option, None if it is no list literal or is empty."""
-    return next((found for found in script.editable_lists if found.option == option and found.size), None)
+    return next((editable for editable in script.editable_lists if editable.option == option and editable.size), None)
 
 
 def add(to: EditableList, element: str) -> Edit:
@@ -27,8 +27,8 @@ def add(to: EditableList, element: str) -> Edit:
 
 def place(script: BuildScript) -> Span:
     """Return the place in a build script where install rules can be added, else the name of the package."""
-    found = slot(script, "data_files")
-    return script.insertion or (found.end if found else script.name_span) or file_start(script.path)
+    data_files = slot(script, "data_files")
+    return script.insertion or (data_files.end if data_files else script.name_span) or file_start(script.path)
 
 
 def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
@@ -53,9 +53,9 @@ def _files(to: EditableList, package: str, paths: Sequence[str], others: Sequenc
     folder = posixpath.dirname(paths[0])
     target = joined(to, package, "share/", f"/{folder}" if folder else "")
     ending = _ending(paths)
-    inside = [other for other in others if other.startswith(f"{folder}/")]
-    files = [other for other in inside if posixpath.dirname(other) == folder]
-    alike = [other for other in files if other.endswith(ending)]
+    inside = [file for file in others if file.startswith(f"{folder}/")]
+    files = [file for file in inside if posixpath.dirname(file) == folder]
+    alike = [file for file in files if file.endswith(ending)]
     if to.glob and folder and (ending or inside == files) and sorted(alike) == sorted(paths):
         return f"({target}, {to.glob}({quoted(to, f'{folder}/*{ending}')}))"
     return f"({target}, [{', '.join(quoted(to, path) for path in paths)}])"

@@ -244,7 +244,7 @@ def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
     for file in files:
         plain, certain = sure(file)
         path = run.source(plain)
-        source = next((one for one in (path, f"{path}.in") if path is not None and one in run.files), None)
+        source = next((candidate for candidate in (path, f"{path}.in") if path is not None and candidate in run.files), None)
         written = posixpath.basename(source or plain)
         if source is not None:
             run.extras.append(source)
@@ -264,7 +264,7 @@ def _end(run: Run) -> None:
     if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
         run.end = frame.command.place(frame.path).start()
         commands = run.sources.scripts["CMakeLists.txt"].commands
-        before = next((one for one, other in pairwise(commands) if other.start == frame.command.start), None)
+        before = next((earlier for earlier, later in pairwise(commands) if later.start == frame.command.start), None)
         if before is not None:
             lines = frame.command.line - before.line - len(before.breaks)
             if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # LF or CRLF

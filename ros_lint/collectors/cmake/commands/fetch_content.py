@@ -49,7 +49,7 @@ def _make_available(run: Run, args: list[str]) -> None:
 
 def _fetch(run: Run, given: list[str], args: list[str]) -> None:
     names = [name for name in given if is_known(name)]
-    called = [other for name in names for other in run.fetched.get(name.lower(), ())]
+    called = [alias for name in names for alias in run.fetched.get(name.lower(), ())]
     _from_elsewhere(run, [*names, *called], args)
     for name in names:
         run.set(f"{name.lower()}_SOURCE_DIR", HOLE)

@@ -48,8 +48,8 @@ def find_package(run: Run, args: list[str]) -> int | None:
     required = "REQUIRED" in args
     module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
     span = run.where(args[0]) if name else run.here()
-    told = run.at_home() or (run.is_helped() and span != run.here())  # or the package passes the name to a helper
-    if name and module is None and told and not run.is_bundled(name):
+    is_own_search = run.at_home() or (run.is_helped() and span != run.here())  # or the package passes the name to a helper
+    if name and module is None and is_own_search and not run.is_bundled(name):
         optional = not certain or ("QUIET" in args and not required)
         run.mention(name, "cmake", span, optional=optional)
         if name in _PYTHON and any(arg.startswith("Development") for arg in args):

@@ -193,9 +193,9 @@ def _built_in(run: Run, path: str, args: list[str]) -> str:
 
     Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
     """
-    told = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
-    below = told or relative(run.place(run.directory), run.place(path))
-    if not is_fixed(below) or (is_outside(below) and not told):
+    argument = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
+    below = argument or relative(run.place(run.directory), run.place(path))
+    if not is_fixed(below) or (is_outside(below) and not argument):
         return HOLE
     return below if below.startswith("/") else posixpath.normpath(f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{below}")
 

@@ -45,8 +45,8 @@ def given(run: Run, target: str, args: Iterable[str]) -> None:
             have[arg] = None
             continue
         known = known and HOLE not in arg
-        for each in elements(arg):
-            have.update(dict.fromkeys(_names(run, each.lstrip(MAYBE))))
+        for element in elements(arg):
+            have.update(dict.fromkeys(_names(run, element.lstrip(MAYBE))))
     if not known:
         have.update(dict.fromkeys(_written(run)))
 
@@ -140,22 +140,22 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
     waiting = [name, ALL_TARGETS]
     seen: set[str] = set()
     while waiting:
-        each = waiting.pop()
-        if each in seen:
+        current = waiting.pop()
+        if current in seen:
             continue
-        seen.add(each)
-        target = targets.get(each)
+        seen.add(current)
+        target = targets.get(current)
         if target is not None:
             if target["KIND"] == "imported" or not _PROPERTIES.isdisjoint(target):
                 return None
             if target["KIND"] == "alias":
                 waiting.append(target["ALIASED"])
-        elif each not in (name, ALL_TARGETS) and not each.startswith(f"{run.sources.name}__"):  # except its interfaces
-            owners = _owners(run, each)
+        elif current not in (name, ALL_TARGETS) and not current.startswith(f"{run.sources.name}__"):  # except its interfaces
+            owners = _owners(run, current)
             if not owners:
                 return None
             found.update(dict.fromkeys(owners))
-        waiting += run.headers.get(each, ())
+        waiting += run.headers.get(current, ())
         if _ANYTHING in waiting:
             return None
     return tuple(sorted(found))
@@ -174,7 +174,7 @@ def _owners(run: Run, name: str) -> tuple[str, ...]:
     if inner in run.prefixes:
         return (space, inner)
     letters = folded(space)
-    return (space,) if any(folded(found).startswith(letters) for found in run.prefixes) else ()
+    return (space,) if any(folded(prefix).startswith(letters) for prefix in run.prefixes) else ()
 
 
 COMMANDS: Final[Mapping[str, Handler]] = {

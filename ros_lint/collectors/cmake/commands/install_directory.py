@@ -131,7 +131,7 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
-    """Return the files below a folder of other packages or ignored folders that are installed with it.
+    """Return the unlisted files below a folder, which install(DIRECTORY) installs with it.
 
     They are files of nested packages, or of folders with a COLCON_IGNORE.
     """

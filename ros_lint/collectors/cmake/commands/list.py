@@ -76,10 +76,10 @@ def _remove_item(run: Run, name: str, args: list[str]) -> None:
     if not all(is_known(arg) for arg in args) and not all(is_fixed(arg) for arg in args):
         run.set(name, HOLE)
         return
-    gone = {*args, *(MAYBE + arg for arg in args)}
-    left = join(element for element in elements(value) if element not in gone)
+    removed = {*args, *(MAYBE + arg for arg in args)}
+    remaining = join(element for element in elements(value) if element not in removed)
     unsure = all(arg.startswith(MAYBE) for arg in args) and join(elements(value)) != value
-    run.set(name, HOLE if unsure else left)
+    run.set(name, HOLE if unsure else remaining)
 
 
 def _remove_duplicates(run: Run, name: str, _args: list[str]) -> None:

@@ -61,8 +61,8 @@ def _expression(tokens: list[str], at: int, least: int) -> tuple[int, int]:
     value, at = _unary(tokens, at)
     while at < len(tokens) and _BINARY.get(tokens[at], 0) >= least:
         sign = tokens[at]
-        other, at = _expression(tokens, at + 1, _BINARY[sign] + 1)
-        value = _bounded(_operate(sign, value, other))
+        operand, at = _expression(tokens, at + 1, _BINARY[sign] + 1)
+        value = _bounded(_operate(sign, value, operand))
     return value, at
 
 

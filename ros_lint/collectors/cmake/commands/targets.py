@@ -239,8 +239,8 @@ _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "e
 def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
     """Return the targets of the package that a target is linked with. An alias is replaced by its target."""
     found: dict[str, Span] = {}
-    for other, span in run.links[name].items():
-        target = real_target(run, other)
+    for library, span in run.links[name].items():
+        target = real_target(run, library)
         if target is not None and target.get("KIND") != "imported" and "NAME" in target:
             found.setdefault(target["NAME"], span)
     return tuple(found.items())

@@ -94,15 +94,15 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
         run.unsure += not way.usual
         run.unusual += some_usual and not way.usual
         try:
-            one, changes = run.branch(partial(_run_way, run, way))
+            outcome, changes = run.branch(partial(_run_way, run, way))
         finally:
             run.unsure -= not way.usual
             run.unusual -= some_usual and not way.usual
-        if one == STOP:
+        if outcome == STOP:
             continue
-        if one & NEXT:
-            onward.append((way, one))
-        ended |= one & ~STOP
+        if outcome & NEXT:
+            onward.append((way, outcome))
+        ended |= outcome & ~STOP
         alive.append((changes, way.usual))
     if not alive:
         return STOP
@@ -111,7 +111,7 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     if ended != NEXT and onward:
         # The default branch usually continues if no command in it can leave, or if leaving is the exception there.
         ended &= ~USUAL
-        ended |= USUAL if any(way.usual and (one & ~STOP == NEXT or one & USUAL) for way, one in onward) else 0
+        ended |= USUAL if any(way.usual and (outcome & ~STOP == NEXT or outcome & USUAL) for way, outcome in onward) else 0
         ended |= TESTS if all(way.testing for way, _ in onward) and not run.testing else 0
     return ended
 

@@ -166,14 +166,14 @@ def compare_versions(left: str, right: str) -> int:
 
     Components are compared in order, each parsed like strtoul() in C.
     """
-    at, other = 0, 0
-    while "0" <= left[at : at + 1] <= "9" or "0" <= right[other : other + 1] <= "9":
-        first, at = _component(left, at)
-        second, other = _component(right, other)
+    left_at, right_at = 0, 0
+    while "0" <= left[left_at : left_at + 1] <= "9" or "0" <= right[right_at : right_at + 1] <= "9":
+        first, left_at = _component(left, left_at)
+        second, right_at = _component(right, right_at)
         if first != second:
             return -1 if (len(first), first) < (len(second), second) else 1
-        at += left[at : at + 1] == "."
-        other += right[other : other + 1] == "."
+        left_at += left[left_at : left_at + 1] == "."
+        right_at += right[right_at : right_at + 1] == "."
     return 0
 
 

@@ -112,8 +112,8 @@ class _Parser:
         first = _from_left(truths, signs)
         if len(set(signs)) > 1:
             # Older versions of CMake bind AND more tightly; some newer versions take the operands in pairs.
-            others = (_and_first(truths, signs), _in_pairs(truths, signs))
-            if any(other.value != first.value for other in others):
+            readings = (_and_first(truths, signs), _in_pairs(truths, signs))
+            if any(reading.value != first.value for reading in readings):
                 return first._replace(value=UNKNOWN)
         return first
 
@@ -161,19 +161,19 @@ class _Parser:
 
 def _from_left(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
     truth = truths[0]
-    for sign, other in zip(signs, truths[1:], strict=True):
-        truth = both(truth, other) if sign == "AND" else either(truth, other)
+    for sign, operand in zip(signs, truths[1:], strict=True):
+        truth = both(truth, operand) if sign == "AND" else either(truth, operand)
     return truth
 
 
 def _and_first(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
-    found = [truths[0]]
-    for sign, other in zip(signs, truths[1:], strict=True):
+    alternatives = [truths[0]]
+    for sign, operand in zip(signs, truths[1:], strict=True):
         if sign == "AND":
-            found[-1] = both(found[-1], other)
+            alternatives[-1] = both(alternatives[-1], operand)
         else:
-            found.append(other)
-    return _from_left(found, ["OR"] * (len(found) - 1))
+            alternatives.append(operand)
+    return _from_left(alternatives, ["OR"] * (len(alternatives) - 1))
 
 
 def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:

@@ -153,8 +153,8 @@ def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
     branches: list[Changes] = []
     for number, option in enumerate(choice.procedures):
         piece = partial(call, run, option, args) if option is not None else partial(_without, run, name, args)
-        one, changes = perhaps(run, piece, USUAL if number == choice.usual else NEXT)
-        ended |= one
+        outcome, changes = perhaps(run, piece, USUAL if number == choice.usual else NEXT)
+        ended |= outcome
         branches.append(changes)
     run.join(branches, choice.usual)
     return ended

@@ -43,25 +43,25 @@ def _pieces(pattern: str) -> tuple[str, ...] | None:
     """Return expressions for the texts between the stars of a pattern, None if a range is invalid."""
     if len(pattern) > LONGEST:
         return None
-    found = [""]
+    pieces = [""]
     at = 0
     while at < len(pattern):
         letter = pattern[at]
         at += 1
         if letter == "*":
-            if found[-1] or len(found) == 1:
-                found.append("")
+            if pieces[-1] or len(pieces) == 1:
+                pieces.append("")
         elif letter == "?":
-            found[-1] += "[^/]"
+            pieces[-1] += "[^/]"
         elif letter == "[" and (end := _end(pattern, at)) >= 0:
-            one = _letter(pattern[at:end])
-            if one is None:
+            expression = _letter(pattern[at:end])
+            if expression is None:
                 return None
-            found[-1] += one
+            pieces[-1] += expression
             at = end + 1
         else:
-            found[-1] += re.escape(letter)
-    return tuple(found)
+            pieces[-1] += re.escape(letter)
+    return tuple(pieces)
 
 
 def _end(pattern: str, at: int) -> int:

@@ -317,7 +317,7 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
             alternatives += [option for option in options if not any(option is known for known in alternatives)]
             wanted = value.usual if isinstance(value, Choice) else 0
             if number == default and wanted is not None:
-                usual = next(at for at, one in enumerate(alternatives) if one is options[wanted])
+                usual = next(at for at, procedure in enumerate(alternatives) if procedure is options[wanted])
         return Choice(tuple(alternatives), usual)
     return there[0]
 

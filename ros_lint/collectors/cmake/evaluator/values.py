@@ -238,14 +238,14 @@ def _extends(value: str | None, base: str | None) -> bool:
 def _merge_lists(values: Sequence[str | None]) -> str | None:
     lists = [elements(value or "") for value in values]
     first = lists[0]
-    if all(one == first for one in lists):
+    if all(items == first for items in lists):
         return next(value for value in values if value is not None)
     shortest = min(map(len, lists))
     head = 0
-    while head < shortest and all(one[head] == first[head] for one in lists):
+    while head < shortest and all(items[head] == first[head] for items in lists):
         head += 1
     tail = 0
-    while tail < shortest - head and all(one[-1 - tail] == first[-1 - tail] for one in lists):
+    while tail < shortest - head and all(items[-1 - tail] == first[-1 - tail] for items in lists):
         tail += 1
-    middle = dict.fromkeys(maybe(element) for one in lists for element in one[head : len(one) - tail])
+    middle = dict.fromkeys(maybe(element) for items in lists for element in items[head : len(items) - tail])
     return join([*first[:head], *middle, *first[len(first) - tail :]])

@@ -55,16 +55,16 @@ class Journal:
         if self._forks > MOST_FORKS:
             raise ExhaustedError("more conditions are unknown than are followed")
         after: list[dict[int, Container]] = []
-        left: list[LeaveError | None] = []
+        exits: list[LeaveError | None] = []
         touched: dict[int, tuple[Container, Container]] = {}
         for way in ways:
             changes: dict[int, tuple[Container, Container]] = {}
             self._open.append(changes)
             try:
                 way()
-                left.append(None)
+                exits.append(None)
             except LeaveError as leave:
-                left.append(leave)
+                exits.append(leave)
             finally:
                 self._open.pop()
             after.append({key: container.copy() for key, (container, _) in changes.items()})
@@ -73,14 +73,14 @@ class Journal:
                 _refill(container, before)
                 touched.setdefault(key, (container, before))
         # A branch that ends the program is usually a failed check, so the other branch is assumed.
-        fails = [leave is not None and leave.kind == "raise" for leave in left]
+        fails = [leave is not None and leave.kind == "raise" for leave in exits]
         for key, (container, before) in touched.items():
             first, second = after[0].get(key, before), after[1].get(key, before)
             if fails[0] != fails[1]:
                 _refill(container, second if fails[0] else first)
             else:
                 _refill(container, _join(first, second, unknown))
-        remaining = [leave for leave, fail in zip(left, fails, strict=True) if not fail]
+        remaining = [leave for leave, fail in zip(exits, fails, strict=True) if not fail]
         if not remaining:
             raise LeaveError("raise")
         if any(remaining):
