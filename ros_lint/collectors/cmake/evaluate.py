@@ -245,7 +245,10 @@ def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
 
 
 def _taken(run: Run) -> dict[str, bool]:
-    """Map the folded names of packages whose targets or macros are used to whether only tests use them."""
+    """Return the packages whose targets, variables or macros are used, each with whether only tests use it.
+
+    The keys are folded names (see :func:`folded`).
+    """
     taken: dict[str, bool] = {}
     for mention in run.mentions:
         if mention.via in ("target", "macro"):

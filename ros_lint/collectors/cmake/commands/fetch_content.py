@@ -33,7 +33,7 @@ def _called(args: list[str]) -> list[str]:
 
 
 def _add(run: Run, args: list[str]) -> None:
-    """``externalproject_add(name options...)``."""
+    """``externalproject_add(name options...)``, which builds an external project."""
     _from_elsewhere(run, [*args[:1], *_called(args)], args)
 
 

@@ -1,6 +1,6 @@
 """Packages whose headers a target can include, from its linked libraries and its include directories.
 
-Conditional arguments count too. So a package that is not listed provides no headers to the target in any build.
+Conditional arguments count as well. So a package that is not listed provides no headers to the target in any build.
 """
 
 from __future__ import annotations

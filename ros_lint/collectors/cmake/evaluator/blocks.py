@@ -67,7 +67,7 @@ class UnbalancedError(Exception):
 
 
 class _Open:
-    """A block that is being read."""
+    """A block whose end has not been read yet."""
 
     __slots__ = ("branches", "command", "condition", "nodes")
 

@@ -16,6 +16,8 @@ from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIK
 
 
 class _Way(NamedTuple):
+    """A branch that may run."""
+
     body: Body
     usual: bool
     """True if the branch runs with default options."""

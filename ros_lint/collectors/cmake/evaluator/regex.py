@@ -45,7 +45,7 @@ _LONGEST: Final = 4096
 
 
 def is_in(pattern: re.Pattern[str], text: str) -> bool:
-    """Return whether a translated expression matches somewhere in a text."""
+    """Return whether a translated expression matches anywhere in a text."""
     return pattern.search(octets(text)) is not None
 
 

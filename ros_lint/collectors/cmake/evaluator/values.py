@@ -1,6 +1,6 @@
 """Values of CMake variables: strings in which some pieces may be unknown.
 
-A value is a ``str``. Four control characters, which the parser removes from CMake files, mark the unknown pieces:
+A value is a ``str``. Four control characters, which occur in no parsed CMake file, mark the unknown pieces:
 
 - :data:`HOLE` is any text, such as none or several list elements. Its square brackets come in pairs.
 - :data:`WILD` is a HOLE whose square brackets may be unpaired, so it is unknown which later elements are joined to it.
