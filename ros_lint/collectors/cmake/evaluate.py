@@ -245,7 +245,7 @@ def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
 
 
 def _taken(run: Run) -> dict[str, bool]:
-    """Return the packages whose targets, variables or macros are used, each with whether only tests use it.
+    """Return the packages whose targets, variables or macros are used, with whether only tests use it.
 
     The keys are folded names (see :func:`folded`).
     """
