@@ -19,9 +19,7 @@ from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 MOST_STEPS: Final = 100_000
-"""Commands that the scripts of one package may run.
-
-Most real packages run less than 3,000, the largest one with all its tests about 93,000."""
+"""Commands that one package may run. Most real packages run less than 3,000, the largest about 93,000."""
 DEEPEST: Final = 60
 """Greatest depth of nested calls. CMake allows 1,000; real packages need less than 20."""
 _SHORT: Final = 1024
@@ -245,9 +243,7 @@ class Run(Paths):
         return values
 
     def firm_arguments(self, command: Command) -> int | None:
-        """Return the index of the first argument whose position is uncertain.
-
-        None if all positions are certain.
+        """Return the index of the first argument whose position is uncertain, None if there is none.
 
         An unquoted unknown text may be any number of arguments. A list element that may be missing shifts later arguments.
         """
@@ -289,9 +285,7 @@ class Run(Paths):
     # --- places
 
     def where(self, value: str) -> Span:
-        """Return the best place for a value of the current command, in the package's own files.
-
-        The first of these that exists:
+        """Return the best place for a value of the current command in the package's own files: the first of
 
         1. an argument whose text is the value, from the innermost call outwards
         2. a list element whose text is the value

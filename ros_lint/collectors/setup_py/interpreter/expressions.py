@@ -71,10 +71,7 @@ class Expressions(ABC):
         self.step()
 
     def value(self, node: ast.expr) -> Value:
-        """Return the value of an expression.
-
-        Raises LeaveError if the expression ends the program or raises a caught exception, and ExhaustedError.
-        """
+        """Return the value of an expression. Raises LeaveError if it ends the program, and ExhaustedError."""
         self.step()
         handler = _HANDLERS.get(type(node))
         if handler is None:
@@ -370,10 +367,7 @@ class Expressions(ABC):
         return found
 
     def _generate(self, generators: Sequence[ast.comprehension], add: Callable[[bool], None]) -> None:
-        """Run the loops of a comprehension.
-
-        ``add`` is called for each round, with whether the round certainly happens.
-        """
+        """Run the loops of a comprehension. Each round calls ``add`` with whether the round is certain."""
         outer = self.scopes
         self.scopes = ({}, *outer)
         self.inner += 1
