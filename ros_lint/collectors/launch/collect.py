@@ -8,7 +8,7 @@ from ros_lint.facts.launch import LaunchFile
 
 
 def collect(source: Text, language: Language) -> LaunchFile:
-    """Return what a launch file says. Never raises: what is wrong with the file is among its problems."""
+    """Return the facts of a launch file. Never raises: errors of the file are among its ``problems``."""
     found = _collect(source, language)
     return found._replace(substitutes_parameters=True) if "allow_substs" in source.text else found
 

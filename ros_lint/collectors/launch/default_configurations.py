@@ -1,4 +1,4 @@
-"""What the launch configurations of a launch file hold as long as nobody gives its arguments other values."""
+"""The values of the launch configurations of a launch file if its arguments keep their defaults."""
 
 from __future__ import annotations
 
@@ -13,19 +13,23 @@ class DefaultConfigurations(NamedTuple):
     """The launch configurations of one file by name."""
 
     values: Mapping[str, tuple[str, ...]]
-    """Each with its alternatives."""
+    """The alternative values of each configuration, by its name."""
     own: frozenset[str]
-    """Those that the file itself sets, so that whoever launches it changes nothing about them, but for which alternative."""
+    """Configurations whose values the file determines itself.
+
+    A caller can only change which alternative applies.
+    """
 
     def is_own(self, text: str) -> bool:
-        """Return whether a text is the same whatever the file is launched with, or one of the same."""
+        """Return whether the value of a text cannot be changed by launch arguments."""
         return _hangs_on(text, self.own)
 
 
 def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurations:
-    """Return what launch configurations hold in a file, going by its arguments and by what it sets.
+    """Return the values that the arguments and assignments of a file give to its configurations.
 
-    What is set under a condition is one of several values, the only ones if another is set under the opposite.
+    A value that is set under a condition is one of several alternatives. The default is no alternative if another
+    value is set under the opposite condition.
     """
     found: dict[str, tuple[str, ...]] = {}
     given: set[str] = set()
@@ -62,7 +66,7 @@ _SOME_TIME = LaunchCondition((UNKNOWN,), None)
 
 
 def _covers(several: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Whether one of two conditions is the opposite of the other, so that one of them holds."""
+    """Return whether a condition and its opposite are both among the single conditions, so that one of them holds."""
     single = {conditions[0] for conditions in several if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
 
@@ -80,5 +84,5 @@ def _own(values: Mapping[str, tuple[str, ...]], given: set[str]) -> frozenset[st
 
 
 def _hangs_on(text: str, names: Container[str]) -> bool:
-    """Whether a text hangs on nothing, or only on some configurations; not so where their names are computed."""
+    """Return whether a text depends only on the named configurations. False if it computes a configuration name."""
     return is_settled(text) or all(name in names for name in named_in(text) or ("\0",))

@@ -1,8 +1,7 @@
-"""Which files are launch files, and in which of the three languages.
+"""Detection of launch files and of their language.
 
-Names decide little: ``.launch`` is XML of ROS 1 or ROS 2 or YAML, and one Python launch file in forty is called
-something else. So the content decides (reference, section G1; the loaders of ``launch.frontend`` and
-``python_launch_file_utilities`` do likewise).
+The content decides, because names are ambiguous: ``.launch`` is XML of ROS 1 or ROS 2 or YAML, and one Python launch
+file in forty has an unusual name. ``launch.frontend`` and ``python_launch_file_utilities`` decide by content, too.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from typing import Literal
 Language = Literal["python", "xml", "yaml"]
 
 LAUNCH_FILE_NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
-"""How the names of files end that ``ros2 launch`` takes for launch files when it is given a name alone."""
+"""Suffixes by which ``ros2 launch`` recognizes launch files if the user gives a file name without a path."""
 
 _PYTHON = re.compile(r"generate_(launch|test)_description\b")
 _DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
@@ -21,7 +20,7 @@ _HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTIL
 _ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
 _SPACE = re.compile(r"\s*")
 _ROOT = re.compile(r"<launch(?=[\s/>])")
-# What only ROS 1 understands, and what only ROS 2 does. A file with both is ROS 2 with leftovers.
+# Syntax that only ROS 1 has, and syntax that only ROS 2 has. A file with both is a ROS 2 file with leftovers.
 _ROS1 = re.compile(
     r"<(?:rosparam|machine)\b|<(?:node|test)\b[^>]*?\stype\s*=|\$\((?:arg|find|optenv)\s"
     r"|\spass_all_args\s*=|\sclear_params\s*=|<arg\b[^>]*?\sdoc\s*="
@@ -39,10 +38,10 @@ _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"
 
 
 def is_launch_file(path: str, text: str) -> Language | None:
-    """Return the language of a launch file of ROS 2, or None when it is no such file.
+    """Return the language of a ROS 2 launch file, None for any other file.
 
-    Python modules that only build launch actions for others count too, see :attr:`LaunchFile.helper`.
-    Launch files of ROS 1 do not: this tool has nothing to say about them.
+    Python modules that only build launch actions for other files count too, see :attr:`LaunchFile.helper`. Launch
+    files of ROS 1 do not count, because ros-lint does not check them.
     """
     if path.endswith(".py"):
         if "launch" not in text and "generate_test" not in text:
@@ -58,7 +57,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
 
 
 def entries(text: str) -> frozenset[str]:
-    """Return what a Python source defines for launch: ``launch``, ``test`` or both, by generate_*_description()."""
+    """Return which descriptions a Python source defines by generate_*_description(): ``launch``, ``test`` or both."""
     found = set()
     for match in _PYTHON.finditer(text):
         line = text.rfind("\n", 0, match.start()) + 1
@@ -68,7 +67,7 @@ def entries(text: str) -> frozenset[str]:
 
 
 def is_of_ros_1(text: str) -> bool:
-    """Return whether a text is a launch file of ROS 1, which nothing of ROS 2 reads."""
+    """Return whether a text is a launch file of ROS 1, which ROS 2 cannot read."""
     return "<launch" in text and _is_launch(text) and not _is_xml(text)
 
 
@@ -79,17 +78,17 @@ def _is_launch(text: str) -> bool:
 def _is_xml(text: str) -> bool:
     if not _is_launch(text):
         return False
-    # The plain words first: to search for the others takes as long as to read the file.
+    # The plain words first, because a search by the regular expressions takes as long as reading the file.
     return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))
 
 
 def _is_of_others(path: str, text: str) -> bool:
-    """Whether another program reads a format of its own that looks like this one: its nodes have neither package nor program."""
+    """Return whether the file is of another format with similar tags: its nodes have no package and no executable."""
     return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _STARTED.search(text)
 
 
 def _after_prolog(text: str) -> int:
-    """Return the offset of the first element: behind declaration, comments and document type."""
+    """Return the offset of the first element, after the XML declaration, comments and document type."""
     at = 0
     while True:
         at = _SPACE.match(text, at).end()  # type: ignore[union-attr]

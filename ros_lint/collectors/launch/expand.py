@@ -1,7 +1,8 @@
-"""What a launch file starts when it is launched with some arguments (reference, section G1; ``launch`` and ``launch_ros``).
+"""Expansion of a launch file: the nodes, processes and includes that it starts with given arguments.
 
-A launch file is followed once, into actions whose texts still have marks for what is not known; here the marks are
-filled in. Conditions have three values: what is taken only perhaps is kept, and said to be so.
+The collectors evaluate each launch file once, into actions whose texts contain marks for unknown values. Here the
+marks are replaced by values, as ``launch`` and ``launch_ros`` do it. Conditions have three values: an action whose
+condition is unknown is kept and marked as uncertain.
 """
 
 from __future__ import annotations
@@ -23,80 +24,80 @@ _MOST_ACTIONS = 100_000
 
 
 class Started(NamedTuple):
-    """A node, a component, a process or an included file, as it is when the launch file runs."""
+    """A node, component, process or included file that a launch file starts."""
 
     kind: str
     """``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Alternatives; UNKNOWN in a text for what is not known; empty when there is none."""
+    """Alternatives. A text contains UNKNOWN where a part of it is unknown; the tuple is empty if there is no package."""
     target: Texts
-    """The executable, the class, the command line, or the path of the file."""
+    """The executable, the component class, the command line or the path of the included file."""
     name: Texts
     namespace: Texts
     parameters: tuple[tuple[str, Texts], ...]
     remappings: tuple[tuple[Texts, Texts], ...]
     arguments: tuple[tuple[str, Texts], ...]
     certain: bool
-    """False when it depends on something that is not known."""
+    """False if it is started under a condition that is unknown."""
     span: Span
     depth: int
-    """How many includes lie between."""
+    """The number of includes between the launched file and this action."""
     container: Texts = ()
-    """The full name of the container that a component is loaded into."""
+    """The full name of the container that loads the component."""
     environment: tuple[tuple[str, Texts], ...] = ()
-    """Variables that the launch file sets for it."""
+    """Environment variables that the launch file sets for it."""
     file: str = ""
-    """The path of an included file that was followed, as :attr:`LaunchFile.path`; "" when it could not be."""
+    """The path of an included file that was expanded, as :attr:`LaunchFile.path`; "" if it could not be read."""
     unknown: tuple[str, ...] = ()
-    """Why something in the texts is not known."""
+    """The reasons why parts of the texts are unknown."""
     when: tuple[LaunchCondition, ...] = ()
-    """The conditions that it depends on and that are not known; empty when ``certain``."""
+    """The unknown conditions that it depends on; empty if ``certain``."""
     later: bool = False
-    """Whether it starts only when a timer or an event comes."""
+    """True if a timer or an event starts it."""
     words: tuple[Texts, ...] = ()
-    """What a node is given on its command line."""
+    """The command-line arguments of a node."""
     via: Span | None = None
-    """The include in the file that is launched by which it comes, None for what stands in that file itself."""
+    """The include in the launched file that leads to this action, None for an action of the launched file itself."""
 
 
 class Argument(NamedTuple):
-    """A launch argument that a file declares, with what it is in this run."""
+    """A declared launch argument and its value in this run."""
 
     name: str
     texts: Texts
     span: Span
     depth: int
     given: bool
-    """Whether it has its value from whoever launches or includes the file, and not from its default."""
+    """True if the caller or the including file passes the value, False if it is the default."""
 
 
 class Missing(NamedTuple):
-    """An argument that a file requires and nobody gives."""
+    """A required launch argument that no caller passes."""
 
     name: str
     span: Span
-    """Of the declaration."""
+    """The place of the declaration."""
     include: Span | None = None
-    """Of the include that does not give it, None for the file that is launched."""
+    """The place of the include that does not pass it, None for the launched file."""
 
 
 class Refused(NamedTuple):
-    """A value that is not among the choices of its argument."""
+    """A value that is not among the choices of its launch argument."""
 
     name: str
     value: str
     choices: tuple[str, ...]
     span: Span
-    """Of the declaration."""
+    """The place of the declaration."""
 
 
 class Circle(NamedTuple):
-    """An include that leads back to a file which is being included, with the same values: it never ends."""
+    """An include of a file that is already being included with the same values: the recursion never ends."""
 
     path: str
-    """Of the file, as :attr:`LaunchFile.path`."""
+    """The path of the included file, as :attr:`LaunchFile.path`."""
     span: Span
-    """Of the include."""
+    """The place of the include."""
 
 
 class Expansion(NamedTuple):
@@ -105,9 +106,9 @@ class Expansion(NamedTuple):
     started: tuple[Started, ...]
     missing: tuple[Missing, ...]
     complete: bool
-    """False when it was cut short, because includes go in a circle or there is too much."""
+    """False if the expansion stopped early, because includes are cyclic or a limit was exceeded."""
     arguments: tuple[Argument, ...] = ()
-    """In the order in which they are declared."""
+    """The arguments in the order of their declarations."""
     refused: tuple[Refused, ...] = ()
     circles: tuple[Circle, ...] = ()
 
@@ -120,11 +121,11 @@ def expand(
     *,
     brief: bool = False,
 ) -> Expansion:
-    """Return what a launch file starts with the arguments given.
+    """Return what a launch file starts with the arguments ``given``.
 
-    ``files`` finds an included file by its path, which may begin with the mark of an install prefix; the path of ``file``
-    itself says where it lies, too. ``brief`` leaves out parameters, but for files of them, remappings and what is passed to
-    included files, which are most of the work.
+    ``files`` returns an included file by its path, which may begin with the mark of an install prefix. The path of
+    ``file`` itself contains its location, too. ``brief`` omits parameters (except parameter files), remappings and
+    the arguments of included files, because they are most of the work.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in given.items()})
@@ -139,14 +140,14 @@ def expand(
 
 
 class _Waiting(NamedTuple):
-    """What a timer or an event starts."""
+    """Actions that a timer or an event starts."""
 
     place: int
-    """How much has been started before."""
+    """The number of actions that were started before."""
     actions: tuple[LaunchAction, ...]
     scope: Scope
     open: tuple[tuple[str, dict[str, Texts]], ...]
-    """The files that are being included."""
+    """The files that are being included, innermost last."""
     via: Span | None
 
 
@@ -167,7 +168,7 @@ class _Run:
         self._via: Span | None = None
         self._waiting: list[_Waiting] = []
         self._values: dict[str, Texts] = {}
-        """What is set where no group puts it back."""
+        """Values that are set outside of any scoped group."""
 
     def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
@@ -177,13 +178,13 @@ class _Run:
         self._wake()
 
     def _wake(self) -> None:
-        """Do what timers and events start, and put it where they stand.
+        """Expand the actions of timers and events, and insert their results where the timers and event handlers are.
 
-        By then all files have been gone through: what is declared or set after a timer counts, too. What was set before is
-        taken to be as it was there, since a function may have asked for it by then.
+        All files have been expanded by then, so a configuration that is declared or set after a timer counts, too. A
+        configuration that was set before keeps its value, because a function may have read it by then.
         """
         waiting, self._waiting = self._waiting, []
-        for one in reversed(waiting):  # so that the places of those before it stay what they are
+        for one in reversed(waiting):  # in reverse, so that the positions of the earlier ones remain valid
             end = len(self.started)
             self._open, self._via = list(one.open), one.via
             self._actions(one.actions, one.scope._replace(values={**self._values, **one.scope.values}, later=True))
@@ -257,7 +258,7 @@ class _Run:
             scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
 
     def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
-        """Return a scope with what an action sets for everything that comes after it."""
+        """Return a scope with the setting that an action makes for all later actions."""
         texts = self._texts(action.value, scope)
         if action.kind == "namespace":
             return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))
@@ -279,7 +280,7 @@ class _Run:
         return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
 
     def _group(self, action: LaunchAction, scope: Scope) -> Scope:
-        """Do what a group does, and return what holds after it."""
+        """Expand a group, and return the scope after it."""
         name = self._texts(action.name, scope)
         inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
         if action.has_scope and name:
@@ -307,7 +308,7 @@ class _Run:
             return scope
         self._via = self._via if self._depth else action.span
         self._open.append((path, dict(scope.values)))
-        # What is included shares the configurations and the namespace, but not the place that it stands in.
+        # An included file shares the configurations and the namespace, but not the folder.
         after = self._actions(file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=()))
         self._open.pop()
         self._via = self._via if self._depth else None
@@ -365,7 +366,7 @@ class _Run:
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
-    """Return namespaces under others; an absolute one stands for itself (``make_namespace_absolute``)."""
+    """Return namespaces joined to outer ones; an absolute one replaces the outer one (``make_namespace_absolute``)."""
     return joined([outer, inner], _joined_namespace)
 
 

@@ -1,4 +1,4 @@
-"""Python expressions in launch files, ``$(eval ...)`` and PythonExpression: their value, when nothing in them can surprise."""
+"""Evaluation of Python expressions in launch files (``$(eval ...)`` and PythonExpression) that need only constants."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 
 _LONGEST = 2_000
 _MOST = 10_000
-"""How many letters and items a value may have, those of its items included."""
+"""The maximum number of characters and items of a value, those of nested items included."""
 _WIDE = re.compile(r"%[^%a-zA-Z]*(?:\*|\d{4})")
-"""A conversion that makes a text of any length."""
+"""A format conversion that can produce a text of any length."""
 
 
 class _Unknown(Exception):  # noqa: N818
-    """The value is not known."""
+    """The value cannot be determined."""
 
 
 @lru_cache(maxsize=1_024)
@@ -39,7 +39,7 @@ def evaluate(text: str) -> str:
 
 @lru_cache(maxsize=1_024)
 def refused(text: str) -> tuple[str, ...] | None:
-    """Return the names in an expression that Python does not know where launch evaluates it, None if it is no expression."""
+    """Return the names in an expression that launch cannot resolve, None if the text is not an expression."""
     try:
         tree = read_expression(text.lstrip())
     except NotPythonError:
@@ -51,11 +51,11 @@ def refused(text: str) -> tuple[str, ...] | None:
 
 
 _KNOWN = BUILTINS | MATH | {"math"}
-"""PythonExpression knows what Python does, and what is in math."""
+"""The names that PythonExpression resolves: builtins, and everything in ``math``."""
 
 
 def means_true(text: str) -> bool | None:
-    """Return what a condition takes a text for: None when it is neither true nor false (``evaluate_condition_expression``)."""
+    """Return the truth value of a condition, None if it is neither true nor false (``evaluate_condition_expression``)."""
     word = text.strip().lower()
     if word in ("true", "1"):
         return True
@@ -136,7 +136,7 @@ def _truth(text: Any) -> bool:
 
 
 def _equals(left: Any, right: Any) -> bool:
-    """EqualsSubstitution compares truths and numbers by their value."""
+    """Return whether two values are equal for EqualsSubstitution, which compares booleans and numbers by value."""
     one, other = means_true(str(left)), means_true(str(right))
     return one == other if one is not None and other is not None else str(left) == str(right)
 
@@ -167,7 +167,7 @@ def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
 
 
 def _small(value: Any) -> Any:
-    """Return a value that is not large, or raise."""
+    """Return the value. Raises _Unknown if it is too large."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
     if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MOST:
@@ -176,7 +176,7 @@ def _small(value: Any) -> Any:
 
 
 def _size(value: Any) -> int:
-    """Return the letters and items in a value, those in its items included; at most a little more than is allowed."""
+    """Return the number of characters and items in a value, nested ones included. Stops counting above the limit."""
     found = 0
     waiting = [value]
     while waiting and found <= _MOST:

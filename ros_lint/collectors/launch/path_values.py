@@ -1,4 +1,4 @@
-"""The values of an action in which a path can be, and which of them name a file that is read."""
+"""The values of an action that can contain a path, and the parts of them that name a file to read."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable, Iterator
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 Reads = Callable[[str], str]
-"""Returns the part of a text that names a file which is read."""
+"""A function that returns the part of a text that names a file which is read."""
 _DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
-"""The option of rviz2 that names the file with its displays."""
+"""The option of rviz2 for its display configuration file."""
 
 
 def _whole(text: str) -> str:
@@ -23,7 +23,7 @@ def _display(text: str) -> str:
 
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, Reads | None]]:
-    """Return the values of an action in which a path can be, apart from its target, and what of them is read."""
+    """Return the values of an action, except its target, that can contain a path, each with its ``Reads`` function."""
     found: list[tuple[LaunchValue, Reads | None]] = []
     if action.value is not None:
         found.append((action.value, None))
@@ -40,7 +40,7 @@ def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, Reads | None]
 
 
 def _shown(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, Reads | None]]:
-    """Yield the words that rviz2 is given: the file with its displays stands in one with its option, or follows it."""
+    """Yield the arguments of rviz2. The display file is in one argument with its option, or in the next one."""
     follows = False
     for name, value in arguments:
         if not name:

@@ -1,4 +1,4 @@
-"""What launch files ask for before they do something: whether it is there, and which distribution runs."""
+"""Conditions of launch files that test whether something is installed, or which distribution runs."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions ask if something is installed: what is under them is done without, whatever its name."""
+    """Return whether conditions test if something is installed: the actions under them are optional."""
     return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
 
 
 DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
-"""The distributions that are still maintained: what a launch file does for older ones alone is none of our business. Those that
-there are data of, as a test says: facts of a file must not hang on data that the user may have renewed."""
+"""The maintained distributions.
+
+Conditions on older ones are ignored. A test compares the list with the distributions of the package index: it is
+constant here, because facts of a file must not depend on data that the user may have updated.
+"""
 _ASKED = "$ROS_DISTRO"
 
 
@@ -24,13 +27,13 @@ EVERYWHERE = frozenset(DISTRIBUTIONS)
 
 
 def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]:
-    """Return the distributions that come to what is under conditions, as far as these ask for one."""
+    """Return the distributions in which conditions on ROS_DISTRO may hold."""
     asking = [condition for condition in conditions if any(_ASKED in text for text in condition.texts)]
     return frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, asking)]) if asking else EVERYWHERE
 
 
 def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions can hold in a distribution, as far as they ask for nothing but which one runs."""
+    """Return whether conditions can hold in a distribution. Only those on ROS_DISTRO alone are evaluated."""
     for (text, *others), equals, wanted in conditions:
         if others or set(named_in(text) or ()) != {_ASKED}:
             continue

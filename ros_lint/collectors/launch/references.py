@@ -1,4 +1,4 @@
-"""From what a launch file does to the packages and files that it names."""
+"""References to packages and files, computed from the actions of a launch file."""
 
 from __future__ import annotations
 
@@ -35,18 +35,18 @@ _COMMANDS: Mapping[tuple[str, ...], str] = {
     ("ros2", "control"): "ros2controlcli",
     ("ros2", "trace"): "ros2trace",
 }
-"""Who brings the commands of ros2 that do not come along with ros2cli_common_extensions."""
+"""The packages that provide the ros2 commands which ros2cli_common_extensions does not include."""
 
 
 _PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmux", "valgrind", "xterm"})
-"""Programs of the system that nodes are started with, each a rosdep key by itself."""
+"""System programs that wrap the start of a node. Each name is also a rosdep key."""
 
 
 class References:
-    """What the actions of a launch file refer to, in the order of the file, and what is hidden."""
+    """The references of the actions of a launch file in the order of the file, and the opaque places."""
 
     def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
-        """Read actions. ``places`` are where packages are looked up, by their names or the texts of these."""
+        """Read actions. ``places`` maps the names of packages (or the texts that compute them) to their look-ups."""
         self.found: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
@@ -75,7 +75,7 @@ class References:
 
     @contextmanager
     def _under(self, conditions: Sequence[LaunchCondition], *, lent: bool = False) -> Iterator[bool]:
-        """Go under conditions, or into a helper, for a while. Yields whether any distribution does."""
+        """Apply conditions, or mark actions of a built-in model, for a block. Yields whether any distribution remains."""
         before = self._asks, self._distros, self._narrowed, self._known, self._lent
         self._lent = lent
         self._asks = self._asks or is_guarded_by_presence(conditions)
@@ -154,7 +154,7 @@ class References:
                 self.hide("which launch file is included is computed", target.span)
 
     def _process(self, action: LaunchAction, conditional: bool) -> None:
-        """``ros2 run package executable``, ``ros2 launch package file`` (reference, section E2.19), and other commands."""
+        """Note the packages of ``ros2 run``, ``ros2 launch`` and of the other commands in ``_COMMANDS``."""
         words: list[tuple[str, LaunchValue, bool]] = []
         for name, value in action.arguments:
             if not name:
@@ -178,15 +178,15 @@ class References:
             self._add("package", package, "", value, value, conditional, default)
 
     def _prefix(self, value: LaunchValue, conditional: bool) -> None:
-        """Note the program that another one is started with, as in ``xterm -e``."""
+        """Note the program that wraps another one, as in ``xterm -e``."""
         texts, default = self._filled(value)
         for program in sorted(_PREFIXES.intersection([text.strip().partition(" ")[0] for text in texts])):
             self._add("program", program, program, value, value, conditional or len(texts) > 1, default)
 
     def _paths(self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: Reads | None = None) -> None:
-        """Note the places that a value mentions."""
+        """Note the install places that a value contains."""
         texts, default = self._filled(value)
-        # What is written out stays the same, whatever else is in the text: a command has more words than the file.
+        # A literal place stays the same whatever the defaults are: a command has more words than the file.
         fixed = {place for text in value.texts for place in installed(text) if place.share is not None} if default else set()
         for text in texts:
             if text.isascii() and not runs_xacro(text):
@@ -212,7 +212,7 @@ class References:
                 self._runs("xacro", value, conditional)
 
     def _run_on(self, places: Iterable[Installed], value: LaunchValue) -> None:
-        """Note paths that are put behind the share folder of a package with nothing between the two."""
+        """Note paths that are appended to the share folder of a package without a slash."""
         for package, path in places:
             rest = path.removeprefix(f"share/{package}")
             if rest != path and is_plain(path) and rest[:1].isalpha() and ("." in rest or "/" in rest):
@@ -220,7 +220,7 @@ class References:
                 self.problems[Problem("no-slash", says, value.span)] = None
 
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
-        """Return where a package is named that a path lies in, at best where it is looked up."""
+        """Return where the package of a path is named: the span of the look-up if there is one."""
         if package in self._places:
             return self._places[package]
         if package in self._computed:
@@ -230,7 +230,7 @@ class References:
         return package_span if package_span is not None and inside else value.span
 
     def _is_made(self, package: str, value: LaunchValue) -> bool:
-        """Whether the name of a package is put together of what configurations hold, and stands in no text as it is."""
+        """Return whether a package name is assembled from values of configurations and occurs in no text as a whole."""
         prefix = f"{launch_text.prefix(package)}/"
         texts = [value.texts, *self._held.values.values()]
         return not any(prefix in f"{text}/" for one in texts for text in one)
@@ -240,7 +240,7 @@ class References:
         self._add("command", command, command, place, place, conditional, by_default=False)
 
     def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
-        """Return what a value is with the defaults of the launch arguments, and whether it needed them."""
+        """Return the values of ``value`` with defaults of launch arguments, and whether it needed them."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
         by_default = not all(map(self._held.is_own, value.texts))
@@ -250,7 +250,7 @@ class References:
         return tuple(found), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
-        """Leave configurations only those values with which conditions hold that ask for one of them and nothing else."""
+        """Restrict configurations to the values with which conditions of the form "configuration equals constant" hold."""
         for (text, *others), equals, wanted in conditions:
             name = next((name for name, _, whole in configurations(text) if whole == text), "")
             if name and equals is not None and not others and is_plain(equals):
@@ -267,7 +267,7 @@ class References:
         return found
 
     def look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
-        """Note a package that is looked up when the file is read."""
+        """Note a package that is looked up while the file is read."""
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
@@ -279,7 +279,7 @@ class References:
                 self._add("package", package, "", value, value, bool(conditions), by_default=False)
 
     def opens(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
-        """Note a file that is read when the launch file is."""
+        """Note a file that is opened while the launch file is read."""
         with self._under(conditions) as somewhere:
             if somewhere:
                 self._paths(value, None, bool(conditions))
@@ -320,14 +320,14 @@ class References:
         self.found[reference] = None
 
     def spare(self, packages: Container[str]) -> None:
-        """Take packages for optional that are looked up only if they are there, unless they are named for a node."""
+        """Mark look-ups of packages as optional, unless a node is started from the package."""
         self.found = {
             found._replace(optional=True) if found.package in packages and found.package not in self._named else found: None
             for found in self.found
         }
 
     def do_without(self, paths: Iterable[str]) -> None:
-        """Note files of which the launch file asks first if they are there."""
+        """Mark references to files whose existence the launch file checks first."""
         asked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
         if asked:
             self.found = {
@@ -338,7 +338,10 @@ class References:
             }
 
     def all(self) -> tuple[LaunchReference, ...]:
-        """Return the references by place. Nobody does without what one place names in every distribution, whatever of it."""
+        """Return the references by place.
+
+        A reference is not optional if the same place names the package in every distribution.
+        """
         found = list(self.found)
         for number, one in enumerate(found):
             if one.distros and self._named_in.get((one.package, one.package_span)) == EVERYWHERE:
@@ -346,12 +349,12 @@ class References:
         return tuple(sorted(found, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
-        """Note that something hides which packages are used."""
+        """Note that an unknown value hides which packages are used."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
 
 
 def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:
-    """Return whether texts name neither an install place nor xacro, ``carriers`` being configurations that do."""
+    """Return whether texts contain neither an install place nor xacro. ``carriers`` are configurations that contain either."""
     for text in texts:
         if text.isascii():
             if runs_xacro(text):

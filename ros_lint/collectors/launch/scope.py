@@ -1,4 +1,4 @@
-"""What the texts and conditions of a launch file are at one place of a run, where the marks in them can be filled in."""
+"""Evaluation of texts and conditions of a launch file in the scope of one action."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ Texts = tuple[str, ...]
 
 
 class Scope(NamedTuple):
-    """What actions see and change. ``values`` lives on while actions of one scope run; the rest is passed on."""
+    """The state that actions read and change.
+
+    ``values`` is mutable and shared by the actions of one scope; the other fields are passed from action to action.
+    """
 
     values: dict[str, Texts]
     folder: Texts
@@ -31,10 +34,10 @@ class Scope(NamedTuple):
     when: tuple[LaunchCondition, ...] = ()
     later: bool = False
     include: Span | None = None
-    """By which the file came that is being followed."""
+    """The include of the file that is being expanded."""
 
     def after(self, inner: Scope) -> Scope:
-        """Return what holds after actions that ran in another scope but were not to be kept apart."""
+        """Return the scope after actions that ran in an unscoped inner one."""
         return self._replace(
             namespace=inner.namespace,
             parameters=inner.parameters,
@@ -44,15 +47,18 @@ class Scope(NamedTuple):
 
 
 class Filling:
-    """Fills in texts. ``environment`` has variables that are the same everywhere, by name with a dollar sign before it."""
+    """Replaces the marks in texts by values.
+
+    ``environment`` has variables that are the same everywhere, by name with a leading dollar sign.
+    """
 
     def __init__(self, environment: Mapping[str, Texts]) -> None:
         self._environment = environment
         self.unknown: dict[str, None] = {}
-        """Why something in the texts was not known since this was cleared."""
+        """Reasons why parts of the texts are unknown, since the last ``clear()``."""
 
     def texts(self, value: LaunchValue | None, scope: Scope) -> Texts:
-        """Return what a value is in a scope, () for none."""
+        """Return the alternatives of a value in a scope, () for None."""
         return () if value is None else self._filled(value.texts, scope)
 
     def _filled(self, texts: Texts, scope: Scope) -> Texts:
@@ -84,7 +90,7 @@ class Filling:
         return dict(scope.environment).get(name[1:]) or self._environment.get(name)
 
     def _reasons(self, text: str, scope: Scope) -> Iterator[str]:
-        """Yield why a text is not known."""
+        """Yield the reasons why a text is unknown."""
         for name, has_default, _ in configurations(text):
             value = self._value(name, scope)
             if name.startswith("$"):
@@ -98,7 +104,7 @@ class Filling:
             yield "it is computed in a way that cannot be followed"
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
-        """Return whether all conditions hold, and those of which that is not known."""
+        """Return whether all conditions hold (None if unknown), and the unknown conditions."""
         open_: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
@@ -112,7 +118,7 @@ class Filling:
         answers: set[bool | None] = set()
         for text in self._filled(condition.texts, scope):
             if asked_for(text):
-                answers.add(True)  # the launch file is asked what it does where everything is installed
+                answers.add(True)  # the expansion assumes that everything is installed
             elif not is_settled(text):
                 answers.add(None)
             elif condition.equals is None:
@@ -127,5 +133,5 @@ class Filling:
 
 @lru_cache(maxsize=8_192)
 def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
-    """Return what a text becomes with some values. A file that many include says the same many times over."""
+    """Return the alternatives of a text with some values. Cached, because a file that is often included repeats them."""
     return fill(text, dict(zip(names, values, strict=True)).get, evaluate)

@@ -1,4 +1,4 @@
-"""Actions of XML and YAML launch files that start nothing themselves, tag by tag."""
+"""Readers of the tags of XML and YAML launch files that start no program."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
 
 
 def _plain(entity: Entity, name: str) -> LaunchValue:
-    """Return an attribute that is no substitution, whatever it looks like."""
+    """Return an attribute in which substitutions are not expanded."""
     value = _unescaped(entity.attributes[name])
     span, plain = entity.written(name)
     return LaunchValue((value,), span, plain and value == entity.attributes[name])
@@ -123,7 +123,7 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
 
 
 def _loop(reader: Reader, entity: Entity) -> LaunchAction:
-    """Return what is done for each of some values, how many there are: perhaps never."""
+    """Return the actions of a loop, under an unknown condition because the number of repetitions may be 0."""
     conditions = reader.conditions(entity)
     for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
         reader.text(entity, attribute)

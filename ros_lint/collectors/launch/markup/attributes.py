@@ -1,7 +1,7 @@
-"""How the attributes of XML and YAML launch files are read, and where the front end refuses them.
+"""Reading of the attributes of XML and YAML launch files, with the errors of the front end.
 
-This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one (reference, section G3.4), so that a file is
-refused here exactly when the real front end refuses it.
+This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that a file is rejected here
+exactly if the real front end rejects it.
 """
 
 from __future__ import annotations
@@ -24,25 +24,25 @@ _make = tuple.__new__  # half of what the constructor takes
 
 
 class Reader:
-    """Reads entities by rules, one to a tag, and notes what is refused."""
+    """Reads entities by the function for their tag, and notes the errors of the front end."""
 
     def __init__(self, source: Text, rules: Mapping[str, Rule]) -> None:
         self._source = source
         self._rules = rules
         self.problems: list[Problem] = []
         self.newer: dict[Problem, None] = {}
-        """What not every distribution takes; ``kind`` is the first that does."""
+        """Features that not every distribution supports; ``kind`` is the first distribution that does."""
 
     def note_newer(self, what: str, span: Span) -> None:
-        """Note something that not every distribution takes."""
+        """Note a feature that not every distribution supports."""
         self.newer[Problem(SINCE[what], what, span)] = None
 
     def refuse(self, error: Rejected) -> None:
-        """Note that the front end refuses something."""
+        """Note an error of the front end."""
         self.problems.append(error.problem)
 
     def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
-        """Return what entities do. One that is refused is noted, and does nothing."""
+        """Return the actions of entities. A rejected entity is noted and gives no action."""
         found: list[LaunchAction] = []
         for entity in entities:
             try:
@@ -55,7 +55,7 @@ class Reader:
         rule = self._rules.get(entity.tag)
         if rule is None:
             if entity.tag in EXTENSIONS:
-                return []  # its package says what it takes
+                return []  # the package that defines the tag also defines its attributes
             raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span, ROS_1.get(f"<{entity.tag}>", ""))
         if entity.tag in _NEWER_TAGS:
             self.note_newer(f"<{entity.tag}>", entity.span)
@@ -66,14 +66,14 @@ class Reader:
     # --- attributes -----------------------------------------------------------------------------------------------
 
     def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
-        """Return what a value with substitutions becomes. Raises Rejected."""
+        """Return the alternatives of a value with substitutions. Raises Rejected."""
         found = reading(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
         return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
 
     def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
-        """Return a value as text and substitutions. Raises Rejected."""
+        """Return a value as literals and substitutions. Raises Rejected."""
         found = _pieces(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
@@ -90,7 +90,7 @@ class Reader:
         raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end), found.instead)
 
     def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
-        """Return the place of a part of a value, of all of it where it is not written as it is meant."""
+        """Return the span of a part of a value; the span of the whole value if the source contains escapes or is computed."""
         span, plain = entity.written(name)
         if not plain or entity.attributes[name] != value:
             return span
@@ -100,11 +100,11 @@ class Reader:
         return self._source.span(first + start, first + end)
 
     def text(self, entity: Entity, name: str) -> LaunchValue:
-        """Return an attribute that must be there as a text. Raises Rejected."""
+        """Return a required attribute as a text. Raises Rejected."""
         return self.optional(entity, name) or self._value(entity, name, entity.need(name))
 
     def optional(self, entity: Entity, name: str) -> LaunchValue | None:
-        """Return an attribute as a text, None when it is not there. Raises Rejected."""
+        """Return an optional attribute as a text, None if it is missing. Raises Rejected."""
         if entity.simple:
             value = entity.attributes.get(name)
             if value is None:
@@ -120,7 +120,7 @@ class Reader:
         return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value, ()))
 
     def typed(self, entity: Entity, name: str, kind: Type) -> Any:
-        """Return an attribute that may be a substitution instead of what is asked for, None when it is not there."""
+        """Return an attribute of a type, a LaunchValue if it is a substitution instead, None if it is missing."""
         value = entity.get(name, kind)
         if isinstance(value, list):
             kinds = {self._kind(entity, name, one) for one in value} - {None}
@@ -132,7 +132,7 @@ class Reader:
         return value
 
     def listed(self, entity: Entity, name: str, values: list[Any]) -> LaunchValue:
-        """Return a list that an attribute holds as one text, as YAML has it."""
+        """Return a list in an attribute as one text in YAML notation."""
         rows = [self._texts(entity, name, one) if isinstance(one, str) else (str(one),) for one in values]
         return LaunchValue(joined(rows, _as_yaml), entity.place(name))
 
@@ -144,7 +144,7 @@ class Reader:
         return str if len(pieces) == 1 and isinstance(pieces[0], Literal) else None
 
     def package_span(self, entity: Entity, *names: str) -> Span | None:
-        """Return where the package is written that the path in an attribute lies in."""
+        """Return the span of the package name in the first path of some attributes that contains one."""
         for name in names:
             value = entity.attributes.get(name)
             if not isinstance(value, str) or "-pkg" not in value:
@@ -156,7 +156,7 @@ class Reader:
         return None
 
     def words(self, entity: Entity, name: str, value: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return the words of a command line, as the front end splits it: texts in it by the rules of a shell."""
+        """Return the words of a command line, split as the front end does it: its literals by the rules of a shell."""
         row: list[list[Literal | Substitution]] = [[]]
         for piece in self._pieces(entity, name, value):
             if isinstance(piece, Substitution):
@@ -180,13 +180,13 @@ class Reader:
         return tuple(("", LaunchValue(texts(tuple(word)), span)) for word in row if word)
 
     def need_truth(self, entity: Entity, name: str) -> None:
-        """Refuse an attribute that is there and neither true nor false."""
+        """Reject an attribute that is neither true nor false."""
         value = self.typed(entity, name, "bool")
         if isinstance(value, str):
             raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> is neither true nor false", entity.place(name))
 
     def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return children that give a value to a name."""
+        """Return the names and values of the children with a tag."""
         found: list[tuple[str, LaunchValue]] = []
         children = entity.entities(tag)
         for child in children:
@@ -199,7 +199,7 @@ class Reader:
         return tuple(found)
 
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
-        """Return what ``if`` and ``unless`` ask for. Raises Rejected."""
+        """Return the conditions of the attributes ``if`` and ``unless``. Raises Rejected."""
         if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
             return ()
         wanted, unwanted = entity.get("if"), entity.get("unless")
@@ -213,14 +213,14 @@ class Reader:
 
 
 class Mistake(NamedTuple):
-    """Why a value is refused, and the offsets of what is wrong in it."""
+    """The reason why a value is rejected, and the offsets of the error in it."""
 
     kind: str
     message: str
     start: int
     end: int
     instead: str = ""
-    """As :attr:`Problem.instead`."""
+    """The replacement, as :attr:`Problem.instead`."""
 
 
 def _as_yaml(row: tuple[str, ...]) -> str:
@@ -229,7 +229,7 @@ def _as_yaml(row: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4_096)
 def reading(value: str) -> tuple[str, ...] | Mistake:
-    """Return what a value becomes, or why the front end refuses it. Few values are written in one place only."""
+    """Return the alternatives of a value, or the error of the front end. Cached, because most values occur repeatedly."""
     found = simple_text(value)
     if found is not None:
         return (found,)
@@ -252,7 +252,7 @@ def _pieces(value: str) -> Pieces | Mistake:
 
 @lru_cache(maxsize=4_096)
 def _package_place(value: str) -> tuple[int, int] | None:
-    """Return the offsets of the package in the first look-up of one, None if a value that is right has none."""
+    """Return the offsets of the package name in the first look-up of a valid value, None if there is no look-up."""
     if "exec-in-pkg" not in value and simple_text(value) is not None:
         match = _LOOK_UP.search(value)
         return match.span(1) if match else None
@@ -262,12 +262,12 @@ def _package_place(value: str) -> tuple[int, int] | None:
 
 _NEWER_TAGS = frozenset([what[1:-1] for what in SINCE if re.fullmatch(r"<\w+>", what)])
 _NEWER = re.compile(r"\$\((?:eval|" + "|".join([what[2:-1] for what in SINCE if re.fullmatch(r"\$\(.*\)", what)]) + r")[ )]")
-"""Substitutions that not every distribution takes, or not with everything."""
+"""Substitutions, or arguments of them, that not every distribution supports."""
 _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 
 def _wrong(piece: Substitution) -> tuple[str, str] | None:
-    """Return kind and message of what is wrong with the number of arguments of a substitution."""
+    """Return kind and message of an error in the number of arguments of a substitution, None if it is valid."""
     limits = SUBSTITUTIONS.get(piece.name)
     if limits is None:
         return "unknown-substitution", f"there is no substitution $({piece.name})"

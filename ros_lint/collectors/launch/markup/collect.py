@@ -1,7 +1,7 @@
-"""What XML and YAML launch files do, tag by tag.
+"""Facts of XML and YAML launch files.
 
-This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one (reference, section G3.4), so that a file is
-refused here exactly when the real front end refuses it.
+This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that a file is rejected here
+exactly if the real front end rejects it.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from ros_lint.facts.visibility import Opaque, Problem
 
 
 class Found(NamedTuple):
-    """What a launch file refers to, what hides more, what is wrong with it, and what it does."""
+    """The references, opaque places, problems and actions of a launch file."""
 
     references: tuple[LaunchReference, ...]
     opaque: tuple[Opaque, ...]
     problems: tuple[Problem, ...]
     actions: tuple[LaunchAction, ...]
     newer: tuple[Problem, ...]
-    """What not every distribution takes; ``kind`` is the first that does."""
+    """Features that not every distribution supports; ``kind`` is the first distribution that does."""
 
 
 def read(source: Text, root: Entity) -> Found:
-    """Return what the entities of a launch file say."""
+    """Return the facts of the entities of a launch file."""
     reader = Reader(source, _RULES)
     actions: list[LaunchAction] = []
     try:
@@ -60,7 +60,7 @@ _ASKED = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
 
 
 def asks(text: str) -> tuple[str, ...]:
-    """Return the launch configurations that a text asks for anywhere, sorted, UNKNOWN among them if a name is computed."""
+    """Return the launch configurations that a text reads, sorted. UNKNOWN is among them if a name is computed."""
     if "$(var" not in text:
         return ()
     names = set(_ASKED.findall(_COMMENT.sub("", text) if "<!--" in text else text))

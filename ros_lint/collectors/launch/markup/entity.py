@@ -1,7 +1,7 @@
-"""Entities of launch files in XML and YAML, and what their attributes can hold (``launch.frontend.Entity``).
+"""Entities of launch files in XML and YAML, and the types of their attributes (``launch.frontend.Entity``).
 
-The two front ends differ in one thing: XML has text and turns it into the type that is asked for, YAML has types and
-checks them (reference, section G3.2).
+The two front ends differ in one thing: XML has text and converts it to the requested type, YAML has types and checks
+them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
-"""What an attribute is asked to be; ``any`` is what YAML's rules make of it."""
+"""The requested type of an attribute; ``any`` is the type that YAML gives to the text."""
 
 _make = tuple.__new__  # half of what the constructor takes
 
@@ -29,7 +29,7 @@ _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools"
 
 
 class Rejected(Exception):  # noqa: N818
-    """The real front end refuses the file here, see :class:`Problem`."""
+    """The real front end rejects the file here, see :class:`Problem`."""
 
     def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
         super().__init__(message)
@@ -37,7 +37,7 @@ class Rejected(Exception):  # noqa: N818
 
 
 NO_VALUE: Final = object()
-"""A value of YAML that no attribute takes: a mapping, a date, nested lists."""
+"""A YAML value that no attribute accepts: a mapping, a date, nested lists."""
 
 
 class Entity:
@@ -70,23 +70,23 @@ class Entity:
         spots: dict[str, tuple[int, int]] | None,
         simple: bool,
     ) -> None:
-        """Make an entity. ``spots`` are the offsets of the values of its attributes; in XML they are found when wanted."""
+        """Create an entity. ``spots`` are the offsets of the attribute values; None in XML, where they are computed lazily."""
         self._source = source
         self.tag = tag
         self.attributes = attributes
-        """In XML texts; in YAML texts, numbers, truths, None, lists of these, or :data:`NO_VALUE` for anything else."""
+        """In XML texts; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE` for anything else."""
         self.children = children
-        """In YAML those below ``children`` and those of lists of mappings under other keys, which are their tags."""
+        """In YAML the items of ``children``, and of lists of mappings under other keys, whose tag is the key."""
         self.start = start
         self.end = end
         self.form = form
-        """``element`` in XML; in YAML what stands behind the key."""
+        """``element`` in XML; in YAML the type of the value of the key."""
         self._spots = spots
         self._written: dict[str, tuple[Span, bool]] | None = None
         self.simple = simple
-        """Whether each attribute is the text that is written: in XML, and without separators."""
+        """True if each attribute is exactly the text in the source: only in XML, and without separators."""
         self.read: set[str] = set()
-        """The attributes that were asked for."""
+        """The attributes that were requested."""
         self._read_children: set[str] | None = set()
 
     @property
@@ -95,7 +95,7 @@ class Entity:
         return self._source.span(self.start, self.end)
 
     def written(self, name: str) -> tuple[Span, bool]:
-        """Return the place of the value of an attribute that is there, and whether it stands there letter by letter."""
+        """Return the span of the value of an existing attribute, and whether the source contains the value literally."""
         found = self._written
         if found is None:
             found = self._written = self._find_written()
@@ -105,7 +105,7 @@ class Entity:
         source, text = self._source, self._source.text
         if self._spots is not None:
             return self._from_spots(self._spots)
-        # Nearly all are written plainly, in the order in which the parser reports them: a pass from line to line.
+        # Nearly all attributes are literal, and in the order of the parser, so one pass from line to line suffices.
         found: dict[str, tuple[Span, bool]] = {}
         at = self.end
         path, line, column, _, _ = source.span(at, at)
@@ -135,15 +135,15 @@ class Entity:
         return {name: (span(start, end), text[start:end] == self.attributes.get(name)) for name, (start, end) in spots.items()}
 
     def place(self, name: str) -> Span:
-        """Return the place of the value of an attribute."""
+        """Return the span of the value of an attribute, of the tag if it has no such attribute."""
         return self.written(name)[0] if name in self.attributes else self.span
 
     def lacks(self, names: Iterable[str]) -> bool:
-        """Return whether none of some names is an attribute, and asking for them could not raise."""
+        """Return whether no name is an attribute, and requesting one could not raise."""
         return self.form == "element" and self.attributes.keys().isdisjoint(names)
 
     def get(self, name: str, kind: Type = "str") -> Any:
-        """Return the value of an attribute, None when it is not there. Raises Rejected when it is of another type."""
+        """Return the value of an attribute, None if it is missing. Raises Rejected if it has another type."""
         attributes = self.attributes
         if self.form == "element":
             if name not in attributes:
@@ -164,7 +164,7 @@ class Entity:
         return attributes[name]
 
     def _converted(self, name: str, kind: Type) -> Any:
-        """Return a text of XML as what is asked for, split first if there is a separator for it."""
+        """Return a text of XML converted to a type; split first if there is a separator attribute for it."""
         value: str | list[str] = self.attributes[name]
         separator = self.attributes.get(f"{name}-sep")
         if separator is not None:
@@ -178,14 +178,14 @@ class Entity:
             raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is not {_NAMES[kind]}", self.place(name)) from None
 
     def need(self, name: str, kind: Type = "str") -> Any:
-        """Return the value of an attribute. Raises Rejected when it is not there, or of another type."""
+        """Return the value of an attribute. Raises Rejected if it is missing or has another type."""
         value = self.get(name, kind)
         if value is None:
             raise Rejected("missing-attribute", f"<{self.tag}> requires the attribute '{name}'", self.span)
         return value
 
     def entities(self, tag: str) -> list[Entity]:
-        """Return the children with a tag. Raises Rejected when in YAML they are no list of mappings."""
+        """Return the children with a tag. Raises Rejected if in YAML they are not a list of mappings."""
         if self.form == "other":
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
         if self.form == "list":
@@ -199,14 +199,14 @@ class Entity:
         return [child for child in self.children if child.tag == tag]
 
     def actions(self) -> list[Entity]:
-        """Return the children that are actions. Raises Rejected when in YAML there is no list of them."""
+        """Return the children that are actions. Raises Rejected if YAML has no list of them."""
         if self.form == "element":
             self._read_children = None
             return self.children
         if self.form == "mapping":
             if self.attributes.get("children") == "":
                 self.read.add("children")
-                return []  # a text without letters is gone through as well
+                return []  # the front end iterates over an empty text as well
             if "children" in self.attributes:
                 raise Rejected("wrong-type", f"'children' of <{self.tag}> is not a list of mappings", self.place("children"))
             self._read_children = (self._read_children or set()) | {CHILDREN}
@@ -220,7 +220,7 @@ class Entity:
         raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
 
     def finish(self) -> None:
-        """Raise Rejected when there is an attribute or a child that nobody asked for."""
+        """Raise Rejected if there is an attribute or a child that was not requested."""
         known = self._read_children
         if self.form == "list":
             if known is not None:
@@ -238,11 +238,11 @@ class Entity:
 
 
 CHILDREN: Final = "\0children"
-"""The tag that stands for the key ``children`` of YAML, and for an item of a list that is no entity by itself."""
+"""The tag of the key ``children`` of YAML, and of a list item that is not an entity."""
 
 
 def _only(item: Entity) -> Entity:
-    """Return the entity of an item of a list, which has one key."""
+    """Return the entity of a list item, which has exactly one key."""
     if item.tag != CHILDREN:
         return item
     raise Rejected("wrong-type", "each item must have one key, the tag", item.span)
@@ -262,7 +262,7 @@ _NAMES: Mapping[Type, str] = {
 
 
 def _is_valid(value: Any) -> bool:
-    """Whether a value is a scalar, or a list of one type with texts in between (``is_instance_of_valid_type``)."""
+    """Return whether a value is a scalar, or a list of texts and one other type (``is_instance_of_valid_type``)."""
     if not isinstance(value, list):
         return isinstance(value, (int, float, bool, str))
     kind = next((type(one) for one in value if type(one) is not str), str)
@@ -270,7 +270,7 @@ def _is_valid(value: Any) -> bool:
 
 
 def _is_instance(value: Any, kind: Type) -> bool:
-    """Whether a value of YAML is what is asked for; a text always is, since it may be a substitution (``is_instance_of``)."""
+    """Return whether a YAML value has a type. A text always has, since it may be a substitution (``is_instance_of``)."""
     if kind == "any":
         return _is_valid(value)
     if kind in _SCALARS:
@@ -279,7 +279,7 @@ def _is_instance(value: Any, kind: Type) -> bool:
 
 
 def _coerced(value: str | list[str], kind: Type) -> Any:
-    """Return a text of XML as what is asked for; it stays a text where it does not fit. Raises ValueError."""
+    """Return a text of XML converted to a type; the text itself if the conversion fails. Raises ValueError."""
     if isinstance(value, list):
         if kind in _SCALARS:
             raise ValueError(kind)
@@ -307,7 +307,7 @@ def _coerced(value: str | list[str], kind: Type) -> Any:
 
 
 def _as_yaml(value: str) -> Any:
-    """Return what YAML makes of a text, the text itself where that is none. Raises ValueError for what has no place here."""
+    """Return a text as YAML reads it, the text itself if it is not YAML. Raises ValueError for unsupported types."""
     if value in _WORDS:
         return _WORDS[value]
     if value in ("null", "Null", "NULL"):
@@ -341,7 +341,7 @@ _WORDS: Mapping[str, bool] = {
     for word in (plain, plain.capitalize(), plain.upper())
 }
 
-# What YAML makes of these is plain, and it takes 20 ms to import.
+# YAML's result is obvious for these, and importing yaml takes 20 ms.
 _INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]{0,17})", re.ASCII)
 _DECIMAL = re.compile(r"[-+]?[0-9]+\.[0-9]*", re.ASCII)
 _ITEM = r" *(?:[-+]?(?:0|[1-9][0-9]{0,17})|[-+]?[0-9]+\.[0-9]*|[A-Za-z/$][\w/.$()-]*(?: [\w/.$()-]+)*) *"
@@ -349,7 +349,7 @@ _SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
 
 
 def _is_suspicious(value: str) -> bool:
-    """Whether YAML could make something else than a text of a value that is not empty."""
+    """Return whether YAML could read a non-empty value as another type than text."""
     if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
         return True
     return ": " in value or " #" in value or "\n" in value

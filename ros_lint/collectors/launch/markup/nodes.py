@@ -1,4 +1,4 @@
-"""Nodes, components and processes of XML and YAML launch files, and what they are given, tag by tag."""
+"""Readers of the tags of nodes, components and processes in XML and YAML launch files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 
 def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
-    """What nodes and executables share (``ExecuteProcess.parse``)."""
+    """Return the action with the attributes that nodes and executables share (``ExecuteProcess.parse``)."""
     conditions = reader.conditions(entity)
     given: list[tuple[str, LaunchValue]] = []
     if kind == "process":

@@ -1,7 +1,7 @@
-"""The substitutions of XML and YAML launch files: ``$(name argument ...)`` (reference, section G3.5).
+"""The syntax of substitutions in XML and YAML launch files: ``$(name argument ...)``.
 
-``grammar.lark`` of the launch package is the model: arguments are separated by one space and may be quoted, quotes do not
-nest, a backslash escapes, and a dollar sign before anything but a parenthesis is itself.
+It follows ``grammar.lark`` of the launch package: arguments are separated by one space and may be quoted, quotes do
+not nest, a backslash escapes, and a dollar sign is literal unless a parenthesis follows.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Final, NamedTuple, Union
 
 
 class SubstitutionError(Exception):
-    """The text is not in the grammar. ``offset`` is from 0 to the length of the text."""
+    """The text does not match the grammar. ``offset`` is from 0 to the length of the text."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -20,7 +20,7 @@ class SubstitutionError(Exception):
 
 
 class Literal(NamedTuple):
-    """Text that stands for itself, escapes resolved. ``start`` and ``end`` are offsets in the whole text."""
+    """Literal text, with escapes resolved. ``start`` and ``end`` are offsets in the whole text."""
 
     text: str
     start: int
@@ -28,7 +28,7 @@ class Literal(NamedTuple):
 
 
 class Substitution(NamedTuple):
-    """``$(name arguments)``; an argument is a row of pieces."""
+    """``$(name arguments)``; each argument is a sequence of pieces."""
 
     name: str
     arguments: tuple[tuple[Piece, ...], ...]
@@ -42,14 +42,14 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _ESCAPE = re.compile(r"\\(.)")
 _MAX_DEPTH = 50
 
-# What ends a piece of text, by where it stands: bare, between quotes, or an argument inside of those.
+# The characters that end a piece, by its context: unquoted, quoted, or an argument inside quotes.
 _BARE_STOPS = " '\")("
 _INNER_STOPS = {"'": " ')(", '"': ' ")('}
 _STOPS = {
     stops: re.compile(rf"[\\$(){stops}]" if stops not in ("", "'", '"') else rf"[\\${stops}]")
     for stops in ("", "'", '"', _BARE_STOPS, *_INNER_STOPS.values())
 }
-"""Where reading stops or has to look: a backslash, a dollar sign, and what ends the piece."""
+"""Patterns that find the next special character: a backslash, a dollar sign, and the characters that end the piece."""
 
 
 def parse(text: str) -> tuple[Piece, ...]:
@@ -73,7 +73,7 @@ class _Parser:
         return self._pieces(0, "", "$", 0, "")[0]
 
     def _pieces(self, at: int, stops: str, escaped: str, depth: int, quote: str) -> tuple[tuple[Piece, ...], int]:
-        """Read until a character of ``stops`` or to the end. A backslash takes one of ``escaped`` along."""
+        """Read until a character of ``stops`` or to the end. A backslash escapes the characters in ``escaped``."""
         text = self._text
         found: list[Piece] = []
         begin = at

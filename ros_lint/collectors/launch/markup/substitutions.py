@@ -1,4 +1,4 @@
-"""What substitutions of XML and YAML launch files become (reference, section G3.5)."""
+"""Symbolic texts of the substitutions in XML and YAML launch files."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Texts = tuple[str, ...]
 
 
 def texts(pieces: Pieces) -> Texts:
-    """Return what the pieces make when the launch file runs."""
+    """Return the alternative texts of a value when the launch file runs."""
     if len(pieces) == 1:
         return _one(pieces[0])
     rows = [_one(piece) for piece in pieces]
@@ -25,12 +25,12 @@ def texts(pieces: Pieces) -> Texts:
     return joined(rows, "".join)
 
 
-# Neither quotes nor escapes nor one in another: so nearly all are.
+# A substitution without quotes, escapes or nesting, as nearly all are.
 _SIMPLE = re.compile(r"""\$\(([A-Za-z][A-Za-z0-9_-]*)((?:[ ][^ '"\\$()]+)*)\)""")
 
 
 def simple_text(value: str) -> str | None:
-    """Return what a value becomes when its substitutions are simple and right, None when that must be looked at closely."""
+    """Return the text of a value whose substitutions are simple and valid, None if it needs the full parser."""
     if "\\" in value:
         return None
     found: list[str] = []
@@ -54,7 +54,7 @@ def simple_text(value: str) -> str | None:
 
 
 def package_of(pieces: Pieces) -> Pieces:
-    """Return the argument of the first look-up of a package, () when there is none."""
+    """Return the argument of the first package look-up, () if there is none."""
     for piece in pieces:
         if isinstance(piece, Substitution):
             if piece.name in ("find-pkg-share", "find-pkg-prefix") and piece.arguments:

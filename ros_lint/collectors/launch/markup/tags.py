@@ -1,4 +1,4 @@
-"""The tags and substitutions of launch files in XML and YAML, and since when there are (reference, section G3.3)."""
+"""The tags and substitutions of launch files in XML and YAML, with the distributions that introduced them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ SUBSTITUTIONS: Mapping[str, tuple[int, int]] = {
     "string-join": (1, 1_000),
     "var": (1, 2),
 }
-"""How many arguments each takes, at least and at most."""
+"""The minimum and maximum number of arguments of each substitution."""
 
 EXTENSIONS: Mapping[str, str] = {
     "gz_server": "ros_gz_sim",
@@ -42,7 +42,7 @@ EXTENSIONS: Mapping[str, str] = {
     "gz_robot_plugin": "ros_gz_sim",
     "trace": "tracetools_launch",
 }
-"""Tags that other packages add, and the packages (entry point group ``launch.frontend.launch_extension``)."""
+"""Tags that other packages add, and their packages (entry point group ``launch.frontend.launch_extension``)."""
 
 ROS_1: Mapping[str, str] = {
     "$(find)": "$(find-pkg-share)",
@@ -62,7 +62,7 @@ ROS_1: Mapping[str, str] = {
     "<env>": "<set_env>",
     "<machine>": "none",
 }
-"""What ROS 1 had and ROS 2 has not, and what it has instead (reference, section G3.4)."""
+"""Features of ROS 1 that ROS 2 does not have, and their replacements."""
 
 SINCE: Mapping[str, str] = {
     "<set_ros_log_dir>": "iron",  # launch_ros 0.22.0
@@ -80,11 +80,13 @@ SINCE: Mapping[str, str] = {
     "$(index)": "kilted",  # launch 3.8.0
     "$(string-join)": "lyrical",  # launch 3.9.5
 }
-"""The first distribution that takes something, where not every supported one does.
+"""The first distribution that supports a feature, for features that not every supported one has.
 
-From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the branches humble, iron, jazzy and rolling of
-ros2/launch and ros2/launch_ros as of 2024-12, and from their changelogs of humble (launch 1.0.14, launch_ros 0.19.13), jazzy
-(3.4.10, 0.26.11), kilted (3.8.7, 0.28.4) and rolling (3.9.6, 0.29.5) for what came later. What an update brought to every
-supported distribution is not here: ``on_exit`` and ``emulate_tty``, ``$(if)``, ``$(any)``, ``$(all)``, ``$(equals)`` and
-``$(not-equals)`` came to humble with launch 1.0.9, ``$(file-content)`` with 1.0.11.
+From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the branches humble, iron, jazzy and
+rolling of ros2/launch and ros2/launch_ros as of 2024-12. Later features are from their changelogs of humble (launch
+1.0.14, launch_ros 0.19.13), jazzy (3.4.10, 0.26.11), kilted (3.8.7, 0.28.4) and rolling (3.9.6, 0.29.5).
+
+Features that updates brought to every supported distribution are omitted: ``on_exit`` and ``emulate_tty``, ``$(if)``,
+``$(any)``, ``$(all)``, ``$(equals)`` and ``$(not-equals)`` came to humble with launch 1.0.9, ``$(file-content)`` with
+1.0.11.
 """

@@ -11,7 +11,7 @@ from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 
 def collect(source: Text) -> LaunchFile:
-    """Return what a launch file in XML says. Never raises."""
+    """Return the facts of a launch file in XML. Never raises."""
     try:
         root = entities(source)
     except xml_tree.XmlError as error:

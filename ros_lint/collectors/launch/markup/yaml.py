@@ -19,7 +19,7 @@ _MOST_ENTITIES = 20_000
 
 
 def collect(source: Text) -> LaunchFile:
-    """Return what a launch file in YAML says. Never raises."""
+    """Return the facts of a launch file in YAML. Never raises."""
     try:
         node = compose(source.text)
     except YamlBoundError as error:
@@ -53,7 +53,7 @@ def collect(source: Text) -> LaunchFile:
 
 
 class _Reader:
-    """Makes entities from nodes. Aliases can make few nodes look like many, so it stops at a bound."""
+    """Creates entities from YAML nodes. Their number is limited, because aliases can multiply a few nodes."""
 
     def __init__(self, source: Text) -> None:
         self._source = source
@@ -68,7 +68,7 @@ class _Reader:
         return self._entity(key, value, 0)
 
     def _entity(self, key: yaml.Node, value: yaml.Node, depth: int) -> Entity:
-        """Return what stands behind a key: a mapping has attributes and lists of entities, a list has children."""
+        """Return the entity of a key: a mapping has attributes and lists of entities, a list has children."""
         tag = str(key.value) if _is_scalar(key) else "?"
         return self._made(tag, key.start_mark.index, key.end_mark.index, value, depth)
 
@@ -126,7 +126,7 @@ def _is_scalar(node: yaml.Node) -> bool:
 def _value(node: yaml.Node) -> Any:
     """Return the value of a scalar or of a list of scalars, NO_VALUE for anything else.
 
-    Lists in lists are not entered: aliases can make few of them look like many.
+    Nested lists are not read, because aliases can multiply a few of them.
     """
     import yaml  # noqa: PLC0415
 
