@@ -66,7 +66,7 @@ _SOME_TIME = LaunchCondition((UNKNOWN,), None)
 
 
 def _covers(several: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Return whether a condition and its opposite are both among the single conditions, so that one of them holds."""
+    """Return whether one of the single conditions is the opposite of another, so that one holds."""
     single = {conditions[0] for conditions in several if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
 
@@ -84,5 +84,5 @@ def _own(values: Mapping[str, tuple[str, ...]], given: set[str]) -> frozenset[st
 
 
 def _hangs_on(text: str, names: Container[str]) -> bool:
-    """Return whether a text depends only on the named configurations. False if it computes a configuration name."""
+    """Return whether a text depends only on some configurations. False if it computes their names."""
     return is_settled(text) or all(name in names for name in named_in(text) or ("\0",))

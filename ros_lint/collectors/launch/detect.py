@@ -12,7 +12,7 @@ from typing import Literal
 Language = Literal["python", "xml", "yaml"]
 
 LAUNCH_FILE_NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".launch")
-"""Suffixes by which ``ros2 launch`` recognizes launch files if the user gives a file name without a path."""
+"""Suffixes by which ``ros2 launch`` recognizes launch files if the user gives a name without a path."""
 
 _PYTHON = re.compile(r"generate_(launch|test)_description\b")
 _DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
@@ -57,7 +57,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
 
 
 def entries(text: str) -> frozenset[str]:
-    """Return which descriptions a Python source defines by generate_*_description(): ``launch``, ``test`` or both."""
+    """Return which of ``launch`` and ``test`` a Python source defines a generate_*_description() for."""
     found = set()
     for match in _PYTHON.finditer(text):
         line = text.rfind("\n", 0, match.start()) + 1
@@ -83,7 +83,7 @@ def _is_xml(text: str) -> bool:
 
 
 def _is_of_others(path: str, text: str) -> bool:
-    """Return whether the file is of another format with similar tags: its nodes have no package and no executable."""
+    """Return whether the file is of another format with similar tags: nodes without package or executable."""
     return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _STARTED.search(text)
 
 

@@ -29,7 +29,7 @@ class Started(NamedTuple):
     kind: str
     """``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Alternatives. A text contains UNKNOWN where a part of it is unknown; the tuple is empty if there is no package."""
+    """Alternatives, () if there is no package. A text contains UNKNOWN where a part of it is unknown."""
     target: Texts
     """The executable, the component class, the command line or the path of the included file."""
     name: Texts
@@ -47,7 +47,7 @@ class Started(NamedTuple):
     environment: tuple[tuple[str, Texts], ...] = ()
     """Environment variables that the launch file sets for it."""
     file: str = ""
-    """The path of an included file that was expanded, as :attr:`LaunchFile.path`; "" if it could not be read."""
+    """The path of an expanded include, as :attr:`LaunchFile.path`; "" if it could not be read."""
     unknown: tuple[str, ...] = ()
     """The reasons why parts of the texts are unknown."""
     when: tuple[LaunchCondition, ...] = ()
@@ -57,7 +57,7 @@ class Started(NamedTuple):
     words: tuple[Texts, ...] = ()
     """The command-line arguments of a node."""
     via: Span | None = None
-    """The include in the launched file that leads to this action, None for an action of the launched file itself."""
+    """The include in the launched file that leads to this action, None if the file itself contains it."""
 
 
 class Argument(NamedTuple):
@@ -178,7 +178,7 @@ class _Run:
         self._wake()
 
     def _wake(self) -> None:
-        """Expand the actions of timers and events, and insert their results where the timers and event handlers are.
+        """Expand the actions of timers and events, and insert the results at the place of the timer or event.
 
         All files have been expanded by then, so a configuration that is declared or set after a timer counts, too. A
         configuration that was set before keeps its value, because a function may have read it by then.
@@ -366,7 +366,7 @@ class _Run:
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
-    """Return namespaces joined to outer ones; an absolute one replaces the outer one (``make_namespace_absolute``)."""
+    """Return namespaces below outer ones; an absolute one replaces them (``make_namespace_absolute``)."""
     return joined([outer, inner], _joined_namespace)
 
 

@@ -1,4 +1,4 @@
-"""Evaluation of Python expressions in launch files (``$(eval ...)`` and PythonExpression) that need only constants."""
+"""Evaluation of constant Python expressions in launch files: ``$(eval ...)`` and PythonExpression."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _KNOWN = BUILTINS | MATH | {"math"}
 
 
 def means_true(text: str) -> bool | None:
-    """Return the truth value of a condition, None if it is neither true nor false (``evaluate_condition_expression``)."""
+    """Return the truth of a condition, None if it has none (``evaluate_condition_expression``)."""
     word = text.strip().lower()
     if word in ("true", "1"):
         return True
@@ -136,7 +136,7 @@ def _truth(text: Any) -> bool:
 
 
 def _equals(left: Any, right: Any) -> bool:
-    """Return whether two values are equal for EqualsSubstitution, which compares booleans and numbers by value."""
+    """Return whether EqualsSubstitution takes two values for equal: booleans and numbers by their value."""
     one, other = means_true(str(left)), means_true(str(right))
     return one == other if one is not None and other is not None else str(left) == str(right)
 
@@ -176,7 +176,7 @@ def _small(value: Any) -> Any:
 
 
 def _size(value: Any) -> int:
-    """Return the number of characters and items in a value, nested ones included. Stops counting above the limit."""
+    """Return the number of characters and items in a value with nested ones. Stops above the limit."""
     found = 0
     waiting = [value]
     while waiting and found <= _MOST:

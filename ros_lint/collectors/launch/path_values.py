@@ -23,7 +23,7 @@ def _display(text: str) -> str:
 
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, Reads | None]]:
-    """Return the values of an action, except its target, that can contain a path, each with its ``Reads`` function."""
+    """Return the values of an action, except its target, that can contain a path, each with its ``Reads``."""
     found: list[tuple[LaunchValue, Reads | None]] = []
     if action.value is not None:
         found.append((action.value, None))
@@ -40,7 +40,7 @@ def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, Reads | None]
 
 
 def _shown(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, Reads | None]]:
-    """Yield the arguments of rviz2. The display file is in one argument with its option, or in the next one."""
+    """Yield the arguments of rviz2. The display file is in the argument of its option, or in the next."""
     follows = False
     for name, value in arguments:
         if not name:

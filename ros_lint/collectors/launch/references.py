@@ -46,7 +46,7 @@ class References:
     """The references of the actions of a launch file in the order of the file, and the opaque places."""
 
     def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
-        """Read actions. ``places`` maps the names of packages (or the texts that compute them) to their look-ups."""
+        """Read actions. ``places`` are the package look-ups, by package or by the text that computes it."""
         self.found: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
@@ -75,7 +75,7 @@ class References:
 
     @contextmanager
     def _under(self, conditions: Sequence[LaunchCondition], *, lent: bool = False) -> Iterator[bool]:
-        """Apply conditions, or mark actions of a built-in model, for a block. Yields whether any distribution remains."""
+        """Apply conditions, or mark actions of a model, for a block. Yields whether any distribution remains."""
         before = self._asks, self._distros, self._narrowed, self._known, self._lent
         self._lent = lent
         self._asks = self._asks or is_guarded_by_presence(conditions)
@@ -230,7 +230,7 @@ class References:
         return package_span if package_span is not None and inside else value.span
 
     def _is_made(self, package: str, value: LaunchValue) -> bool:
-        """Return whether a package name is assembled from values of configurations and occurs in no text as a whole."""
+        """Return whether a package name is assembled from configurations and occurs in no text as a whole."""
         prefix = f"{launch_text.prefix(package)}/"
         texts = [value.texts, *self._held.values.values()]
         return not any(prefix in f"{text}/" for one in texts for text in one)
@@ -250,7 +250,7 @@ class References:
         return tuple(found), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
-        """Restrict configurations to the values with which conditions of the form "configuration equals constant" hold."""
+        """Restrict configurations to the values that conditions of the form "configuration equals x" allow."""
         for (text, *others), equals, wanted in conditions:
             name = next((name for name, _, whole in configurations(text) if whole == text), "")
             if name and equals is not None and not others and is_plain(equals):
@@ -354,7 +354,7 @@ class References:
 
 
 def _is_dull(texts: Iterable[str], carriers: Container[str]) -> bool:
-    """Return whether texts contain neither an install place nor xacro. ``carriers`` are configurations that contain either."""
+    """Return whether texts name neither an install place nor xacro, directly or by a configuration."""
     for text in texts:
         if text.isascii():
             if runs_xacro(text):

@@ -133,5 +133,5 @@ class Filling:
 
 @lru_cache(maxsize=8_192)
 def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
-    """Return the alternatives of a text with some values. Cached, because a file that is often included repeats them."""
+    """Return the alternatives of a text with some values. Cached, because common includes repeat them."""
     return fill(text, dict(zip(names, values, strict=True)).get, evaluate)

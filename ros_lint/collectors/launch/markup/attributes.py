@@ -90,7 +90,10 @@ class Reader:
         raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end), found.instead)
 
     def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
-        """Return the span of a part of a value; the span of the whole value if the source contains escapes or is computed."""
+        """Return the span of a part of a value.
+
+        It is the span of the whole value if the source does not contain the value literally.
+        """
         span, plain = entity.written(name)
         if not plain or entity.attributes[name] != value:
             return span
@@ -156,7 +159,7 @@ class Reader:
         return None
 
     def words(self, entity: Entity, name: str, value: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return the words of a command line, split as the front end does it: its literals by the rules of a shell."""
+        """Return the words of a command line. The front end splits literals by the rules of a shell."""
         row: list[list[Literal | Substitution]] = [[]]
         for piece in self._pieces(entity, name, value):
             if isinstance(piece, Substitution):
@@ -229,7 +232,7 @@ def _as_yaml(row: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4_096)
 def reading(value: str) -> tuple[str, ...] | Mistake:
-    """Return the alternatives of a value, or the error of the front end. Cached, because most values occur repeatedly."""
+    """Return the alternatives of a value, or its error. Cached, because most values occur repeatedly."""
     found = simple_text(value)
     if found is not None:
         return (found,)
@@ -252,7 +255,7 @@ def _pieces(value: str) -> Pieces | Mistake:
 
 @lru_cache(maxsize=4_096)
 def _package_place(value: str) -> tuple[int, int] | None:
-    """Return the offsets of the package name in the first look-up of a valid value, None if there is no look-up."""
+    """Return the offsets of the package name in the first look-up of a valid value, None if there is none."""
     if "exec-in-pkg" not in value and simple_text(value) is not None:
         match = _LOOK_UP.search(value)
         return match.span(1) if match else None
@@ -267,7 +270,7 @@ _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 
 def _wrong(piece: Substitution) -> tuple[str, str] | None:
-    """Return kind and message of an error in the number of arguments of a substitution, None if it is valid."""
+    """Return kind and message of a wrong number of arguments of a substitution, None if it is right."""
     limits = SUBSTITUTIONS.get(piece.name)
     if limits is None:
         return "unknown-substitution", f"there is no substitution $({piece.name})"

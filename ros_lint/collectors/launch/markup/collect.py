@@ -60,7 +60,7 @@ _ASKED = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
 
 
 def asks(text: str) -> tuple[str, ...]:
-    """Return the launch configurations that a text reads, sorted. UNKNOWN is among them if a name is computed."""
+    """Return the launch configurations that a text reads, sorted, with UNKNOWN for computed names."""
     if "$(var" not in text:
         return ()
     names = set(_ASKED.findall(_COMMENT.sub("", text) if "<!--" in text else text))

@@ -1,4 +1,4 @@
-"""Entities of launch files in XML and YAML, and the types of their attributes (``launch.frontend.Entity``).
+"""Entities of XML and YAML launch files, and the types of attributes (``launch.frontend.Entity``).
 
 The two front ends differ in one thing: XML has text and converts it to the requested type, YAML has types and checks
 them.
@@ -70,11 +70,11 @@ class Entity:
         spots: dict[str, tuple[int, int]] | None,
         simple: bool,
     ) -> None:
-        """Create an entity. ``spots`` are the offsets of the attribute values; None in XML, where they are computed lazily."""
+        """Create an entity. ``spots`` are the offsets of the attribute values, None to compute them lazily."""
         self._source = source
         self.tag = tag
         self.attributes = attributes
-        """In XML texts; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE` for anything else."""
+        """In XML texts; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
         self.children = children
         """In YAML the items of ``children``, and of lists of mappings under other keys, whose tag is the key."""
         self.start = start
@@ -95,7 +95,7 @@ class Entity:
         return self._source.span(self.start, self.end)
 
     def written(self, name: str) -> tuple[Span, bool]:
-        """Return the span of the value of an existing attribute, and whether the source contains the value literally."""
+        """Return the span of the value of an existing attribute, and whether it is literal in the source."""
         found = self._written
         if found is None:
             found = self._written = self._find_written()
@@ -262,7 +262,7 @@ _NAMES: Mapping[Type, str] = {
 
 
 def _is_valid(value: Any) -> bool:
-    """Return whether a value is a scalar, or a list of texts and one other type (``is_instance_of_valid_type``)."""
+    """Return whether a value is a scalar or a list of texts and one type (``is_instance_of_valid_type``)."""
     if not isinstance(value, list):
         return isinstance(value, (int, float, bool, str))
     kind = next((type(one) for one in value if type(one) is not str), str)
@@ -270,7 +270,7 @@ def _is_valid(value: Any) -> bool:
 
 
 def _is_instance(value: Any, kind: Type) -> bool:
-    """Return whether a YAML value has a type. A text always has, since it may be a substitution (``is_instance_of``)."""
+    """Return whether a YAML value has a type. A text may be a substitution of any (``is_instance_of``)."""
     if kind == "any":
         return _is_valid(value)
     if kind in _SCALARS:
@@ -307,7 +307,7 @@ def _coerced(value: str | list[str], kind: Type) -> Any:
 
 
 def _as_yaml(value: str) -> Any:
-    """Return a text as YAML reads it, the text itself if it is not YAML. Raises ValueError for unsupported types."""
+    """Return the YAML value of a text, the text if it is not YAML. Raises ValueError for unsupported types."""
     if value in _WORDS:
         return _WORDS[value]
     if value in ("null", "Null", "NULL"):

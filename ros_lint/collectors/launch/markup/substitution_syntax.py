@@ -49,7 +49,7 @@ _STOPS = {
     stops: re.compile(rf"[\\$(){stops}]" if stops not in ("", "'", '"') else rf"[\\${stops}]")
     for stops in ("", "'", '"', _BARE_STOPS, *_INNER_STOPS.values())
 }
-"""Patterns that find the next special character: a backslash, a dollar sign, and the characters that end the piece."""
+"""Patterns for the next special character: a backslash, a dollar sign, and the ends of the piece."""
 
 
 def parse(text: str) -> tuple[Piece, ...]:

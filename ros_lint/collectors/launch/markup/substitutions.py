@@ -30,7 +30,7 @@ _SIMPLE = re.compile(r"""\$\(([A-Za-z][A-Za-z0-9_-]*)((?:[ ][^ '"\\$()]+)*)\)"""
 
 
 def simple_text(value: str) -> str | None:
-    """Return the text of a value whose substitutions are simple and valid, None if it needs the full parser."""
+    """Return the text of a value with only simple and valid substitutions, None if it needs the parser."""
     if "\\" in value:
         return None
     found: list[str] = []

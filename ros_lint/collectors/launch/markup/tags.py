@@ -1,4 +1,4 @@
-"""The tags and substitutions of launch files in XML and YAML, with the distributions that introduced them."""
+"""The tags and substitutions of XML and YAML launch files, with the distributions that added them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ EXTENSIONS: Mapping[str, str] = {
     "gz_robot_plugin": "ros_gz_sim",
     "trace": "tracetools_launch",
 }
-"""Tags that other packages add, and their packages (entry point group ``launch.frontend.launch_extension``)."""
+"""Tags of other packages (entry point group ``launch.frontend.launch_extension``)."""
 
 ROS_1: Mapping[str, str] = {
     "$(find)": "$(find-pkg-share)",

@@ -1,1 +1,1 @@
-"""Launch files in Python: what the classes and functions of the launch libraries mean."""
+"""Launch files in Python: the classes and functions of the launch libraries."""

@@ -1,4 +1,4 @@
-"""What objects of the launch libraries do when they are launched, class by class (reference, section G2)."""
+"""Actions of the objects of the launch libraries, as ``launch`` and ``launch_ros`` execute them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MOST_TEXTS = 2_000
 
 
 def walker(machine: Interpreter, source: Source) -> Walker:
-    """Return what turns the objects of a launch file into actions."""
+    """Return the walker that turns the objects of a launch file into actions."""
     return Walker(machine, source, _RULES, _other)
 
 
@@ -51,7 +51,7 @@ def _include(walker: Walker, made: LaunchObject, conditions: Conditions) -> list
 
 
 def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
-    """Return an include with what is passed to it: nothing that another branch passes to another file."""
+    """Return an include with its arguments. Those of a branch that excludes the include are omitted."""
     together = [one for one in passed if launch_text.are_consistent((*include.conditions, *one.conditions))]
     return include._replace(
         arguments=tuple([(one.name, one.value) for one in together]),
@@ -61,16 +61,16 @@ def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
 
 
 class _Passed(NamedTuple):
-    """What is passed to an included file."""
+    """An argument of an included file."""
 
     name: str
     span: Span
-    """Where the name stands."""
+    """The place of the name."""
     value: LaunchValue
     conditions: Conditions
-    """Under which it is passed, as far as that is one way."""
+    """The conditions under which it is passed; () if there are several alternatives."""
     perhaps: bool
-    """Whether nobody knows if it is passed."""
+    """True if it is unknown whether the argument is passed."""
 
 
 def _pairs(walker: Walker, value: Value, made: LaunchObject) -> Iterator[_Passed]:
@@ -94,14 +94,14 @@ def _pairs(walker: Walker, value: Value, made: LaunchObject) -> Iterator[_Passed
 
 
 def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
-    """Return what nobody knows to be passed; what either side of a branch passes is."""
+    """Return the arguments that may not be passed. Those that both sides of a branch pass are certain."""
     sides = Counter([one.name for one in passed])
     return tuple([one.name for one in passed if one.perhaps and sides[one.name] == 1])
 
 
 def _declare(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     given = made.get(-1, "choices")
-    # In a text, launch looks for the value as a part of it.
+    # For a text, launch tests whether the value is a substring of it.
     choices = items(walker.machine, given) if given is not None and not isinstance(plain(given), str) else None
     default = walker.value(made, 1, "default_value")
     return [
@@ -168,11 +168,11 @@ def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[L
         return started_node(walker, made, conditions)
     if made.name in SUBSTITUTIONS:
         return []
-    if made.name.endswith("LaunchDescription"):  # by its name a function that makes one
+    if made.name.endswith("LaunchDescription"):  # judging by the name, a function that returns one
         walker.blind.append((f"{made.name}() cannot be followed", place_of(made)))
     if _DECLARES.match(made.name):
         (action,) = _declare(walker, made, conditions)
-        unknown = LaunchValue((UNKNOWN,), place_of(made))  # it has a default of its own, for all that can be seen
+        unknown = LaunchValue((UNKNOWN,), place_of(made))  # it may have a default in its own class, which is not read
         return [action._replace(value=action.value or unknown)] if action.target else []
     given: list[tuple[str, LaunchValue]] = []
     for position, value in enumerate(made.arguments):
@@ -213,7 +213,7 @@ def _silent(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[
 
 
 _DECLARES = re.compile(r"Declare\w*Arg(?:ument)?\Z")
-"""What packages call actions of their own that declare a launch argument: ``DeclareBooleanLaunchArg`` (moveit_configs_utils)."""
+"""Classes of other packages that declare an argument: ``DeclareBooleanLaunchArg`` (moveit_configs_utils)"""
 
 _RULES: Mapping[str, Rule] = {
     **launch_py_nodes.RULES,
@@ -239,4 +239,4 @@ _RULES: Mapping[str, Rule] = {
 }
 
 LAUNCHED = frozenset(_RULES) - {"LaunchDescription"}
-"""Classes whose objects do something when they are launched."""
+"""Classes whose objects have an effect when they are launched."""

@@ -1,7 +1,9 @@
-"""What the classes of the launch libraries are given in a launch file, and do not take: Python or launch stops there.
+"""Arguments that the classes of the launch libraries reject when the file is launched.
 
-Keywords that they do not know, arguments that want their keyword, a file in another format than the one that is read, and
-paths that are joined to what they replace.
+- Unknown keywords.
+- Positional arguments where a keyword is required.
+- A file in another format than the one that the class reads.
+- Absolute paths as later parts of a joined path, which replace the parts before them.
 """
 
 from __future__ import annotations
@@ -63,18 +65,21 @@ _TAKES: Mapping[str, tuple[int, frozenset[str]]] = {
         "UnsetLaunchConfiguration": "1 name condition",
     }.items()
 }
-"""How many arguments go without their keyword, and all keywords, in any distribution (launch 3.7.1, launch_ros 0.28)."""
+"""The number of positional arguments and all keywords, in any distribution.
+
+From launch 3.7.1 and launch_ros 0.28.
+"""
 
 _READS: Mapping[str, tuple[str, ...]] = {
     "PythonLaunchDescriptionSource": (".xml", ".yaml", ".yml"),
     "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),
     "YAMLLaunchDescriptionSource": (".py", ".xml"),
 }
-"""How files end that a source of launch descriptions cannot read."""
+"""The file suffixes that a launch description source cannot read."""
 
 
 def not_taken(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield the arguments that classes of the launch libraries are given and refuse."""
+    """Yield arguments that the classes of the launch libraries reject."""
     found = [(node, problem) for one in made if one.source is source for node, problem in _refused(one)]
     caught = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in tried(node)} if found else set()
     for node, problem in found:
@@ -113,7 +118,7 @@ def _keyword(keyword: ast.keyword, name: str, known: frozenset[str], made: Launc
 def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
     """Yield the absolute paths that are joined to a path: the path before them is dropped."""
     if not _SLASH.search(source.text.text):
-        return  # to walk the whole tree takes longer
+        return  # because walking the whole tree takes longer
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
@@ -127,11 +132,11 @@ def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
 
 
 _SLASH = re.compile(r",\s*['\"]/")
-"""A text that begins with a slash and is not the first of several things."""
+"""A text that begins with a slash and follows a comma."""
 
 
 def _joined(node: ast.Call) -> list[ast.expr]:
-    """Return what a call joins to a path."""
+    """Return the parts that a call joins to a path."""
     if callee(node) == "PathJoinSubstitution" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
         return node.args[0].elts
     return node.args if dotted(node.func) in ("os.path.join", "path.join") else []

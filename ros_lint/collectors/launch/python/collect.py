@@ -1,7 +1,6 @@
-"""Launch files in Python. They are followed, never run.
+"""Facts of launch files in Python, which are interpreted symbolically and never run.
 
-What a launch file makes counts only if it is part of what is launched: an action that is made and neither returned nor
-added starts nothing.
+An object counts only if it is launched: an action that is created but neither returned nor added starts nothing.
 """
 
 from __future__ import annotations
@@ -38,9 +37,10 @@ if TYPE_CHECKING:
 def collect(
     source: Text, modules: Modules = lambda name, importer: None, files: Callable[[str], str | None] = lambda path: None
 ) -> LaunchFile:
-    """Return what a launch file in Python says. Never raises.
+    """Return the facts of a launch file in Python. Never raises.
 
-    ``modules`` finds the modules of the workspace that it imports, ``files`` the text of a file by its installed path.
+    ``modules`` finds the modules of the workspace that it imports, ``files`` the text of a file by its installed
+    path.
     """
     defined = entries(source.text)
     if len(source.text) > _LONGEST:
@@ -73,7 +73,7 @@ def collect(
         tuple(reading.actions),
         tuple(_imports(source, tree)),
         reading.asks(),
-        tuple(sorted(map(str, reading.wants))),  # the cache takes none but plain texts
+        tuple(sorted(map(str, reading.wants))),  # the cache accepts only plain str
         syntax=newer,
     )
 
@@ -87,7 +87,10 @@ def _misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
 
 
 def _asks_for_arguments(node: ast.stmt) -> bool:
-    """Whether this makes a launch description only for who gives it something: launch calls the function with nothing."""
+    """Return whether generate_launch_description() has required parameters.
+
+    Such a file is a helper, because launch calls the function without arguments.
+    """
     if not isinstance(node, ast.FunctionDef) or node.name != "generate_launch_description" or node.decorator_list:
         return False
     given = node.args
@@ -95,7 +98,7 @@ def _asks_for_arguments(node: ast.stmt) -> bool:
 
 
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
-    """Yield the modules that are imported first of all, under no condition."""
+    """Yield the modules that are imported at the top level, without a condition."""
     if "sys.path" in text.text:
         return
     for statement in tree.body:
@@ -106,7 +109,7 @@ def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
 
 
 class _Reading:
-    """One launch file on its way from syntax to actions."""
+    """The interpretation of one launch file, from its syntax tree to its actions."""
 
     def __init__(self, text: Text, machine: Machine) -> None:
         self._machine = machine
@@ -158,12 +161,12 @@ class _Reading:
             return None
 
     def asks(self) -> tuple[str, ...]:
-        """Return the launch configurations that are asked for, UNKNOWN among them when others may be."""
+        """Return the launch configurations that are read, with UNKNOWN among them if others may be."""
         within = Within()
         found = {
             str(name)
             for made in self._machine.made
-            if made.name.startswith("LaunchConfig")  # LaunchConfigAsBool of nav2_common among them
+            if made.name.startswith("LaunchConfig")  # also LaunchConfigAsBool of nav2_common
             for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
         }
         if self._machine.borrows or ".launch_configurations" in self._source.text.text:
@@ -171,7 +174,11 @@ class _Reading:
         return tuple(sorted(found))
 
     def _spare(self, references: References) -> None:
-        """What is looked up at once stops the file if it is missing, unless that is caught or asked for before."""
+        """Mark packages as optional whose look-ups all tolerate that the package is missing.
+
+        A look-up while the file is read stops the file if the package is missing, unless the exception is caught or a
+        condition tests for the package.
+        """
         asked = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
         for package, _, _, conditions in self._machine.looked_up:
             if not is_guarded_by_presence(conditions):
@@ -179,24 +186,24 @@ class _Reading:
         references.spare(asked)
 
     def places(self) -> dict[str, Span]:
-        """Return where packages are looked up that paths lie in, or that have a command that is run."""
+        """Return the look-ups of packages that have a path in the file or a command that it runs."""
         return {package: self._walker.look_up_span(package) for package in self._machine.named}
 
     def stopped(self, reason: str) -> None:
-        """Note that the file could not be followed to its end: anything that it makes may be launched."""
+        """Note that the interpretation stopped early: every object that was created may be launched."""
         self._blind.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
         self._machine.grant()
         with suppress(BudgetExceeded, RecursionError, MemoryError):
             self._leftovers(everything=True)
 
     def _leftovers(self, everything: bool) -> None:
-        """Take what went where it cannot be followed for launched, perhaps."""
+        """Add objects as perhaps launched that escaped to code which cannot be followed."""
         for made in self._machine.made:
             if not made.seen and (made.escaped or everything) and made.name in LAUNCHED:
                 self.actions += self._walker.actions(made, (PERHAPS,))
 
     def add_to(self, references: References) -> None:
-        """Add what is opened or looked up at once, and what is hidden."""
+        """Add the files and packages that are read immediately, and the opaque places."""
         for path, node, source, conditions in self._machine.opened:
             if source is self._source:
                 references.opens(self._walker.text(path, node, source), conditions)

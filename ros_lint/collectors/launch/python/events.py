@@ -1,4 +1,4 @@
-"""What Python launch files do when something happens, and what their functions make them do (reference, section G2)."""
+"""Actions that Python launch files run at events, and actions that their functions return."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _timer(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[L
 
 
 def _event(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """What a handler does when its event comes: actions, or what its function returns."""
+    """Return the actions of an event handler: its list of actions, or the result of its function."""
     found: list[LaunchAction] = []
     for one in alternatives(made.get(0, "event_handler")):
         handler = one.value
@@ -55,7 +55,7 @@ def _handled(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
 
 
 def later(walker: Walker, made: LaunchObject, *names: str) -> list[LaunchAction]:
-    """Return what is done when something comes that arguments of these names wait for."""
+    """Return the actions that run when the event of one of the named arguments occurs."""
     found: list[LaunchAction] = []
     for name in names:
         for one in alternatives(made.get(-1, name)) if name in made.keywords else ():
@@ -82,13 +82,16 @@ def _opaque_function(walker: Walker, made: LaunchObject, conditions: Conditions)
     finally:
         walker.machine.conditions, its_own = before, walker.machine.variables
         walker.machine.variables = variables
-    # What it sets may hang on arguments that are declared by then, and on none that come later.
+    # Its assignments may depend on arguments that are declared before it, not on later ones.
     found = walker.actions(its_own, conditions, place_of(made))
     return [*found, *walker.actions(result, conditions, place_of(made))] if result is not None else found
 
 
 def _for_each(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return what a function makes that launch calls with keywords, once for each set of values; any keyword may be given."""
+    """Return the actions of a function that launch calls once for each set of keyword values.
+
+    Any keyword may be passed, and the number of calls may be 0.
+    """
     function = plain(made.get(1, "function"))
     spec = function.node.args if isinstance(function, Function) else None
     names = [argument.arg for argument in (*spec.args, *spec.kwonlyargs)] if spec else []

@@ -1,4 +1,4 @@
-"""Which module of the launch libraries has which name: what a launch file in Python takes from the wrong one stops it."""
+"""Names that a Python launch file takes from the wrong module of the launch libraries, an error."""
 
 from __future__ import annotations
 
@@ -41,25 +41,28 @@ _MODULES: Mapping[str, frozenset[str]] = {
         "launch_ros.substitutions": "ExecutableInPackage FindPackage FindPackagePrefix FindPackageShare",
     }.items()
 }
-"""What the modules offer in any distribution, as far as launch files ask for it (launch 3.7.1, launch_ros 0.28 and later)."""
+"""The public names of each module in any distribution, as far as launch files use them.
+
+From launch 3.7.1, launch_ros 0.28 and later.
+"""
 ACTIONS = _MODULES["launch.actions"] | _MODULES["launch_ros.actions"]
 _HOMES: Mapping[str, tuple[str, ...]] = {
     name: tuple(module for module, names in _MODULES.items() if name in names) for names in _MODULES.values() for name in names
 }
 
 
-# A word that begins with letters is looked for fast, and what stands before them only where they are.
+# A pattern that begins with letters is searched fast; the lookbehind is tested only at the matches.
 _ASKED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
 
 
 def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield the names that are taken from a module of the launch libraries which has none, while another one has it."""
+    """Yield the names that are taken from a launch module without them, while another one has them."""
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
             for alias in node.names:
                 yield from _stray(node.module, alias.name, alias, source)
     if not any(_is_stray(f"launch{module}", name) for module, name in _ASKED.findall(source.text.text)):
-        return  # to walk the whole tree takes longer than all the rest
+        return  # because walking the whole tree takes longer than everything else
     imported = _imported(tree)
     for one in ast.walk(tree):
         if isinstance(one, ast.Attribute) and one.attr in _HOMES and isinstance(one.value, ast.Attribute):
@@ -80,7 +83,7 @@ def _is_stray(module: str, name: str) -> bool:
 
 
 def _imported(tree: ast.Module) -> frozenset[str]:
-    """Return which of the launch libraries are imported as what they are called, and nothing else of these names."""
+    """Return the launch libraries that are imported without an alias and whose names are not rebound."""
     found: set[str] = set()
     other: set[str] = set()
     for node in ast.walk(tree):
@@ -94,7 +97,7 @@ def _imported(tree: ast.Module) -> frozenset[str]:
 
 
 def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
-    """Whether what is called is a name of a launch library: taken from one, or written out with its module."""
+    """Return whether the called name is imported from a launch library, or qualified with one."""
     root = function
     while isinstance(root, ast.Attribute):
         root = root.value

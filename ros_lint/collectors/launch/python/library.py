@@ -1,4 +1,4 @@
-"""What the classes and functions of the launch libraries make, and paths, as far as launch files need it."""
+"""Results of the functions and classes of the launch libraries, and of functions on paths."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def call_library(
     node: ast.Call,
     frame: Frame,
 ) -> Value:
-    """Return what a function of a library returns, or a method of what one made."""
+    """Return the result of a library function, or of a method of a library object."""
     if isinstance(what, Method):
         return _method(Call(machine, what.name, arguments, keywords, node, frame), what.owner)
     call = Call(machine, what, arguments, keywords, node, frame)
@@ -58,7 +58,7 @@ def call_library(
         return _make(call, last)
     machine.escape([arguments, keywords])
     if "package" in keywords and "executable" in keywords:
-        _make(call, "Node").escaped = True  # by its name a function that makes one
+        _make(call, "Node").escaped = True  # judging by the name, a function that creates one
     return Unknown("" if what.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 
@@ -82,7 +82,7 @@ def _make(call: Call, name: str) -> LaunchObject:
 
 
 def _note_command(call: Call, made: LaunchObject) -> None:
-    """Note where a command that belongs to a package is run first."""
+    """Note the first place that runs a command of a package."""
     given, at = made.get(0, "command"), made.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(given)):
         first = at.elts[0] if isinstance(at, (ast.List, ast.Tuple)) and at.elts else at
@@ -90,7 +90,10 @@ def _note_command(call: Call, made: LaunchObject) -> None:
 
 
 def _note_builder(call: Call, made: LaunchObject) -> None:
-    """MoveIt's builders look a package up at once (reference, section G2.7): one of them by the name of a robot, unless told."""
+    """Note the package that a builder of moveit_configs_utils looks up immediately.
+
+    Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
+    """
     position = 2 if made.name == "MoveItConfigsBuilder" else 0
     given = made.get(position, "package_name")
     if given is not None:
@@ -103,7 +106,7 @@ def _note_builder(call: Call, made: LaunchObject) -> None:
 
 
 def built_for(builder: LaunchObject) -> str:
-    """Return the package of a builder of MoveIt, "" if it is unknown. The default is derived from the name of the robot."""
+    """Return the package of a builder of MoveIt, "" if unknown. The default contains the robot's name."""
     of_robots = builder.name == "MoveItConfigsBuilder"
     package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
     if package is None and of_robots and isinstance(robot, str):
@@ -112,7 +115,7 @@ def built_for(builder: LaunchObject) -> str:
 
 
 def attribute_of_library(owner: LaunchObject, name: str) -> Value:
-    """Return an attribute of an object of a library."""
+    """Return an attribute of a library object."""
     match owner.name, name:
         case "LaunchDescription", "entities":
             return owner.entities
@@ -135,11 +138,14 @@ _READ_BY_BUILDERS: Mapping[str, int] = {
     "xacro_parameter": 1,
     "yaml": 0,
 }
-"""Which argument names the file that a method of MoveIt's builders reads; sensors_3d asks first if it is there."""
+"""The position of the argument with the file that a method of MoveIt's builders reads.
+
+``sensors_3d`` is omitted, because it checks first if the file exists.
+"""
 
 
 def _note_built(call: Call, owner: LaunchObject) -> None:
-    """Note the file that MoveIt's builders read at once: its path is from the share folder of their package on."""
+    """Note the file that MoveIt's builders read immediately, relative to the share folder of the package."""
     position = _READ_BY_BUILDERS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
         return
@@ -234,7 +240,7 @@ def _variable(call: Call) -> Value:
     names = call.texts(0, "key")
     if call.machine.sets(names):
         return union(call.machine.variable(name) for name in names)
-    # ROS sets its distribution wherever something is launched; any other variable may be missing.
+    # ROS_DISTRO is set wherever something is launched; any other variable may be missing.
     if default is None and call.name != "os.environ" and names != ("ROS_DISTRO",):
         return Unknown("an environment variable")
     defaults = call.texts(1, "default") if default is not None else (None,)
@@ -269,12 +275,12 @@ def _configured(call: Call) -> Value:
 
 
 def _expanded(call: Call) -> Value:
-    """``xacro.process_file`` and its like read a file."""
+    """Return the text that ``xacro.process_file`` and similar functions read from a file."""
     return _make(call, "Command") if call.arguments else unknown(call)
 
 
 def _makes(position: int) -> Rule:
-    """What writes a file, which need not be there before."""
+    """Return the model of a function that writes a file, which need not exist before."""
 
     def rule(call: Call) -> Value:
         call.machine.ask(call.texts(position))
@@ -287,7 +293,7 @@ _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 
 
 def _runs(call: Call) -> Value:
-    """A command makes what it is told to write to, by ``>`` of the shell or by ``-o``: this need not be there before."""
+    """Note the output file of a command (``>`` of the shell, or ``-o``): it need not exist before."""
     words = call.items(0)
     if words is None:
         call.machine.ask(tuple([path for command in call.texts(0) for path in _OUTPUT.findall(command)]))
@@ -300,7 +306,7 @@ def _runs(call: Call) -> Value:
 
 
 def subscript_library(machine: Interpreter, owner: Value, key: Value) -> Value:
-    """Return an element of something that a library has."""
+    """Return an item of a library object."""
     if isinstance(owner, LibraryName):
         if owner.name == "os.environ":
             return union(machine.variable(name) for name in text_of(key))

@@ -1,4 +1,4 @@
-"""The meaning of the launch libraries, and of the libraries that launch files use, for the interpreter of Python."""
+"""Models of the launch libraries and of related libraries for the Python interpreter."""
 
 from __future__ import annotations
 
@@ -24,11 +24,14 @@ _DESCRIBED = LAUNCH_RUNTIME | {
     "xacro",
     "yaml",
 }
-"""Their sources are not followed in a workspace that builds ROS itself, because they are written for a launch that runs."""
+"""Libraries with models.
+
+Their sources are not interpreted in a workspace that builds ROS itself, because they need a running launch system.
+"""
 
 
 class LaunchLibraries:
-    """A :class:`ros_lint.collectors.python.interpreter.protocol.Library`."""
+    """An implementation of :class:`ros_lint.collectors.python.interpreter.protocol.Library`."""
 
     def describes(self, module: str) -> bool:
         return module in _DESCRIBED

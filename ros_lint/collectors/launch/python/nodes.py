@@ -1,4 +1,4 @@
-"""What Python launch files start: nodes, components and processes, and what these are given (reference, section G2)."""
+"""The nodes, components and processes that Python launch files start, with their arguments."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _REMOVED = {
     "node_namespace": "namespace",
     "node_plugin": "plugin",
 }
-"""Keywords that have another name now (reference, section G2.3)."""
+"""Keywords of launch_ros that were renamed in Galactic, with their new names."""
 _OF_NODES = frozenset({"name", "namespace", "package", "parameters", "remappings"})
 _OF_COMPONENTS = _OF_NODES | {"condition", "extra_arguments", "plugin"}
 _OF_PROCESSES = _OF_NODES | {
@@ -42,9 +42,9 @@ _OF_PROCESSES = _OF_NODES | {
     "emulate_tty", "env", "exec_name", "executable", "log_cmd", "on_exit", "output", "output_format", "prefix", "respawn",
     "respawn_delay", "respawn_max_retries", "ros_arguments", "shell", "sigkill_timeout", "sigterm_timeout",
 }  # fmt: skip
-"""The keywords of nodes and components in any distribution (reference, section G2.3; launch_ros and launch)."""
+"""The keywords of nodes and components in any distribution (launch_ros and launch)."""
 _DISTRIBUTION = "$ROS_DISTRO"
-"""What a text calls the environment variable that says which distribution runs."""
+"""The name of the environment variable with the running distribution, as it occurs in symbolic texts."""
 _MOST_PARAMETERS = 2_000
 _STEPS_A_PARAMETER = 10
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
@@ -52,7 +52,7 @@ _CLASSES = _NODES | {"ComposableNode"}
 
 
 def _note_refused(walker: Walker, made: LaunchObject, conditions: Conditions, known: Collection[str]) -> None:
-    """Note keywords that are gone or that never were, unless the file itself asks for the distribution before it comes here."""
+    """Note removed and unknown keywords, unless a condition on ROS_DISTRO guards the call."""
     if any(_DISTRIBUTION in (named_in(text) or ()) for condition in conditions for text in condition.texts):
         return
     written = callee(made.node)
@@ -66,7 +66,7 @@ def _note_refused(walker: Walker, made: LaunchObject, conditions: Conditions, kn
             message = f"{made.name}({name}=) was removed in Galactic; use {_REMOVED[name]}="
             word = place._replace(end_line=place.line, end_column=place.column + len(name))
             walker.problems.append(Problem("removed-keyword", message, word, subject=_REMOVED[name]))
-        elif itself:  # and not of a package, or of the file's own, that has keywords of its own
+        elif itself:  # other classes, of a package or of the file, may have keywords of their own
             near = _near(name, known)
             kind = "misspelt-keyword" if near else "unexpected-keyword"
             meant = ask_if_meant([f"{near}="]) if near else ""
@@ -78,7 +78,7 @@ def _near(name: str, known: Collection[str]) -> str:
 
 
 def started_node(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return a node with all that it is given, and what is done when it ends."""
+    """Return a node with its arguments, and the actions that run when it ends."""
     _note_refused(walker, made, conditions, _OF_PROCESSES)
     children: list[LaunchAction] = []
     if made.name == "ComposableNodeContainer":
@@ -100,7 +100,7 @@ def _component(walker: Walker, made: LaunchObject, conditions: Conditions) -> li
 def _started(
     kind: Literal["node", "component"], target: str, walker: Walker, made: LaunchObject, conditions: Conditions
 ) -> LaunchAction:
-    """Return what nodes and components have in common, by the names of today and those of old."""
+    """Return the fields that nodes and components share, by their current and their former keywords."""
     return LaunchAction(
         kind,
         place_of(made),
@@ -116,7 +116,7 @@ def _started(
 
 
 def _is_handed(value: Value) -> bool:
-    """Whether a helper of a released package is given a text by who calls it."""
+    """Return whether the caller of a built-in helper passes the text, so that its place is in the caller."""
     return all(isinstance(one.value, Written) and not one.value.source.lent for one in alternatives(value))
 
 
@@ -149,7 +149,7 @@ def _process(walker: Walker, made: LaunchObject, conditions: Conditions) -> list
 
 
 def _given(walker: Walker, made: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
-    """Return texts of arguments that are lists or dictionaries of texts, and of the two that are one text."""
+    """Return the texts of some arguments, each a list or dictionary, and of ``prefix`` and ``cwd``."""
     found: list[tuple[str, LaunchValue]] = []
     for name in names:
         if name not in made.keywords:
@@ -200,7 +200,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: LaunchObject)
         elif name:
             found.append((name, walker.text(_list(one), place, made.source)))
         else:
-            # What is not known is mostly a dictionary of parameters, and no file.
+            # An unknown value is mostly a dictionary of parameters, and not a file.
             known = isinstance(one, (list, tuple)) or _names_file(one)
             name = "" if known else UNKNOWN
             found += [(name, value) for value in walker.each_text(one, place, made.source)]
@@ -208,7 +208,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, made: LaunchObject)
 
 
 def _elements(node: ast.expr, count: int) -> list[ast.expr]:
-    """Return where each element of a list, or value of a dictionary, is written: where that is, if it is not written out."""
+    """Return the expression of each item of a list or dictionary, ``node`` for each if not literal."""
     written: list[ast.expr] = []
     if isinstance(node, (ast.List, ast.Tuple)):
         written = [element if not isinstance(element, ast.Starred) else node for element in node.elts]
@@ -223,7 +223,7 @@ def _names_file(value: Value) -> bool:
 
 
 def _list(value: Value) -> Value:
-    """Return a list of texts as YAML has it, and anything else as it is."""
+    """Return a list of texts in YAML notation, and any other value unchanged."""
     if not isinstance(value, (list, tuple)) or not all(isinstance(one, (str, int, float)) for one in value):
         return value
     return f"[{', '.join(map(str, value))}]"
@@ -249,7 +249,7 @@ def _remappings(walker: Walker, made: LaunchObject) -> tuple[tuple[LaunchValue, 
 
 
 def nested(walker: Walker, made: LaunchObject) -> list[LaunchAction]:
-    """Return the actions among the arguments of something that is not known."""
+    """Return the actions among the arguments of an unknown class or function."""
     found: list[LaunchAction] = []
     for value in (*made.arguments, *made.keywords.values()):
         for one in alternatives(value):

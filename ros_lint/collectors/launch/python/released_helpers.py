@@ -1,8 +1,7 @@
-"""Helper functions of released packages that launch files call, by module: what they make, in Python again.
+"""Models, in Python, of the helper functions of released packages that launch files call, by module.
 
-These are no copies. Each says no more than which actions come of which arguments, and what is told apart by versions or read
-from files is an ``input()``, a text of which nothing is known. They are followed like helpers of the workspace, which come
-first where a workspace has such a package itself.
+They are not copies: each contains only the relation between arguments and actions. Models are used if the workspace
+does not contain the package itself.
 """
 
 from __future__ import annotations
@@ -53,7 +52,7 @@ def generate_spawner_launch_description(controller_info_dict, extra_spawner_args
 def _spawner(words):
     return Node(package="controller_manager", executable="spawner", arguments=words)
 """,
-    # launch_pal: launch_pal/pal_parameters.py; the parameters of a node are chosen by files of other packages
+    # launch_pal: launch_pal/pal_parameters.py; files of other packages decide on the parameters of a node
     "launch_pal": """
 import json
 
@@ -108,7 +107,7 @@ def include_scoped_launch_py_description(
     actions = first + env_vars + declared + [included]
     return GroupAction(actions, forwarding=False, condition=condition, launch_configurations=passed)
 """,
-    # launch_pal: launch_pal/param_utils.py; each of the two writes a file and returns its path
+    # launch_pal: launch_pal/param_utils.py; both functions write a file and return its path
     "launch_pal.param_utils": """
 def merge_param_files(yaml_files):
     return input()
@@ -249,7 +248,7 @@ def get_webots_driver_node(event, driver_node):
 
 
 def helper(name: str, at: ast.stmt) -> ast.Module:
-    """Return a module of :data:`HELPERS`, all of which stands where it is imported."""
+    """Return a module of :data:`HELPERS`, with all of its nodes placed at its import."""
     return placed(_parsed(name), at)
 
 

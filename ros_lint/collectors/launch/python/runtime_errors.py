@@ -1,7 +1,9 @@
-"""What Python and the launch libraries refuse in a launch file.
+"""Errors that Python and the launch libraries raise when a launch file runs.
 
-At once, or when it comes to a name that nothing binds, to a substitution as a text, to a number where texts are taken, or to a
-function where conditions are.
+- A name that is not defined.
+- A substitution used as a text.
+- A number where launch takes texts.
+- A function where launch takes a condition.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
 
 
 def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
-    """Yield those names that were met, bound by nothing, of which it is sure that Python stops there."""
+    """Yield those of the unbound names that certainly raise NameError."""
     for node in unbound(tree, [node for node, where in met if where is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 
@@ -44,11 +46,11 @@ _SAY: Mapping[How, tuple[str, str]] = {
 _JOINED = "Python uses only one of the two substitutions here; write {joined}Substitution(a, b)"
 _DECIDED = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
 _TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
-"""Calls whose texts nobody but people read."""
+"""Calls whose texts only humans read."""
 
 
 def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Iterator[Problem]:
-    """Yield what is wrong in a module of all that was noted, once for each line."""
+    """Yield the problems of misused substitutions in a module, at most one for each line."""
     noted = [one for one in noted if one.source is source]
     if not noted:
         return
@@ -56,14 +58,14 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
     combined = [node for node in ast.walk(tree) if isinstance(node, ast.BoolOp)]
     decided = {inner for node in ast.walk(tree) if isinstance(node, (ast.If, ast.IfExp)) for inner in ast.walk(node.test)}
     joined = {value: "Or" if isinstance(node.op, ast.Or) else "And" for node in combined for value in node.values}
-    told: set[int] = set()
+    reported: set[int] = set()
     for one in noted:
-        if one.node in spared or one.node.lineno in told:
+        if one.node in spared or one.node.lineno in reported:
             continue
-        # Whoever is given something asks whether that is there at all.
+        # A function that receives a substitution may test whether it is None.
         if one.how in ("tested", "combined") and not _same_function(one, functions):
             continue
-        told.add(one.node.lineno)
+        reported.add(one.node.lineno)
         kind, message = _SAY["compared" if one.how == "formatted" and one.node in compared else one.how]
         if one.how == "combined" and one.node in decided:
             message = _DECIDED
@@ -74,7 +76,7 @@ def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Itera
 
 
 def _way(one: Misused, combined: Iterable[ast.BoolOp]) -> str:
-    """Return how to ask for two conditions at once: for both or either as written, or for the opposite of what both deny."""
+    """Return the replacement for ``and`` or ``or`` of two conditions, according to the kinds of both."""
     both = next((node for node in combined if one.node in node.values), None)
     kinds = [callee(value) if isinstance(value, ast.Call) else "" for value in both.values[:2]] if both else []
     either = both is not None and isinstance(both.op, ast.Or)
@@ -85,7 +87,7 @@ def _way(one: Misused, combined: Iterable[ast.BoolOp]) -> str:
 
 
 def _spared(tree: ast.Module) -> set[ast.AST]:
-    """Return what stands where an error is caught, or where it only changes what people read."""
+    """Return the nodes where an error is caught, or where it only changes a message for humans."""
     found: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
@@ -96,7 +98,7 @@ def _spared(tree: ast.Module) -> set[ast.AST]:
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all that goes into comparisons: what is made a text there is not to be launched."""
+    """Return all nodes in comparisons: a text that is compared is not launched."""
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 
@@ -106,7 +108,7 @@ def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]
 
 
 def _same_function(one: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
-    """Whether a substitution is made in the function that tests it, and in its body."""
+    """Return whether a substitution is created in the body of the function that tests it."""
     if one.made.source is not one.source:
         return False
     return all(_holds(function, one.node) == _holds(function, one.made.node) for function in functions)
@@ -129,17 +131,17 @@ _WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
     "PythonExpression": ((0, "expression"),),
     "PushRosNamespace": ((0, "namespace"),),
 }
-"""Where the launch libraries take texts and substitutions, and stop at anything else (``normalize_to_list_of_substitutions``)."""
+"""The arguments that must be texts or substitutions (``normalize_to_list_of_substitutions``)."""
 
 
 def not_text(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield where a number, a truth or an action is given for a text, and arguments that are a dictionary, not pairs."""
+    """Yield numbers, booleans and actions given as a text, and launch_arguments given as a dictionary."""
     found: list[tuple[str, ast.expr]] = []
     for one in made:
         for position, name in _WHERE.get(one.name, ()) if one.source is source and not are_unknown(one.conditions) else ():
             value = one.get(position, name)
             if name == "launch_arguments" and not one.seen:
-                continue  # what is passed is looked at when it is launched
+                continue  # the arguments are evaluated only if the include is launched
             if name == "launch_arguments" and isinstance(value, dict):
                 found.append(("launch_arguments must be pairs; write .items()", one.written(position, name)))
             elif (odd := _odd_in(value)) is not None:
@@ -152,7 +154,7 @@ def not_text(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> 
 
 
 def not_condition(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield what actions are given for a condition and cannot be asked: launch calls evaluate() of it when it comes there."""
+    """Yield values given as a condition that have no evaluate(), which launch calls."""
     found: list[tuple[str, ast.expr]] = []
     for one in made:
         if one.name not in ACTIONS or one.source is not source or not one.seen or are_unknown(one.conditions):
@@ -171,7 +173,7 @@ def not_condition(tree: ast.Module, source: Source, made: Iterable[LaunchObject]
 
 
 def _odd_in(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return a number or an action that is a value, or stands in the lists in it."""
+    """Return the first number or action that is the value or is in its lists."""
     waiting = [value]
     for _ in range(_MOST_ITEMS):
         if not waiting:
@@ -185,7 +187,7 @@ def _odd_in(value: Value) -> bool | int | float | LaunchObject | None:
 
 
 def _instead(odd: bool | int | float | LaunchObject, taken: LaunchObject) -> str:
-    """Return how a message goes on that says what something is given to that takes texts."""
+    """Return the end of the message about a value that is not a text."""
     if not isinstance(odd, LaunchObject):
         return f"; write '{odd}' instead of {odd}"
     name = odd.get(0, "name") if odd.name == "DeclareLaunchArgument" else None

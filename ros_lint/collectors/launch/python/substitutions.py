@@ -1,4 +1,4 @@
-"""What substitutions of Python launch files become (reference, section G2)."""
+"""The symbolic texts of substitutions in Python launch files."""
 
 from __future__ import annotations
 
@@ -29,12 +29,15 @@ _MOST_STEPS = 2_000
 
 
 class Within:
-    """What finding the texts of a value has come to: objects can hold each other, or be in one many times over."""
+    """The state of one computation of texts.
+
+    Its depth and steps are limited, because objects can contain each other or occur in one many times.
+    """
 
     __slots__ = ("depth", "known", "left", "spend")
 
     def __init__(self, spend: Callable[[int], None] = lambda steps: None) -> None:
-        """``spend`` hears of each step, and may raise."""
+        """Start a computation. ``spend`` is called with the number of steps, and may raise."""
         self.depth = 0
         self.left = _MOST_STEPS
         self.known: dict[int, tuple[Value, tuple[str, ...]]] = {}
@@ -44,7 +47,7 @@ class Within:
 def texts(value: Value, within: Within | None = None) -> tuple[str, ...]:
     """Return every text that a value can become when launch performs it; a list is concatenated."""
     if isinstance(value, str):
-        return (str(value),)  # facts keep nothing of the program
+        return (str(value),)  # a plain str, so that facts contain no objects of the interpreter
     if within is None:
         within = Within()
     done = within.known.get(id(value))
@@ -155,7 +158,7 @@ def _join(made: LaunchObject, within: Within) -> tuple[str, ...]:
 
 
 def _logic(name: str) -> Callable[[LaunchObject, Within], tuple[str, ...]]:
-    """Substitutions that compare are written as expressions, which :mod:`launch_expression` evaluates."""
+    """Return the reader of a substitution that compares, as an expression for ``launch/expressions.py``."""
 
     def rule(made: LaunchObject, within: Within) -> tuple[str, ...]:
         parts: list[Any] = [*made.arguments, *made.keywords.values()]
@@ -199,7 +202,7 @@ _RULES: Mapping[str, Callable[[LaunchObject, Within], tuple[str, ...]]] = {
 }
 
 SUBSTITUTIONS = frozenset(_RULES) | {"AnonName", "Parameter", "FileContent", "LocalSubstitution", "LaunchLogDir"}
-"""Classes whose objects stand for a text."""
+"""Classes whose objects represent a text."""
 
 
 def is_text(value: Value) -> bool:
@@ -215,7 +218,10 @@ CONDITIONS = _ASKING | _COMPARING
 
 
 def conditions_of(value: Value, within: Within | None = None) -> Conditions:
-    """Return what a condition of launch asks for: IfCondition, UnlessCondition and the two that compare a configuration."""
+    """Return the conditions of an IfCondition, UnlessCondition or comparison of a configuration.
+
+    Any other value gives an unknown condition.
+    """
     found: list[LaunchCondition] = []
     for one in alternatives(value):
         made = one.value

@@ -1,4 +1,4 @@
-"""From what a Python launch file makes to what it does: only what is returned or added counts."""
+"""Conversion of the objects of a Python launch file to actions: only returned or added objects count."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ def span_of(node: python_syntax.Node, source: Source) -> Span:
     """Return the span of an expression."""
     if not source.ascii:
         return python_syntax.span_of(source.text, node)
-    # The columns of the syntax tree count bytes, which are characters here: most files are so, and this is fast.
+    # Columns of the syntax tree count bytes. In ASCII files these are characters, which is the fast case.
     end = node.end_lineno or node.lineno, (node.end_col_offset or node.col_offset) + 1
     return Span(source.text.path, node.lineno, node.col_offset + 1, *end)
 
 
 def place_of(made: LaunchObject) -> Span:
-    """Return where an object is made."""
+    """Return the place where an object is created."""
     return span_of(made.node, made.source)
 
 
@@ -56,21 +56,21 @@ class Walker:
     """Turns values into actions."""
 
     def __init__(self, machine: Interpreter, source: Source, rules: Mapping[str, Rule], otherwise: Rule) -> None:
-        """Make a walker. ``rules`` say what objects of a class do, ``otherwise`` what those of any other class do."""
+        """Create a walker. ``rules`` convert objects by the name of their class, ``otherwise`` all others."""
         self.machine = machine
         self._rules = rules
         self._otherwise = otherwise
         self._source = source
         self.problems: list[Problem] = []
         self.blind: list[tuple[str, Span]] = []
-        """Where something is launched that is not known."""
+        """Places where something unknown is launched, with the reasons."""
         self._depth = 0
         self._open: set[int] = set()
         self._left = _MOST
         self._stopped = False
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
-        """Return what a value does when it is launched."""
+        """Return the actions of a value when it is launched."""
         found: list[LaunchAction] = []
         if self._depth > _DEEPEST or self._left <= 0:
             self._stop("there is too much of it" if self._left <= 0 else "it is nested too deeply", at)
@@ -109,14 +109,14 @@ class Walker:
         condition = made.get(-1, "condition")
         if condition is not None:
             conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
-        if isinstance(condition, Function):  # launch refuses it, but what it asks for is meant to be asked for
+        if isinstance(condition, Function):  # launch rejects a function as condition, but the package look-ups in it count
             self.run(condition, [Context()], {}, made)
         if made.name == "LaunchDescription":
             return self._description(made, conditions)
         return self._rules.get(made.name, self._otherwise)(self, made, conditions)
 
     def apart(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
-        """Return an action once for each target, where it is known what each depends on."""
+        """Return one action for each target if the conditions of all targets are known, else the action itself."""
         if action.target is None or len(action.target.texts) == 1:
             return [action]
         targets = self._alternatives(target)
@@ -142,7 +142,7 @@ class Walker:
     def _description(self, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         found: list[LaunchAction] = []
         index = 0
-        # Functions that are called on the way may add to it.
+        # Functions that are called in the meantime may add entities.
         at = span_of(made.node, made.source)
         while index < len(made.entities) and self._left > 0:
             found += self.actions(made.entities[index], conditions, at)
@@ -152,18 +152,18 @@ class Walker:
         return found
 
     def _stop(self, reason: str, at: Span | None) -> None:
-        """Note once that not everything is followed."""
+        """Note once that the conversion is incomplete."""
         if not self._stopped:
             self._stopped = True
             self.blind.append((reason, at or file_start(self._source.text.path)))
 
     def value(self, made: LaunchObject, position: int, *names: str) -> LaunchValue | None:
-        """Return an argument as a text, None when it is not there."""
+        """Return an argument as a text, None if it is missing."""
         given = made.get(position, *names)
         return None if given is None else self.text(given, made.written(position, *names), made.source)
 
     def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
-        """Return a value as a text with the place where it is written."""
+        """Return a value as a text with the place of its literal."""
         found = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
         origin = plain(given)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
@@ -176,7 +176,7 @@ class Walker:
         if not isinstance(node, ast.Constant) or len(found) != 1 or not found[0] or node.value != found[0]:
             return LaunchValue(found, span)
         path, line, column, last, end = span
-        if line == last and end - column == len(found[0]) + 2:  # between quotes as it is meant
+        if line == last and end - column == len(found[0]) + 2:  # the literal contains no escapes
             return LaunchValue(found, Span(path, line, column + 1, last, end - 1), exact=True)
         at = source.text.text.find(found[0], *python_syntax.range_of(source.text, node))
         if at < 0:
@@ -184,7 +184,7 @@ class Walker:
         return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
 
     def each_text(self, given: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
-        """Return a value as a text; as one for each alternative, with what it depends on, where there is something."""
+        """Return the alternatives of a value with their conditions, one value for all if any has no condition."""
         value = self.text(given, node, source)
         if len(value.texts) == 1:
             return [value]
@@ -194,7 +194,7 @@ class Walker:
         return [value._replace(texts=(str(text),), conditions=conditions) for text, conditions in found]
 
     def package_span(self, value: LaunchValue | None) -> Span | None:
-        """Return where the package is written that a path lies in."""
+        """Return the place of the package name of the first install path in a value."""
         for text in value.texts if value is not None else ():
             if text.isascii():
                 continue
@@ -204,12 +204,12 @@ class Walker:
         return None
 
     def look_up_span(self, package: str) -> Span:
-        """Return where a package is looked up first; it is looked up somewhere."""
+        """Return the place of the first look-up of a package. There must be one."""
         node, source = self.machine.named[package]
         return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
 
     def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: LaunchObject) -> Value:
-        """Return what a function returns that launch calls."""
+        """Return the result of a function that launch calls."""
         frame = Frame(made.source, None, {})
         try:
             return self.machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
@@ -226,7 +226,7 @@ def _merged(left: Conditions, right: Conditions) -> Conditions:
 
 
 def _depends(text: str) -> bool:
-    """Whether a text holds under conditions, all of which can be worked out once arguments have values."""
+    """Return whether a text has conditions, and all of them can be evaluated once arguments have values."""
     conditions = launch_text.conditions_of(text)
     return bool(conditions) and not any(UNKNOWN in one for condition in conditions for one in condition.texts)
 
