@@ -1,12 +1,12 @@
-"""Texts of launch files in which something is not known yet.
+"""Texts of launch files with parts that are unknown until launch.
 
-What a launch configuration holds, where a package is installed and what a command prints is known only when the launch
-file runs. Characters of the private use area stand for it, so that such texts can be joined, split and formatted like
-any others while the file is read, and filled in later:
+The value of a launch configuration, the install place of a package and the output of a command are known only when
+the launch file runs. Characters of the private use area represent them, so that such texts can be joined, split and
+formatted like any others, and filled in later:
 
 - ``UNKNOWN`` for any text at all;
 - ``OWN_FOLDER`` for the folder of the launch file;
-- an absolute path that no file system has for the install prefix of a package;
+- an absolute path that no file system has, for the install prefix of a package;
 - marks around the name of a launch configuration, a Python expression, a command.
 """
 
@@ -23,7 +23,7 @@ from ros_lint.facts.launch import LaunchCondition
 UNKNOWN = "\ue000"
 _ROOT = "\ue001"
 OWN_FOLDER = "/\ue002"
-"""The folder of the launch file itself, which is one place in the source and another one where it is installed."""
+"""The folder of the launch file, which differs between source and install space."""
 
 _CONFIGURATION = ("\ue010", "\ue011")
 _EXPRESSION = ("\ue012", "\ue013")
@@ -33,24 +33,27 @@ _DEFAULT = "\ue016"
 _PRESENT = "\ue017"
 
 MOST = 24
-"""How many alternatives of a text are kept apart."""
+"""The maximum number of alternatives of a text."""
 
 _DEEPEST = 30
 _MOST_CHOICES = 3_000
 _MOST_FILLED = 400
-"""How many configurations are put into one text, those in their values included. Real texts take up to 34."""
+"""The maximum number of configurations filled into one text, nested ones included.
+
+Real texts need up to 34.
+"""
 LONGEST = 20_000
-"""How many characters of a text are followed."""
+"""The maximum length of a text in characters."""
 
 _ANY_MARK = re.compile("[\ue000-\ue017]")
 _UNSETTLED = re.compile("[\ue000\ue003-\ue017]")
-# A path ends where a command line or a list of paths goes on; an unknown piece belongs to it.
+# A path ends where a command line or a list of paths continues; an unknown piece belongs to it.
 _PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
-# A name that is computed begins with the mark of another one.
+# A computed name begins with the mark of another configuration.
 _NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue011\ue016])")
 BRACKETS = re.compile("([\ue010\ue012\ue014])|[\ue011\ue013\ue015]")
-"""Begins (in group 1) or ends a part of a text that is known later."""
+"""Begins (in group 1) or ends a part of a text that is known only at launch."""
 _EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
@@ -66,16 +69,16 @@ class Installed(NamedTuple):
 
     package: str
     path: str
-    """Relative to the prefix of the package, such as ``share/<package>/launch/a.launch.py``."""
+    """The path relative to the prefix of the package, such as ``share/<package>/launch/a.launch.py``."""
 
     @property
     def known(self) -> bool:
-        """Whether the package is known."""
+        """Return whether the package is known."""
         return bool(self.package) and is_plain(self.package)
 
     @property
     def share(self) -> str | None:
-        """The path below share/<package>, "" for the folder itself; None when it is elsewhere or not known whole."""
+        """The path below share/<package>, "" for the folder itself; None if elsewhere or not fully known."""
         folder = f"share/{self.package}"
         if not is_plain(self.path) or not (self.path == folder or self.path.startswith(folder + "/")):
             return None
@@ -83,46 +86,49 @@ class Installed(NamedTuple):
 
     @property
     def executable(self) -> str:
-        """The name directly in lib/<package>, "" when the path is no such thing."""
+        """The name of an executable in lib/<package>, "" if the path is elsewhere."""
         folder, _, name = self.path.rpartition("/")
         return name if folder == f"lib/{self.package}" and is_plain(name) else ""
 
 
 def prefix(package: str) -> str:
-    """Return the path that stands for the install prefix of a package."""
+    """Return the symbolic path of the install prefix of a package."""
     return f"/{_ROOT}{package}"
 
 
 def share(package: str) -> str:
-    """Return the path that stands for the share folder of a package."""
+    """Return the symbolic path of the share folder of a package."""
     return f"/{_ROOT}{package}/share/{package}"
 
 
 def configuration(name: str, default: str | None = None) -> str:
-    """Return what stands for the value of a launch configuration; ``default`` is what it is when nobody set it."""
+    """Return the symbolic value of a launch configuration; ``default`` is its value if it is not set."""
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
 
 
 @lru_cache(maxsize=8_192)
 def named_in(text: str) -> tuple[str, ...] | None:
-    """Return the names of the launch configurations in a text, None where a name is computed."""
+    """Return the names of the launch configurations in a text, None if a name is computed."""
     found = _NAME_OF_CONFIGURATION.findall(text)
     return None if any(mark == _CONFIGURATION[0] for _, mark in found) else tuple([name for name, _ in found])
 
 
 def expression(text: str) -> str:
-    """Return what stands for the value of a Python expression."""
+    """Return the symbolic value of a Python expression."""
     return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
 
 
 def has_expression(text: str) -> bool:
-    """Return whether the value of a Python expression is part of a text."""
+    """Return whether a text contains the value of a Python expression."""
     return _EXPRESSION[0] in text
 
 
 def quoted(text: str) -> str:
-    """Return a text as a literal of Python, marks kept, and expressions as they are: their values come to stand there."""
+    """Return a text as a Python literal.
+
+    Marks and expressions are kept, because their values replace them inside the literal.
+    """
     if not has_expression(text):
         return f"'{_escaped(text)}'"
     depth, parts = 0, []
@@ -137,56 +143,56 @@ def _escaped(text: str) -> str:
 
 
 def command(text: str) -> str:
-    """Return what stands for the output of a command."""
+    """Return the symbolic output of a command."""
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
 
 
 def presence(package: str) -> str:
-    """Return what stands for the answer whether a package is installed."""
+    """Return the symbolic truth of a package being installed."""
     return f"{_PRESENT}{package}"
 
 
 def asked_for(text: str) -> str:
-    """Return the package whose presence a text stands for, or ""."""
+    """Return the package whose presence a text represents, or ""."""
     return text[1:] if text.startswith(_PRESENT) else ""
 
 
 def certain_part(text: str) -> str:
-    """Return the letters that a text has whatever the rest of it becomes."""
+    """Return the characters of a text that are certain, whatever the value of the rest is."""
     while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
         text = text[: match.start()] + text[match.end() :]
     return _ANY_MARK.sub("", text)
 
 
 def is_plain(text: str) -> bool:
-    """Return whether a text is known whole."""
+    """Return whether a text is fully known."""
     return text.isascii() or not _ANY_MARK.search(text)
 
 
 def is_settled(text: str) -> bool:
-    """Return whether a text is known but for the place where packages are installed."""
+    """Return whether a text is known except for install places of packages."""
     return text.isascii() or not _UNSETTLED.search(text)
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Yield the names of the launch configurations that a text depends on, whether it does without, and what stands for each."""
+    """Yield the launch configurations of a text: name, whether it has a default, and its symbolic text."""
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark), match[0]
 
 
 def runs_xacro(text: str) -> bool:
-    """Return whether a text is a command line of xacro, or has the output of one in it."""
+    """Return whether a text is a command line of xacro, or contains the output of one."""
     return text.startswith("xacro ") or _OF_XACRO in text
 
 
 def is_node_renaming(word: str) -> bool:
-    """Return whether a word of a command line may give a node another name or namespace (``-r __ns:=/front``)."""
+    """Return whether an argument may rename a node or change its namespace (``-r __ns:=/front``)."""
     return any(mark in word for mark in _RENAMES)
 
 
 def readable(text: str) -> str:
-    """Return a text for people, with the substitutions of XML launch files for what is not known, and ? for any text."""
+    """Return a text for messages: substitutions as in XML launch files, and ? for unknown parts."""
     text = _with_logic(text) if f"{_EXPRESSION[0]}_" in text else text
     text = _ENDS.sub(lambda match: _SHOWN.get(match[0], ")"), text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
     text = text.replace(OWN_FOLDER, "$(dirname)").replace(_PRESENT, "").replace(_DEFAULT, " ")
@@ -194,7 +200,7 @@ def readable(text: str) -> str:
 
 
 def _with_logic(text: str) -> str:
-    """Return a text in which the expressions that stand for substitutions of logic are these substitutions again."""
+    """Return a text in which expressions of logic are replaced by their substitutions."""
     while match := _INNER_EXPRESSION.search(text):
         before, said = text[: match.start()], _said(match[1])
         inside = before.count(_EXPRESSION[0]) > before.count(_EXPRESSION[1])
@@ -203,7 +209,7 @@ def _with_logic(text: str) -> str:
 
 
 def _said(inner: str) -> str:
-    from ros_lint.base.python_parser import literal  # noqa: PLC0415  (only for people)
+    from ros_lint.base.python_parser import literal  # noqa: PLC0415  (only for messages)
 
     match = _LOGIC.fullmatch(inner)
     try:
@@ -226,9 +232,9 @@ def _readable_root(match: re.Match[str]) -> str:
 
 
 def names_places(text: str, carriers: Container[str] = ()) -> bool:
-    """Return whether a text can mention an install place, or a command of xacro.
+    """Return whether a text may contain an install place, or a command of xacro.
 
-    ``carriers`` are the launch configurations whose values can.
+    ``carriers`` are the launch configurations whose values may.
     """
     if _ROOT in text or "xacro" in text:
         return True
@@ -236,7 +242,7 @@ def names_places(text: str, carriers: Container[str] = ()) -> bool:
 
 
 def carriers_of_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
-    """Return the launch configurations whose values can mention an install place, themselves or through others."""
+    """Return the launch configurations whose values may contain an install place, directly or indirectly."""
     found: set[str] = set()
     left: dict[str, tuple[str, ...]] = {}
     for name, texts in values.items():
@@ -252,7 +258,7 @@ def carriers_of_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
 
 
 def installed(text: str) -> Iterator[Installed]:
-    """Yield the install places that a text mentions: one path, or several in a command line."""
+    """Yield the install places in a text: one path, or several in a command line."""
     if _ROOT not in text:
         return
     for match in _PREFIX.finditer(text):
@@ -266,7 +272,7 @@ def installed(text: str) -> Iterator[Installed]:
 
 
 def installed_place(text: str) -> Installed | None:
-    """Return the one install place that a text mentions, None where it mentions none or several."""
+    """Return the only install place in a text, None if there is none or there are several."""
     places = list(installed(text))
     return places[0] if len(places) == 1 else None
 
@@ -280,7 +286,7 @@ class Conditional(str):
 
 
 def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
-    """Return a text as one that holds under conditions."""
+    """Return a text that holds under conditions."""
     if not conditions:
         return text
     made = Conditional(text)
@@ -289,7 +295,7 @@ def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
 
 
 def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
-    """Return what must hold for an alternative of a text."""
+    """Return the conditions under which an alternative of a text holds."""
     return text.conditions if isinstance(text, Conditional) else ()
 
 
@@ -309,7 +315,7 @@ def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
 
 
 def distinct(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return each text once, or once for each set of conditions that it holds under; if that is too many, under none."""
+    """Return each text once for each set of its conditions; unconditionally if that is too many."""
     every = {(text, conditions_of(text)): text for text in texts}
     if len(every) <= MOST:
         return tuple([text for (plain, conditions), text in every.items() if not conditions or (plain, ()) not in every])
@@ -320,7 +326,7 @@ def distinct(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
-    """Return what a function makes of one alternative of each row, for every choice whose conditions agree."""
+    """Return the results of a function for every consistent choice of one alternative from each row."""
     rows = tuple(rows)
     if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
         choice = tuple([row[0] for row in rows])
@@ -336,10 +342,10 @@ def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]]
 
 
 def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
-    """Return what a text becomes when launch configurations have values.
+    """Return the alternatives of a text if launch configurations have values.
 
-    ``values`` returns the alternatives of a configuration, None if nobody set it; ``evaluate`` the value of an
-    expression that is known whole, UNKNOWN if it has none.
+    ``values`` returns the alternatives of a configuration, None if it is not set; ``evaluate`` the value of a fully
+    known expression, UNKNOWN if it has none.
     """
     found = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
     if len(found) == 1:
@@ -348,7 +354,7 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
 
 
 class _Filling:
-    """Puts values for the configurations in a text, with a bound on the work: values can double at each step."""
+    """Replaces configurations in a text by values. A limit applies, as values can double at each step."""
 
     __slots__ = ("_left", "_values")
 
@@ -357,7 +363,7 @@ class _Filling:
         self._left = _MOST_FILLED
 
     def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
-        """Return the alternatives of a text in which the values of ``busy`` are being put already."""
+        """Return the alternatives of a text while the configurations in ``busy`` are being replaced."""
         waiting = [text]
         done: dict[str, None] = {}
         while waiting:
@@ -378,8 +384,8 @@ class _Filling:
         name, mark, default = configuration.partition(_DEFAULT)
         given = None if not mark else self._values(name)
         if given is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in given:
-            return (default,)  # the default of the argument is this one, whichever of several it is
-        # A default that names its own argument is asked for while that has no value yet.
+            return (default,)  # the argument has this default, whichever alternative applies
+        # A default that uses its own argument is evaluated before that argument has a value.
         given = None if name in busy or len(busy) > _DEEPEST else self._values(name)
         if given is None:
             return (default,) if mark else (UNKNOWN,)
@@ -395,5 +401,5 @@ def _settle(text: str, evaluate: Callable[[str], str]) -> str:
     while has_expression(text) and (match := _INNER_EXPRESSION.search(text)):
         value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
         text = text[: match.start()] + value + text[match.end() :]
-    # A configuration that holds an absolute path replaces what it was joined to.
+    # A configuration with an absolute path replaces the path that it was joined to.
     return _TWICE_ROOTED.sub("", text) if "//" in text else text

@@ -1,1 +1,1 @@
-"""Python sources: imports, look-ups, names and syntax."""
+"""Python sources: imports, look-ups of packages, names and syntax."""

@@ -1,4 +1,4 @@
-"""Read Python sources: what they import, and which packages they look up by name."""
+"""Facts of Python sources: the modules that they import and the packages that they look up."""
 
 from __future__ import annotations
 
@@ -32,12 +32,14 @@ _LONGEST_NAME = 100
 def collect(source: Text, *, launch: bool = False) -> FileFacts:
     """Return the imports and look-ups of a Python file.
 
-    Imports are mentions ``via="import"`` of dotted modules, relative ones left out (reference, section D6). Look-ups
-    such as ``get_package_share_directory("p")`` are ``via="package"``; one whose package is computed is opaque. Files
-    in the share folder of a package of which the source makes a path are ``look_ups``. With ``launch``, only imports
-    are of interest: the rest is better known to who reads launch files.
+    - Absolute imports are mentions ``via="import"`` of dotted modules; relative ones are omitted.
+    - Look-ups such as ``get_package_share_directory("p")`` are mentions ``via="package"``, and opaque if the package
+      is computed.
+    - Paths of files in the share folder of a package are ``look_ups``.
 
-    Of a file that the interpreter cannot parse, what its lines seem to import counts as optional.
+
+    With ``launch``, only imports are returned, because the collectors of launch files find the rest. If the source
+    does not parse, the imports are found by line and marked optional.
     """
     try:
         found, looked_up = _found(source, launch)
@@ -71,7 +73,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
 
 
 def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
-    """Return imports and look-ups, by scans and, where these cannot tell, by the parser. Raises NotPythonError."""
+    """Return imports and look-ups, by text scans if possible, else by the parser. Raises NotPythonError."""
     found = scan(source.text)
     looked_up = Found() if launch else literals(source)
     if found is not None and looked_up is None:
@@ -84,7 +86,7 @@ def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
 
 
 def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[ImportedType]:
-    """Yield what is imported by name from modules of generated interfaces."""
+    """Yield the classes that are imported by name from modules of generated interfaces."""
     for item, module in imports:
         match = _IMPORTED.match(source.text, item.start + len(item.module)) if _TYPES.fullmatch(item.module) else None
         if match is None:
@@ -97,20 +99,23 @@ def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[Imp
 
 
 def _programs(text: str) -> tuple[str, ...]:
-    """Return the names of Python files that literals end with. To look back from their ends takes no time in strange files."""
+    """Return the names of Python files at the ends of literals.
+
+    The search goes backwards from ``.py``, so that it takes no time in unusual files.
+    """
     starts = [match.start() for match in _PROGRAM.finditer(text)]
     names = [_NAME.search(text, max(0, start - _LONGEST_NAME), start) for start in starts]
     return tuple(dict.fromkeys([f"{name[0]}.py" for name in names if name is not None]))
 
 
 def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bool:
-    """Whether a folder of the module's name was added before to those in which modules are sought."""
+    """Return whether the source adds a folder of the module's name to sys.path before the import."""
     top = item.module.partition(".")[0]
     return any(at < item.start and top in parts for at, parts in folders)
 
 
 def _remark(item: Import, added: bool) -> str:
-    """Return what is to be said of an import, besides its name."""
+    """Return the remark that a message adds to the name of an import."""
     return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
 
 

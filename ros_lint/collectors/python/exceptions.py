@@ -1,4 +1,4 @@
-"""The handler of a try statement in Python that catches an exception, as far as both are classes of Python."""
+"""Matching of raised exceptions with the handlers of a try statement, for builtin classes."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import builtins
 
 
 def kind_raised(node: ast.Raise) -> str:
-    """Return the name of the class that a statement raises, "" if it is no class of Python."""
+    """Return the name of the builtin class that a statement raises, "" for any other class."""
     made = node.exc.func if isinstance(node.exc, ast.Call) else node.exc
     return made.id if isinstance(made, ast.Name) and hasattr(builtins, made.id) else ""
 
 
 def catching(node: ast.Try, kind: str) -> ast.ExceptHandler | None:
-    """Return the handler that catches an exception of a class of Python, None if there is none.
+    """Return the handler that catches an exception of a builtin class, None if there is none.
 
     ``kind`` is the name of the class, "" if it is unknown. The first handler that may catch the exception counts.
     """

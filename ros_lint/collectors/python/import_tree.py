@@ -1,4 +1,4 @@
-"""The import statements of a Python source, found in its syntax tree: the exact way."""
+"""The import statements of a Python source, found in its syntax tree."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ if TYPE_CHECKING:
 
 
 class Import(NamedTuple):
-    """An absolute import, or a relative one that the program does without."""
+    """An absolute import, or an optional relative one."""
 
     start: int
-    """Offset of the module as written."""
+    """The offset of the module name."""
     module: str
-    """Dotted, "" when it is computed. A relative one begins with its dots: ``.a`` for ``from . import a``, too."""
+    """The dotted name, "" if computed. A relative one begins with its dots: ``.a`` for ``from . import a``."""
     optional: bool
-    """Whether the program does without: for type checkers only, never as it is written, or with the error caught."""
+    """True if the program runs without it: under TYPE_CHECKING, in dead code, or with the error caught."""
     caught: bool = False
-    """Whether it is optional because just that error is caught."""
+    """True if it is optional because an ImportError in particular is caught."""
     skips: bool = False
-    """Whether it is a call that skips the test without the module."""
+    """True for a call that skips the test if the module is missing."""
 
 
 _SKIPS = "importorskip"
 _DYNAMIC = frozenset({"import_module", _SKIPS, "__import__"})
 GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress|(?i:ros_?version)")
-"""What a test, or a with statement, has that may decide about the imports in it."""
+"""Words of a test, or of a with statement, that may make the imports in it optional."""
 _MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
 _IMPORT_ERRORS = _MISSING | {"Exception", "BaseException"}
 _EXITS = frozenset({"exit", "quit", "_exit", "fail"})
@@ -42,11 +42,13 @@ _EXITS = frozenset({"exit", "quit", "_exit", "fail"})
 def walk(source: Text, tree: ast.Module) -> list[Import]:
     """Return the imports of a source in order.
 
-    Optional are those under TYPE_CHECKING, those for ROS 1, and those in a try statement that goes on when the import fails or
-    under a test of the platform, unless every branch imports from the same package (reference, section D6). A try statement
-    inside of others that raises another error instead, which says what is missing, makes them optional, too. Calls of
-    ``importlib.import_module()`` and the like are imports, too; whoever calls one is taken to be able to go without.
-    A test that is skipped without a module goes without whatever it imports of it afterwards.
+    These imports are optional:
+    - Imports under TYPE_CHECKING, and imports for ROS 1.
+    - Imports in a try statement that continues after an ImportError, or under a test of the platform, unless every
+      branch imports from the same package.
+    - Imports in a nested try statement that raises another error instead, which explains what is missing.
+    - Calls such as ``importlib.import_module()``, because the caller probably handles the error.
+    - Imports after a call that skips the test if their module is missing.
     """
     walker = _Walker(tree)
     found = [
@@ -62,7 +64,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
 
 
 def _off(tree: ast.Module) -> frozenset[str]:
-    """Return the names of a module that are false and stay so: nothing else binds them anywhere."""
+    """Return the names of a module that are always false: they have one binding, to a false constant."""
     bound: dict[str, int] = {}
     off: set[str] = set()
     for statement in tree.body:
@@ -99,7 +101,7 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
 
 
 def _after_skips(imports: Iterable[Import]) -> list[Import]:
-    """Return imports with those optional that come after a test would have been skipped without the module."""
+    """Return imports, where those that follow a skip of the test without their module are optional."""
     found: list[Import] = []
     skips: tuple[str, ...] = ()
     for item in imports:
@@ -110,9 +112,9 @@ def _after_skips(imports: Iterable[Import]) -> list[Import]:
 
 
 _Found = tuple["ast.Import | ast.ImportFrom", int]
-"""A statement, and whether it is optional: 0, 1, or _CAUGHT."""
+"""A statement, and its kind of optionality: 0 if required, 1 if optional, or _CAUGHT."""
 _CAUGHT = 2
-"""How an import is optional whose error is caught, and not just any error of the block."""
+"""The kind of an import whose ImportError is caught, rather than any error of the block."""
 
 
 class _Walker:
@@ -176,7 +178,7 @@ class _Walker:
 
 
 def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
-    """Whether a test is never true: a name that is always false, alone or with more."""
+    """Return whether a test is never true because of a name that is always false."""
     if isinstance(test, ast.BoolOp):
         return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
     return isinstance(test, ast.Name) and test.id in off
@@ -186,7 +188,7 @@ _OF_ROS = re.compile(r"ros_?version", re.IGNORECASE)
 
 
 def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
-    """Return what a comparison of the version of ROS with 1 or 2 comes to in ROS 2, None of any other test."""
+    """Return whether a comparison of the ROS version with 1 or 2 is true in ROS 2, None for any other test."""
     if not (isinstance(test, ast.Compare) and isinstance(test.ops[0], (ast.Eq, ast.NotEq)) and any(map(_OF_ROS.search, words))):
         return None
     numbers = [str(side.value) for side in (test.left, *test.comparators) if isinstance(side, ast.Constant)]
@@ -196,9 +198,9 @@ def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
 
 
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
-    """Yield the imports of branches one of which runs; not optional is what each needs, of that kind everything else.
+    """Yield the imports of alternative branches: required if every branch needs them, else of ``kind``.
 
-    A file of the package for which another branch imports something may be just what that is, by another way.
+    A relative import is required if another branch imports something, because it may replace just that module.
     """
     needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
     always = set.intersection(*needed)
@@ -213,7 +215,7 @@ def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:
 
 
 def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
-    """Return what an import needs. A neighbour by its own name and the same one by a relative import are two things."""
+    """Return the packages that an import needs. A relative import needs ".", whatever its module."""
     if _is_relative(statement):
         return {"."}
     names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]
@@ -239,7 +241,7 @@ def _gives_up(handler: ast.ExceptHandler) -> bool:
 
 
 def _explains(handler: ast.ExceptHandler) -> bool:
-    """Whether another error is raised. Where not everyone comes by, that tells those who do what they have to install."""
+    """Return whether the handler raises another error, which explains what to install."""
     last = handler.body[-1]
     return isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)
 

@@ -1,7 +1,7 @@
-"""The import statements of a Python source, found without parsing it where that is safe.
+"""The import statements of a Python source, found without parsing where that is safe.
 
-Nine files of ten have only imports that a look at their own line settles. :func:`scan` reads these and refuses the
-others, which the syntax tree then tells. Both ways give the same on what both read.
+Nine files of ten have only imports that their own line decides. :func:`scan` reads these and returns None for the
+others, which need the syntax tree. Both ways give the same result where both apply.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ _DECIDES = re.compile(
 )
 
 
-# The sign is looked for fast, and what it gives a value to only where it gives this one.
+# The regular expression finds the sign fast; the assigned name is only tested at the matches.
 _OFF = re.compile(r"=[ \t]*(?:False|None|0|''|\"\")[ \t]*(?:#.*)?\r?$", re.MULTILINE)
 _NAMED = re.compile(r"([^\W\d]\w*)[ \t]*(?::[^=\n]*)?")
 
 
 def scan(text: str) -> list[Import] | None:
-    """Return the imports of a source, or None when only a parser can tell."""
+    """Return the imports of a source, None if they need a parser."""
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
     off = [match.start() for match in _OFF.finditer(text)]
@@ -46,7 +46,7 @@ def scan(text: str) -> list[Import] | None:
     if switches and re.search(rf"^[ \t]*(?:el)?if\b[^\n]*\b(?:{'|'.join(switches)})\b", text, re.MULTILINE):
         return None
     found: list[Import] = []
-    places: list[int] = []  # none of which may lie in a string
+    places: list[int] = []  # the result holds only if none of these is in a string
     blocks: _Blocks | None = None
     done = 0
     for match in _IMPORT.finditer(text):
@@ -86,9 +86,9 @@ def scan(text: str) -> list[Import] | None:
 
 
 def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | None:
-    """Return what an import imports, nothing for a relative one or a mere word, None when only a parser can tell.
+    """Return the modules of an import, [] for a relative one or a mere word, None if it needs a parser.
 
-    ``before`` is what stands before the word in its line.
+    ``before`` is the text before the word in its line.
     """
     if not before:
         return _names(text, match.end())
@@ -102,12 +102,12 @@ def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | No
 
 
 def _may_follow(before: str) -> bool:
-    """Return whether an import statement may come after this part of its line."""
+    """Return whether an import statement may follow this part of its line."""
     return before.rstrip()[-1] in ";:" or ("from" in before and (";" in before or ":" in before))
 
 
 def _names(text: str, start: int) -> list[Import] | None:
-    """Return what ``import a.b as c, d`` imports; None when that is not all of the line."""
+    """Return the modules of ``import a.b as c, d``, None if the line contains anything else."""
     end = text.find("\n", start)
     line = text[start : end if end >= 0 else len(text)].partition("#")[0]
     found = []
@@ -124,17 +124,17 @@ def _names(text: str, start: int) -> list[Import] | None:
 
 class _Block(NamedTuple):
     width: int
-    """Of its head's indentation."""
+    """The indentation of its head."""
     head: int
-    """The line of its head."""
+    """The offset of the line of its head."""
     start: int
-    """The first line of the statement: ``try`` for ``except``."""
+    """The offset of the first line of the statement: ``try`` for ``except``."""
     guards: bool
-    """Whether it may decide about the imports in it."""
+    """True if it may make the imports in it optional."""
 
 
 class _Blocks:
-    """The blocks around lines of a text. Lines are asked for in order."""
+    """The blocks around lines of a text. The lines must be requested in order."""
 
     def __init__(self, text: str) -> None:
         self._heads = _HEAD.finditer(text)
@@ -142,7 +142,7 @@ class _Blocks:
         self._stack: list[_Block] = []
 
     def around(self, line: int, width: int) -> list[_Block]:
-        """Return the blocks around a line of an indentation, outermost first."""
+        """Return the blocks around an indented line, outermost first."""
         while self._next and self._next.start() < line:
             self._enter(self._next)
             self._next = next(self._heads, None)
@@ -150,7 +150,7 @@ class _Blocks:
         return self._stack
 
     def _leave(self, width: int) -> _Block | None:
-        """Leave the blocks whose heads are not further left than that. Return the last one."""
+        """Leave the blocks that are indented at least that far. Return the outermost of them."""
         left = None
         while self._stack and self._stack[-1].width >= width:
             left = self._stack.pop()
@@ -166,7 +166,7 @@ class _Blocks:
 
 
 def _fragment(text: str, start: int) -> list[Import] | None:
-    """Return the imports of a statement, which may be indented, or None when it does not parse by itself."""
+    """Return the imports of a statement, which may be indented, None if it does not parse by itself."""
     head = "if 1:\n" if text[0] in " \t\f" else ""
     source = Text("", head + text)
     try:
@@ -181,7 +181,7 @@ _WRITTEN = re.compile(r"""["']([^"'\n]*)["']""")
 
 
 def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
-    """Return where a source adds folders to those in which modules are sought, each with the parts of their names."""
+    """Return the offsets at which a source extends sys.path, each with the names in the added paths."""
     found = []
     for match in _EXTENDS.finditer(text):
         given = match[1]
@@ -193,7 +193,7 @@ def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
 
 
 def outside_strings(text: str, places: list[int]) -> bool:
-    """Return whether it is sure that none of the places, one at least, lies in a string of several lines."""
+    """Return whether certainly none of the places (at least one) is in a string of several lines."""
     places = sorted(places)
     quote = _TRIPLE.search(text, 0, places[-1])
     waiting = iter(places)
@@ -201,7 +201,7 @@ def outside_strings(text: str, places: list[int]) -> bool:
     while quote:
         line = text[text.rfind("\n", 0, quote.start()) + 1 : quote.start()]
         if "#" in line or "'" in line or '"' in line:
-            return False  # perhaps the quotes start nothing
+            return False  # perhaps the quotes do not begin a string
         closing = text.find(quote[0], quote.end())
         if closing < 0 or text[closing - 1] == "\\":
             return False

@@ -1,4 +1,4 @@
-"""Packages that a Python source looks up by name, such as ``get_package_share_directory("p")``, and files in them."""
+"""Package look-ups of a Python source, such as ``get_package_share_directory("p")``, and their files."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _CATCHES = re.compile(rf"except[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FO
 
 
 class Found(NamedTuple):
-    """What a source looks up."""
+    """The package look-ups of a source."""
 
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
@@ -35,7 +35,7 @@ class Found(NamedTuple):
 
 
 def literals(source: Text) -> Found | None:
-    """Return what :func:`look_ups` does, or None when that takes a syntax tree."""
+    """Return the result of :func:`look_ups`, None if it needs a syntax tree."""
     text = source.text
     if "get_package_" not in text and "FindPackage" not in text:
         return Found()
@@ -60,7 +60,7 @@ def literals(source: Text) -> Found | None:
 
 
 def in_excerpt(source: Text) -> Found:
-    """Return what :func:`look_ups` does, reading no function that has nothing to do with it.
+    """Return the result of :func:`look_ups`, without parsing irrelevant functions.
 
     Raises :class:`NotPythonError`.
     """
@@ -76,10 +76,9 @@ def in_excerpt(source: Text) -> Found:
 
 
 def look_ups(source: Text, tree: ast.Module) -> Found:
-    """Return the packages that a source looks up, and the files in their share folders that it makes paths of.
+    """Return the packages that a source looks up, and the paths of files in their share folders.
 
-    Opaque are packages whose name is computed. Optional are look-ups in a try statement that catches the error
-    (reference, section E2, row 17).
+    Look-ups of computed names are opaque. Look-ups in a try statement that catches the error are optional.
     """
     return _found(source, tree, _telling(scan(tree)))
 
@@ -110,20 +109,20 @@ def _found(source: Text, tree: ast.Module, telling: Iterable[tuple[Expression, l
 
 
 def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]:
-    """Yield the expressions in which packages are looked up, and those that use what such an expression gives."""
+    """Yield the expressions with package look-ups, and those that use the results of such expressions."""
     calls = [list(_calls(expression.inner)) for expression in expressions]
     names = [{node.id for node in expression.inner if node.__class__ is ast.Name} for expression in expressions]
     given: set[str] = set()
-    told: set[int] = set()
+    relevant: set[int] = set()
     grown = True
     while grown:
         grown = False
         for index, expression in enumerate(expressions):
-            if index not in told and (calls[index] or not given.isdisjoint(names[index])):
-                told.add(index)
+            if index not in relevant and (calls[index] or not given.isdisjoint(names[index])):
+                relevant.add(index)
                 given |= _bound(expression)
                 grown = True
-    return ((expressions[index], calls[index]) for index in sorted(told))
+    return ((expressions[index], calls[index]) for index in sorted(relevant))
 
 
 def _bound(expression: Expression) -> set[str]:
@@ -139,7 +138,7 @@ def _calls(inner: list[ast.AST]) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 
 def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple[ast.expr, str, str]]:
-    """Yield the largest expressions that are the path of a file in the share folder of a package."""
+    """Yield the largest expressions that are paths of files in share folders of packages."""
     if isinstance(node, (ast.Call, ast.BinOp, ast.JoinedStr)):
         texts = evaluator.values(node, where)
         if texts != (None,):
@@ -154,7 +153,7 @@ def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple
 
 
 def _guarded(tree: ast.Module) -> list[range]:
-    """Return the lines that run only if a package is there: it is asked for, or what is raised without it is caught."""
+    """Return the lines that run only if a package exists: a condition tests it, or its exception is caught."""
     found = []
     for node in nodes(tree):
         if isinstance(node, ast.Try) and any(catches_missing_package(handler) for handler in node.handlers):
@@ -173,7 +172,7 @@ def _lines(body: list[ast.stmt]) -> range:
 
 
 def _asks(test: ast.expr) -> bool | None:
-    """Return whether a test wants something to be installed, None when it is about something else."""
+    """Return whether a test requires an installed package, None if it tests something else."""
     inner = list(ast.walk(test))
     if not any(isinstance(node, ast.Call) and callee(node) in _ASKS for node in inner):
         return None
@@ -181,12 +180,12 @@ def _asks(test: ast.expr) -> bool | None:
 
 
 def catches_missing_package(handler: ast.ExceptHandler) -> bool:
-    """Return whether a handler catches that a package is not found."""
+    """Return whether a handler catches the exception of a missing package."""
     return _catches(handler, _NOT_FOUND)
 
 
 def catches_missing_file(handler: ast.ExceptHandler) -> bool:
-    """Return whether a handler catches that a file is not there."""
+    """Return whether a handler catches the exception of a missing file."""
     return _catches(handler, _NO_FILE)
 
 

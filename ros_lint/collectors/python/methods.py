@@ -1,7 +1,7 @@
-"""Methods of texts, functions on paths and constants of Python that mean the same on known values, whoever evaluates them.
+"""Methods of texts, functions on paths and constants of Python that every evaluator treats alike.
 
-What they give is no longer than what they are given. What an evaluator makes of values that it does not know, and which
-further methods it follows, is its own business.
+Their results are no longer than their arguments. Each evaluator decides by itself about unknown values and about
+further methods.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ TRUTHS: Final = frozenset(
         "endswith", "isalnum", "isalpha", "isdigit", "isidentifier", "islower", "isnumeric", "isspace", "isupper", "startswith",
     }
 )  # fmt: skip
-"""Methods of texts that give a truth."""
+"""Methods of texts that return a boolean."""
 
 NUMBERS: Final = frozenset({"count", "find", "index", "rfind", "rindex"})
-"""Methods of texts that give a number."""
+"""Methods of texts that return a number."""
 
 SPLITS: Final = frozenset({"partition", "rpartition", "rsplit", "split", "splitlines"})
-"""Methods of texts that give several texts."""
+"""Methods of texts that return several texts."""
 
 STRIPS: Final = frozenset({"lstrip", "removeprefix", "removesuffix", "rstrip", "strip"})
-"""Methods that take something off the ends of a text."""
+"""Methods that remove characters from the ends of a text."""
 
 LENGTH_PRESERVING: Final = frozenset({"capitalize", "casefold", "endswith", "lower", "startswith", "title", "upper"})
 """Methods whose result is no longer than the text, and that a Python expression of launch may call."""

@@ -1,8 +1,8 @@
-"""Python sources that some version from 3.10 on refuses, rewritten so that every one of them reads the same.
+"""Rewriting of newer Python syntax, so that every Python version from 3.10 on parses a source alike.
 
-A construct that came later than Python 3.10 is replaced by an older one in the same place: no token changes its line, or its
-column in bytes. Where the replacement makes another syntax tree, :mod:`ros_lint.collectors.python.restored_tree` sets that right.
-Source: "What's New in Python" 3.11 to 3.14, and the PEPs named below.
+A construct that was added after Python 3.10 is replaced by an older one in the same place: no token changes its line,
+or its column in bytes. Where the replacement has another syntax tree, :mod:`ros_lint.collectors.python.restored_tree`
+restores the right one. Source: "What's New in Python" 3.11 to 3.14, and the PEPs named below.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _REST: Final = re.compile(r"[ \t\f]*(?:#[^\r\n]*)?(?=[\r\n]|\Z)")
 
 
 class Newer(NamedTuple):
-    """A construct that versions of Python before the one named refuse, between two offsets."""
+    """A construct between two offsets that Python versions before ``version`` reject."""
 
     construct: str
     """A noun in the plural."""
@@ -32,16 +32,16 @@ class Newer(NamedTuple):
 
 
 class Rewritten(NamedTuple):
-    """A source with nothing in it that came later than Python 3.10. Places are offsets in the source as it is."""
+    """A source without constructs newer than Python 3.10. Places are offsets in the original source."""
 
     text: str
     newer: tuple[Newer, ...]
     strings: Mapping[int, tuple[Token, ...]]
-    """Strings side by side that stand for one, where a name stands for them now. The name is behind the first bracket."""
+    """Groups of adjacent strings that a name replaces, by the offset of the bracket before the name."""
     aliases: frozenset[int]
-    """Type statements, which assign to a tuple now: the word ``typ`` and the name."""
+    """Offsets of type statements, rewritten as assignments to a tuple of the word ``typ`` and the name."""
     parameters: Mapping[int, tuple[str, ...]]
-    """Statements that had type parameters, with the names of these."""
+    """The names of the removed type parameters, by the offset of the statement."""
 
 
 class _Edit(NamedTuple):
@@ -103,7 +103,7 @@ class _Rewriter:
         self._newer.append(Newer(construct, version, self._code[first].start, self._code[last].end))
 
     def _name(self, index: int, word: str, *, fresh: bool) -> int:
-        """Rewrite what begins with a word. Return the index to go on from."""
+        """Rewrite a construct that begins with a word. Return the index of the next token to process."""
         if word == "type" and fresh and self._is_name(index + 1):
             return self._alias(index)
         if word in ("def", "class") and self._word(index + 2) == "[":
@@ -145,7 +145,7 @@ class _Rewriter:
         return closing + 1
 
     def _blank_parameters(self, opening: int) -> tuple[str, ...]:
-        """Blank a list of type parameters. Return their names. Defaults are newer still (PEP 696)."""
+        """Blank a list of type parameters, and return their names. Defaults are newer still (PEP 696)."""
         closing = self._closing[opening]
         names = []
         for index in self._inside(opening):
@@ -159,14 +159,14 @@ class _Rewriter:
         return tuple(names)
 
     def _inside(self, opening: int) -> Iterator[int]:
-        """Yield the indices of the tokens in a bracket, but not of those in brackets in it."""
+        """Yield the indices of the tokens in a bracket, except those in nested brackets."""
         index, closing = opening + 1, self._closing.get(opening, len(self._code))
         while index < closing:
             yield index
             index = self._closing.get(index, index) + 1
 
     def _except(self, index: int) -> None:
-        """Rewrite ``except* A`` as ``except  A`` (PEP 654), and ``except A, B:`` as ``except(A, B):`` (PEP 758)."""
+        """Rewrite ``except* A`` (PEP 654) as ``except  A``, ``except A, B:`` (PEP 758) as ``except(A, B):``."""
         star = self._word(index + 1) == "*" and self._word(index + 2) != ":"
         if star:
             self._add("except* clauses", (3, 11), index, index + 1)
@@ -185,13 +185,13 @@ class _Rewriter:
             self._edits.append(_Edit(room, room + 1, " "))
 
     def _rest(self, index: int) -> Iterator[int]:
-        """Yield the indices from one on up to the end of the line, but not of the tokens in brackets."""
+        """Yield the indices from ``index`` up to the end of the line, except those in brackets."""
         while index < len(self._code) and self._code[index].kind != "newline":
             yield index
             index = self._closing.get(index, index) + 1
 
     def _is_of_python_2(self, commas: Sequence[int], colon: int) -> bool:
-        """Return whether this is ``except Error, error:``, which gave the error a name in Python 2."""
+        """Return whether this is ``except Error, error:`` of Python 2, where ``error`` is a variable."""
         return len(commas) == 1 and colon == commas[0] + 2 and self._word(colon - 1)[:1].islower()
 
     def _unpacked(self, opening: int) -> None:
@@ -224,7 +224,7 @@ class _Rewriter:
         self._edits.append(_Edit(token.start, token.end, " " * (token.end - token.start)))
 
     def _string(self, index: int) -> int:
-        """Put a name in brackets where strings are that not every Python reads the same (PEP 701, PEP 750)."""
+        """Replace strings by a name in brackets if Python versions parse them differently (PEP 701, PEP 750)."""
         end = index
         while end < len(self._code) and self._code[end].kind in ("string", "template"):
             end += 1
@@ -248,7 +248,7 @@ def _newer_in(found: Template) -> Iterator[Newer]:
 
 
 def _pairs(words: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield the indices of brackets with those of the brackets that close them."""
+    """Yield the indices of opening brackets with those of their closing brackets."""
     opened: list[int] = []
     for index, word in enumerate(words):
         if word in _CLOSES:
@@ -258,14 +258,17 @@ def _pairs(words: Sequence[str]) -> Iterator[tuple[int, int]]:
 
 
 def _blanked(text: str, *, joined: bool = False) -> str:
-    """Return blanks as wide as a text in bytes, line by line, ``joined`` by backslashes where no bracket joins the lines."""
+    """Return blanks of the width of a text in bytes, line by line.
+
+    ``joined`` adds a backslash to each line, for lines that no bracket joins.
+    """
     ends = _NEWLINE.findall(text)
     lines = [" " * len(to_bytes(line)) for line in _NEWLINE.split(text)]
     return "".join(line + ("\\" if joined else "") + end for line, end in zip(lines, ends, strict=False)) + lines[-1]
 
 
 def _edited(text: str, edits: Sequence[_Edit]) -> str:
-    """Return a text with edits made. An edit within another one is left out."""
+    """Return a text with edits applied. An edit within another one is ignored."""
     found, at = list[str](), 0
     for edit in sorted(edits):
         if edit.start >= at:
@@ -275,7 +278,7 @@ def _edited(text: str, edits: Sequence[_Edit]) -> str:
 
 
 def brackets(text: str, tokens: Sequence[Token]) -> tuple[str, int] | None:
-    """Return what is wrong with the brackets of a source and where, None where they are in pairs."""
+    """Return the error and its offset if the brackets of a source are not in pairs, else None."""
     opened: list[Token] = []
     for token in tokens:
         word = text[token.start : token.end] if token.kind == "op" else ""

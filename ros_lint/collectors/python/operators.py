@@ -1,4 +1,4 @@
-"""Operators of Python that mean the same on known values, whoever evaluates them."""
+"""Operators of Python that every evaluator applies alike to known values."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ARITHMETIC: Final[Mapping[type[ast.operator], Callable[[Any, Any], Any]]] = {
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
 }
-"""On numbers, texts and lists. Of sizes nothing is said: who evaluates has to bound them."""
+"""Operators on numbers, texts and lists. The evaluator has to limit the sizes of operands."""
 
 BITWISE: Final[Mapping[type[ast.operator], Callable[[Any, Any], Any]]] = {
     ast.BitOr: operator.or_,
@@ -31,4 +31,4 @@ COMPARISONS: Final[Mapping[type[ast.cmpop], Callable[[Any, Any], Any]]] = {
     ast.Gt: operator.gt,
     ast.GtE: operator.ge,
 }
-"""By value. Identity and membership mean something else to each evaluator."""
+"""Comparisons by value. Identity and membership are implemented by each evaluator."""

@@ -1,4 +1,4 @@
-"""The syntax tree of a rewritten source, set right: what stands in the source stands in the tree, at its place."""
+"""Restoring of the syntax tree of a rewritten source to the tree of the original source."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _CONVERSIONS: Final = {"": -1, "a": 97, "r": 114, "s": 115}
 
 
 def restore(tree: ast.Module, source: Text, rewritten: Rewritten, expression: Callable[[str, int], ast.expr]) -> None:
-    """Set a tree right that was made of a rewritten source. Raises TokenError.
+    """Restore the tree of a rewritten source to that of the original source. Raises TokenError.
 
-    ``expression`` makes the tree of an expression in brackets, which begins at an offset, and raises what it likes.
+    ``expression`` parses an expression in brackets at an offset, and may raise any exception.
     """
     restorer = _Restorer(source, rewritten, expression)
     for node in ast.walk(tree):
@@ -49,7 +49,7 @@ class _Restorer:
         self._parameters = {place_of(source, start): names for start, names in rewritten.parameters.items()}
 
     def visit(self, node: ast.AST) -> None:
-        """Set right what a node holds directly."""
+        """Restore the direct children of a node."""
         for name, value in ast.iter_fields(node):
             if isinstance(value, ast.Name):
                 setattr(node, name, self._name(value))
@@ -71,7 +71,7 @@ class _Restorer:
             yield item
 
     def _name(self, node: ast.Name) -> ast.expr:
-        """Return the strings for which a name stands, or the name."""
+        """Return the strings that a name replaces, or the name itself."""
         group = self._strings.get((node.lineno, node.col_offset - 1))
         if group is None or node.id != "_":
             return node
@@ -112,14 +112,14 @@ class _Restorer:
 
 
 def _bound(target: ast.expr, at: ast.stmt) -> ast.stmt:
-    """Return a statement that gives a name a value of which nothing is known."""
+    """Return a statement that binds a name to an unknown value."""
     statement = ast.Assign([target], ast.Constant(None))
     ast.copy_location(statement, at)
     return ast.fix_missing_locations(statement)
 
 
 def _merged(parts: Iterable[ast.expr]) -> Iterator[ast.expr]:
-    """Yield the parts of a string with texts side by side made one."""
+    """Yield the parts of a string, with adjacent texts merged."""
     text: list[str] = []
     for part in parts:
         if isinstance(part, ast.Constant):
@@ -134,7 +134,7 @@ def _merged(parts: Iterable[ast.expr]) -> Iterator[ast.expr]:
 
 
 def _literal(text: str, around: Template, start: int) -> str:
-    """Return what literal text of an f-string stands for."""
+    """Return the value of a literal part of an f-string."""
     text = text.replace("{{", "{").replace("}}", "}")
     if around.raw:
         return text.replace("\r\n", "\n").replace("\r", "\n")

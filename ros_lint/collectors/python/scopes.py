@@ -1,4 +1,4 @@
-"""The names of a Python source: what is bound where, and which expressions there are."""
+"""Scopes, bindings and expressions of a Python source."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple, Union
 
 Block = tuple[int, ...]
-"""The branches around a statement, outermost first. What is bound in an outer block is bound in the inner ones."""
+"""The numbers of the branches around a statement, outermost first.
+
+A binding in an outer block is visible in the inner ones.
+"""
 
 Step = Union[int, None]  # noqa: UP007  (evaluated on 3.10)
-"""How a target takes its part of a value: an index, or None for each element in turn."""
+"""One step of the path from a value to its part: an index, or None for each element in turn."""
 
 
 _COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)
@@ -28,7 +31,7 @@ class Where(NamedTuple):
 
 
 class Binding(NamedTuple):
-    """A name gets a value. ``value`` is None when nothing is known about it."""
+    """The binding of a name. ``value`` is None if it is unknown."""
 
     value: ast.expr | None
     where: Where
@@ -41,15 +44,15 @@ class Expression(NamedTuple):
     node: ast.expr
     where: Where
     inner: list[ast.AST]
-    """The node and all below it."""
+    """The node and all its descendants."""
     targets: tuple[ast.expr, ...] = ()
-    """What the statement assigns its value to, or the elements of its value."""
+    """The targets that the statement assigns the value, or its elements, to."""
 
 
 class Scope:
-    """A module, a function or a class.
+    """The scope of a module, a function or a class.
 
-    ``shared`` are the names of modules and classes, which functions in them may use; of a function, only inner ones.
+    ``shared`` is True for modules and classes, whose names the functions in them may use, and False for functions.
     """
 
     __slots__ = ("bindings", "parent", "shared")
@@ -63,7 +66,7 @@ class Scope:
         self.bindings.setdefault(name, []).append(Binding(value, where, steps))
 
     def find(self, name: str) -> Scope | None:
-        """Return the scope that a name belongs to."""
+        """Return the scope that binds a name."""
         scope: Scope | None = self
         while scope is not None and name not in scope.bindings:
             scope = scope.parent
@@ -71,7 +74,7 @@ class Scope:
 
 
 def scan(tree: ast.Module) -> list[Expression]:
-    """Return the expressions of a module in the order of the text; their scopes know every binding."""
+    """Return the expressions of a module in textual order. Their scopes contain all bindings."""
     scanner = _Scanner()
     scanner.block(tree.body, Scope(None), ())
     return scanner.expressions
@@ -132,7 +135,7 @@ class _Scanner:
                 self._other(statement, where)
 
     def _other(self, statement: ast.stmt, where: Where) -> None:
-        """If, while, try, match, return and the rest: expressions and blocks wherever they are."""
+        """Handle if, while, try, match, return and other statements: all their expressions and blocks."""
         for name, value in ast.iter_fields(statement):
             if isinstance(value, ast.expr):
                 self._expression(value, where)
@@ -146,7 +149,7 @@ class _Scanner:
                     self._part(item, where)
 
     def _part(self, item: object, where: Where) -> None:
-        """Handlers of errors, cases of match, and the names of global and nonlocal: each binds names, or has a block."""
+        """Bind the names and enter the block of an exception handler, a case, or a name of global or nonlocal."""
         names: list[str | None] = []
         if isinstance(item, ast.ExceptHandler):
             names = [item.name]
@@ -198,7 +201,7 @@ class _Scanner:
 
 
 def nodes(node: ast.AST) -> list[ast.AST]:
-    """Return a node and all below it. Faster than ``ast.walk``, and in no order."""
+    """Return a node and all its descendants, in no order. Faster than ``ast.walk``."""
     found = [node]
     for inner in found:
         for name in inner._fields:
@@ -211,7 +214,7 @@ def nodes(node: ast.AST) -> list[ast.AST]:
 
 
 def reaching(name: str, where: Where) -> Iterator[Binding] | None:
-    """Return the bindings that a name may have at a point of the program; None when nobody binds it."""
+    """Return the bindings that may reach a name at a point of the program, None if nothing binds it."""
     scope = where.scope.find(name)
     if scope is None:
         return None
@@ -220,11 +223,11 @@ def reaching(name: str, where: Where) -> Iterator[Binding] | None:
         place = (where.line, where.column)
         before = [binding for binding in bindings if (binding.where.line, binding.where.column) < place]
         return iter(_last(before, where.block) or bindings)
-    return iter(_last(bindings, ()))  # when a function runs, everything around it is bound
+    return iter(_last(bindings, ()))  # everything around a function is bound when it runs
 
 
 def _last(bindings: Sequence[Binding], block: Block) -> list[Binding]:
-    """Return the last binding that is certain to have happened, and those after it that may have."""
+    """Return the last binding that certainly happened, and the later ones that may have happened."""
     found: list[Binding] = []
     for binding in bindings:
         own = binding.where.block

@@ -1,4 +1,4 @@
-"""Errors and the result of parsing Python sources."""
+"""The exceptions and the result of parsing Python sources."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from ros_lint.facts.visibility import NewerSyntax
 
 
 class NotPythonError(Exception):
-    """A source is no Python of any version. :func:`refusal` says why."""
+    """A source is not valid Python of any version. :func:`refusal` returns the reason."""
 
 
 class TooDeepError(NotPythonError):
-    """A source exceeds a bound of ros-lint. It may be Python all the same."""
+    """A source exceeds a limit of ros-lint. It may still be valid Python."""
 
     def __init__(self, message: str, span: Span) -> None:
         super().__init__(message)
@@ -23,8 +23,8 @@ class TooDeepError(NotPythonError):
 
 
 class Parsed(NamedTuple):
-    """A source that some version of Python reads."""
+    """A source that some version of Python accepts."""
 
     tree: ast.Module
     newer: tuple[NewerSyntax, ...]
-    """What came later than Python 3.10, in order."""
+    """Constructs that were added after Python 3.10, in order."""

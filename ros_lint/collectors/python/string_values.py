@@ -1,4 +1,4 @@
-"""Texts and paths in a Python source, as far as constants and looked-up packages give them."""
+"""Texts and paths in a Python source that can be computed from constants and package look-ups."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from ros_lint.collectors.python.scopes import Binding, Step, Where, reaching
 from ros_lint.collectors.symbolic_text import prefix, share
 
 _MOST: Final = 16
-"""How many values of an expression are kept apart."""
+"""The maximum number of alternative values of an expression."""
 _DEEPEST: Final = 40
 _LONGEST: Final = 10_000
 
 Values = tuple["str | None", ...]
-"""Every text that an expression may have, None among them when it may be something unknown; never empty."""
+"""The possible texts of an expression, never empty. None among them is an unknown value."""
 
 ANYTHING: Values = (None,)
 
 _SHARE = frozenset({"FindPackageShare", "FindPackageShareDirectory", "get_package_share_directory", "get_package_share_path"})
 _PREFIX = frozenset({"FindPackage", "FindPackagePrefix", "get_package_prefix"})
 LOOK_UPS = _SHARE | _PREFIX
-"""Functions and substitutions that find a package; their first argument names it."""
+"""Functions and substitutions that find a package, whose name is the first argument."""
 _PATHS = frozenset({"Path", "PurePath", "PosixPath", "PurePosixPath"})
 _THROUGH = _PATHS | {"str", "fspath", "abspath", "realpath", "expanduser", "normpath"}
 _SAME_METHODS = frozenset({"as_posix", "resolve", "absolute", "expanduser", "strip"})
 
 
 def callee(node: ast.Call) -> str:
-    """Return the last name of what is called: ``join`` of ``os.path.join(...)``."""
+    """Return the last name of the called function: ``join`` of ``os.path.join(...)``."""
     function = node.func
     if isinstance(function, ast.Attribute):
         return function.attr
@@ -38,7 +38,7 @@ def callee(node: ast.Call) -> str:
 
 
 def dotted(node: ast.expr) -> str:
-    """Return a dotted name as it is written, such as ``os.path.join``, "" for anything else."""
+    """Return a dotted name such as ``os.path.join``, "" for any other expression."""
     names: list[str] = []
     while isinstance(node, ast.Attribute):
         names.append(node.attr)
@@ -47,7 +47,7 @@ def dotted(node: ast.expr) -> str:
 
 
 def argument(node: ast.Call, *names: str) -> ast.expr | None:
-    """Return the argument that has one of some names, or else the first one."""
+    """Return the argument with one of some keywords, else the first positional one."""
     for keyword in node.keywords:
         if keyword.arg in names:
             return keyword.value
@@ -56,20 +56,23 @@ def argument(node: ast.Call, *names: str) -> ast.expr | None:
 
 
 class Evaluator:
-    """Evaluates expressions of one file. Each is evaluated once."""
+    """Evaluates expressions of one file, each of them once."""
 
     def __init__(self) -> None:
         self._done: dict[int, Values] = {}
         self._depth = 0
 
     def values(self, node: ast.expr | None, where: Where) -> Values:
-        """Return the texts that an expression may have. Packages are where :mod:`ros_lint.collectors.symbolic_text` says."""
+        """Return the possible texts of an expression.
+
+        Install places are written as in :mod:`ros_lint.collectors.symbolic_text`.
+        """
         if node is None or self._depth > _DEEPEST:
             return ANYTHING
         done = self._done.get(id(node))
         if done is not None:
             return done
-        self._done[id(node)] = ANYTHING  # for a name that is defined by itself
+        self._done[id(node)] = ANYTHING  # for a name whose definition uses itself
         self._depth += 1
         try:
             handler = _HANDLERS.get(type(node))
@@ -97,7 +100,7 @@ class Evaluator:
                 yield from self.values(node, binding.where)
 
     def _take(self, node: ast.expr, steps: tuple[Step, ...]) -> list[ast.expr]:
-        """Return the expressions that a target takes from lists that are written out; none when it cannot be told."""
+        """Return the parts of a literal list that a target takes, [] if they are unknown."""
         nodes = [node]
         for step in steps:
             following: list[ast.expr] = []

@@ -1,4 +1,4 @@
-"""The names that a Python module has at its top level."""
+"""The names that a Python module binds at its top level."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 
 def collect(name: str, path: str, source: Text) -> PythonModule:
-    """Return what a module defines or imports. ``name`` is dotted, ``path`` relative to the package.
+    """Return the names that a module defines or imports.
 
-    A module is open, that is, may have other names, with ``import *``, ``__getattr__``, ``globals()`` or ``exec()``, and
-    when it cannot be read.
+    ``name`` is dotted, ``path`` relative to the package. A module is open, that is, may have other names, if it
+    contains ``import *``, ``__getattr__``, ``globals()`` or ``exec()``, or does not parse.
     """
     try:
         tree = parse(source)

@@ -1,4 +1,4 @@
-"""Names in Python that nothing binds, and what stands where errors are caught."""
+"""Unbound names in Python, and the code in which exceptions are caught."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Iterable, Iterator
 from ros_lint.collectors.python.versions import BUILTINS
 
 _ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
-"""What can bind names that are not written."""
+"""Functions that can bind names which are not in the source."""
 _MODULE = frozenset({"__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__", "__path__"})
 _KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
-"""What Python binds, with what it does so only when it starts as people start it, or elsewhere."""
+"""Names that Python binds, also those of interactive sessions or of Windows only."""
 
 
 def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
-    """Yield those names of a module that were met, bound by nothing, of which it is sure that Python stops there."""
+    """Yield the names among ``met`` that certainly raise NameError, each once."""
     names = [node for node in met if node.id not in _KNOWN]
     if not names:
         return
@@ -44,11 +44,11 @@ def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
             guarded.update(tried(node))
     for node in names:
         if node.id not in bound and node not in guarded:
-            bound.add(node.id)  # once is enough
+            bound.add(node.id)  # reported once
             yield node
 
 
 def tried(node: ast.Try) -> Iterator[ast.AST]:
-    """Yield all that stands where an error is caught."""
+    """Yield the nodes of a try statement whose exceptions are caught."""
     for statement in node.body:
         yield from ast.walk(statement)

@@ -1,4 +1,4 @@
-"""The Python of each distribution, and what its standard library has."""
+"""The Python version of each distribution, and the names of its standard library."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ PYTHON_OF: Final[Mapping[str, Version]] = {
     "lyrical": (3, 14),
     "rolling": (3, 14),
 }
-"""The Python on the Ubuntu of tier 1: Jammy, Noble, Noble, Resolute, Resolute.
+"""The Python version of the Ubuntu release of tier 1: Jammy, Noble, Noble, Resolute, Resolute.
 
 Source: REP 2000 up to Kilted, and "Lyrical Luth Supported Platforms" of docs.ros.org ("Python 3.12 - 3.14").
 """
 
-# What one version from 3.10 to 3.14 has and another has not: the answer must not depend on the Python that runs.
+# Modules that only some versions from 3.10 to 3.14 have: the result must not depend on the Python that runs.
 _SOME_PYTHONS: Final = """
 __future__ __main__ _thread aifc annotationlib asynchat asyncore audioop binhex cgi cgitb chunk compression crypt
 distutils imghdr imp lib2to3 mailcap msilib nis nntplib ossaudiodev pipes smtpd sndhdr spwd sunau telnetlib tomllib uu
@@ -33,9 +33,9 @@ xdrlib
 STANDARD_LIBRARY: Final = frozenset([*_SOME_PYTHONS.split(), *(name for name in sys.stdlib_module_names if name[0] != "_")])
 """Top-level modules of Python's standard library, of any version from 3.10 to 3.14."""
 BUILTINS: Final = frozenset(dir(builtins)) | {"BaseExceptionGroup", "ExceptionGroup", "PythonFinalizationError"}
-"""The names that Python has everywhere, in any version from 3.10 to 3.14."""
+"""The builtin names of Python, of any version from 3.10 to 3.14."""
 MATH: Final = frozenset(dir(math)) | {"cbrt", "exp2", "fma", "sumprod"}
-"""The names of the module math, in any version from 3.10 to 3.14."""
+"""The names of the module ``math``, of any version from 3.10 to 3.14."""
 
 
 def too_new(syntax: Iterable[NewerSyntax], distro: str) -> Iterator[Problem]:

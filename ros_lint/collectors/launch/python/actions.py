@@ -213,7 +213,7 @@ def _silent(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[
 
 
 _DECLARES = re.compile(r"Declare\w*Arg(?:ument)?\Z")
-"""Classes of other packages that declare an argument: ``DeclareBooleanLaunchArg`` (moveit_configs_utils)"""
+"""Classes that declare an argument, as ``DeclareBooleanLaunchArg`` of moveit_configs_utils does."""
 
 _RULES: Mapping[str, Rule] = {
     **launch_py_nodes.RULES,

@@ -1,1 +1,1 @@
-"""An interpreter of Python that follows programs symbolically and executes nothing."""
+"""An interpreter of Python that evaluates programs symbolically and executes nothing."""

@@ -1,4 +1,4 @@
-"""Statements of Python launch files that give names their values: assignments, imports, and what says whose a name is."""
+"""Interpretation of statements that bind names: assignments, imports, deletions, global and nonlocal."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
         machine.spend(len(found))
         one += [machine.guard(element) for element in found]
         return
-    # A text that is added to is still the one that was written before.
+    # An augmented text keeps the place of the original text.
     where = one.node if isinstance(one, Written) and one.source is frame.source else node.value
     bind(machine, node.target, operation(machine, node.op, before, value, where, frame), frame)
 
 
 def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> None:
-    """Give a value to a target of an assignment."""
+    """Assign a value to a target."""
     if isinstance(target, ast.Name):
         around = frame.declared.get(target.id)
         if around is not None and machine.conditions and target.id in around.names:
@@ -117,7 +117,7 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
 
 
 def _key(machine: Interpreter, node: ast.expr, frame: Frame) -> Value:
-    """Return what stands between brackets: a value, or a slice if it is one whose ends are known."""
+    """Return the value of a subscript, or a slice object if all bounds of the slice are known."""
     if not isinstance(node, ast.Slice):
         return plain(machine.evaluate(node, frame))
     ends = [plain(machine.evaluate(end, frame)) if end is not None else None for end in (node.lower, node.upper, node.step)]
@@ -203,7 +203,7 @@ def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
 
 
 def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
-    """Remove an element of a list or a dictionary; an element that is removed only under conditions is perhaps there."""
+    """Remove an item of a list or dictionary. Under conditions, the item is marked as perhaps missing."""
     if isinstance(owner, dict):
         key = hashable(machine, key)
         known = UNKNOWN not in owner and key != UNKNOWN
@@ -233,4 +233,4 @@ STATEMENTS: dict[type[ast.stmt], Callable[[Interpreter, Any, Frame], None]] = {
     ast.Nonlocal: _nonlocal,
     ast.Delete: _delete,
 }
-"""How each is followed. After all of them the next statement comes."""
+"""The handlers of statements after which the next statement runs."""

@@ -1,8 +1,8 @@
-"""Branches and loops of Python launch files.
+"""Interpretation of branches and loops.
 
-Where a branch depends on what is not known, both sides are followed on the same objects, under a condition each, and
-names that differ afterwards stand for one of several values. Where a side leaves its block, the rest of the block runs
-under the opposite condition.
+If a condition is unknown, both sides are interpreted on the same objects, each under its condition. A name with
+different values afterwards has both as alternatives. If a side leaves its block, the rest of the block runs under the
+opposite condition.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ if TYPE_CHECKING:
 
 _MOST_TURNS = 2_000
 _MOST_EXITS = 100
-"""After how many turns that may leave an endless loop the loop counts as left."""
+"""The number of conditional exits after which an endless loop counts as left."""
 
 NEXT, CONTINUE, BREAK, LEAVE = range(4)
-"""How a statement ends: with the next one, or by leaving a turn, a loop or the function."""
+"""The ways in which a statement ends: with the next one, or by leaving an iteration, loop or function."""
 
 
 class _Side(NamedTuple):
-    """A side of a branch that was followed."""
+    """The result of interpreting one side of a branch."""
 
     block: Sequence[ast.stmt]
     taken: LaunchCondition
@@ -53,7 +53,7 @@ class _Side(NamedTuple):
     conditions: Conditions
     """All conditions that hold at its end."""
     exits: list[Exit]
-    """The ways out within it."""
+    """The conditional exits within it."""
 
 
 def either(
@@ -65,15 +65,15 @@ def either(
     *,
     loop: bool = False,
 ) -> int:
-    """Follow both sides of a branch, and join what they leave behind.
+    """Interpret both sides of a branch, and join their results.
 
-    ``loop`` says that the first side is the body of a loop that runs any number of times.
+    ``loop`` is True if the first side is the body of a loop that runs any number of times.
     """
     condition = machine.fresh(condition)
     before, start = machine.conditions, frame.names
     first = _follow(machine, body, condition, before, start, frame, loop=loop)
     second = _follow(machine, other, opposite_of(condition), before, start, frame)
-    # Where the sides differ, the rest runs only after the side that goes on, or that leaves less.
+    # If the sides end differently, the rest runs only after the side that continues, or that leaves fewer blocks.
     signal = min(first.signal, second.signal)
     rest: list[LaunchCondition] = []
     for side in (first, second):
@@ -83,12 +83,12 @@ def either(
             continue
         stops = side.signal == LEAVE and _stops(side.block)
         if stops:
-            machine.asked.pop(condition.texts, None)  # it does not do without
+            machine.asked.pop(condition.texts, None)  # the program does not continue without the file
         if stops and gives_up(side.block, everywhere=not before):
             continue
         rest.append(opposite_of(side.taken))
         if stops:
-            continue  # around the branch, only what happens when nothing fails counts
+            continue  # code after the branch counts as unconditional, because the branch only handles a failure
         if side.signal == LEAVE and all(one.signal == LEAVE for one in side.exits):
             frame.exits.append(Exit(LEAVE, (*before, side.taken), side.names))
         else:
@@ -131,7 +131,7 @@ def _follow(
 
 
 def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
-    """Join other names, which hold under conditions, to those of a frame."""
+    """Join names that hold under conditions to those of a frame, which hold under ``held``."""
     for name, value in names.items():
         if name not in frame.names:
             frame.names[name] = value
@@ -145,13 +145,13 @@ def _join_exit(machine: Interpreter, frame: Frame, one: Exit, around: Conditions
 
 
 def _beyond(one: Exit, around: Iterable[LaunchCondition]) -> Conditions:
-    """Return the conditions of a way out beyond those that hold around it anyway."""
+    """Return the conditions of an exit, except those that hold around it."""
     known = list(around)
     return tuple([condition for condition in one.conditions if condition not in known])
 
 
 def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
-    """Return what must be so for none of some ways out to be taken, where ``depth`` conditions hold around them."""
+    """Return the conditions under which no exit is taken, if ``depth`` conditions hold around them."""
     bars: list[LaunchCondition] = []
     for one in exits:
         bars.append(_complement(machine, _beyond(one, (*one.conditions[:depth], *bars))))
@@ -159,7 +159,7 @@ def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[Launc
 
 
 def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition:
-    """Return the condition that holds when not all of some conditions hold."""
+    """Return the condition that holds if not all of some conditions hold."""
     if len(conditions) == 1:
         return opposite_of(conditions[0])
     parts = [_negated(condition) for condition in conditions]
@@ -169,7 +169,7 @@ def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition
 
 
 def _negated(condition: LaunchCondition) -> str | None:
-    """Return an expression of Python that is true when a condition does not hold; None if it is open what the condition asks."""
+    """Return a Python expression for the opposite of a condition, None if the condition is unknown."""
     text = condition.texts[0]
     if len(condition.texts) > 1 or UNKNOWN in text or asked_for(text):
         return None
@@ -179,16 +179,16 @@ def _negated(condition: LaunchCondition) -> str | None:
 
 
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
-    """Return whether a block stops the whole launch file, so that what is beyond is what it does whenever it works.
+    """Return whether a block stops the whole launch file, so that the code after it is unconditional.
 
-    An error that is raised within a branch says what those who take the branch have to install.
+    Raising an error in a branch does not count: its message says what users of that branch have to install.
     """
     last = body[-1] if body else None
     return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
 
 
 def _stops(body: Sequence[ast.stmt]) -> bool:
-    """Return whether a block ends the program, unless what it raises is caught."""
+    """Return whether a block ends the program, unless its exception is caught."""
     last = body[-1] if body else None
     if isinstance(last, ast.Raise):
         return True
@@ -196,7 +196,7 @@ def _stops(body: Sequence[ast.stmt]) -> bool:
 
 
 class _Loop:
-    """A loop whose turns are followed one after the other."""
+    """A loop whose iterations are interpreted one by one."""
 
     def __init__(self, machine: Interpreter, frame: Frame) -> None:
         self._machine = machine
@@ -204,14 +204,14 @@ class _Loop:
         self._before = machine.conditions
         self._known = len(frame.exits)
         self._bars: list[LaunchCondition] = []
-        """The conditions under which the loop goes on after the turns so far."""
+        """The conditions under which the loop continues after the iterations so far."""
         self.exits: list[Exit] = []
-        """The ways out of the loop."""
+        """The exits of the loop."""
         self.ended = False
-        """True if a way out is taken for certain."""
+        """True if an exit is certainly taken."""
 
     def turn(self, body: Sequence[ast.stmt], guards: Conditions = ()) -> None:
-        """Follow a turn, which happens under some conditions."""
+        """Interpret an iteration, which runs under the conditions ``guards``."""
         machine, frame = self._machine, self._frame
         around = machine.conditions = (*self._before, *self._bars, *guards)
         signal = machine.execute(body, frame)
@@ -230,7 +230,7 @@ class _Loop:
         machine.conditions = (*self._before, *self._bars)
 
     def end(self, orelse: Sequence[ast.stmt]) -> int:
-        """Follow what comes after the last turn, and join what the ways out leave behind."""
+        """Interpret the else block after the last iteration, and join the results of the exits."""
         machine, frame = self._machine, self._frame
         breaks = [one for one in self.exits if one.signal == BREAK]
         leaves = [one for one in self.exits if one.signal == LEAVE]
@@ -251,7 +251,7 @@ class _Loop:
 
 
 def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
-    """Follow a for loop. Raises Raised and OutOfBudget."""
+    """Interpret a for loop. Raises ProgramRaised and BudgetExceeded."""
     values = items(machine, machine.evaluate(node.iter, frame))
     if values is None:
         bind(machine, node.target, Unknown("element of what is not known"), frame)
@@ -270,7 +270,7 @@ def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame)
 
 
 def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
-    """Follow a while loop. Raises Raised and OutOfBudget."""
+    """Interpret a while loop. Raises ProgramRaised and BudgetExceeded."""
     loop = _Loop(machine, frame)
     for _ in range(_MOST_TURNS):
         machine.spend(1)
@@ -287,5 +287,5 @@ def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
 
 
 def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
-    """Follow a block that may run any number of times."""
+    """Interpret a block that may run any number of times."""
     return either(machine, body, (), PERHAPS, frame, loop=True)

@@ -1,4 +1,4 @@
-"""What the functions of Python and its libraries return, as far as launch files need it."""
+"""Models of the functions of Python and of common libraries."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def _pair(index: int, value: Value) -> Value:
 
 
 def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
-    """Apply a function to a value inside of the conditions around it."""
+    """Apply a function to a value, and keep the conditions around it."""
     if isinstance(value, Guarded):
         return Guarded(_keep(value.value, function), value.conditions)
     return function(value)
@@ -134,7 +134,7 @@ def _isinstance(call: Call) -> Value:
     names = {one.last for one in kinds if isinstance(one, LibraryName)}
     if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
         if isinstance(value, list) and any("set" in name.lower() for name in names):
-            return Unknown("a kind")  # a set is kept as a list
+            return Unknown("a kind")  # sets are represented by lists
         return any(_is_of(value, name) for name in names)
     if isinstance(value, LaunchObject) and len(names) == len(kinds):
         return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
@@ -144,7 +144,10 @@ def _isinstance(call: Call) -> Value:
 
 
 def _is_of(value: Value, name: str) -> bool:
-    """Return whether a known value is of a class of Python, collections.abc, numbers or typing, by the name of the class."""
+    """Return whether a known value is an instance of a builtin or abstract class, by the class name.
+
+    The name is one of builtins, collections.abc, numbers or typing.
+    """
     if name == "NoneType":
         return value is None
     kinds = [getattr(module, name, None) for module in (builtins, collections.abc, numbers)]
@@ -162,7 +165,7 @@ def _getattr(call: Call) -> Value:
 
 
 def _fields(call: Call) -> Value:
-    """``dataclasses.fields()``: what has a name, each."""
+    """Return objects with the names of the fields, as ``dataclasses.fields()`` does."""
     given = plain(call.get(0))
     cls = given.cls if isinstance(given, Instance) else given
     if not isinstance(cls, Class):
@@ -178,7 +181,7 @@ def _fields(call: Call) -> Value:
 def _open(call: Call) -> Value:
     found, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
     if isinstance(mode, str) and not _MAKES.isdisjoint(mode):
-        call.machine.ask(found)  # it need not be there before
+        call.machine.ask(found)  # the file need not exist before
     if len(found) != 1 or (isinstance(mode, str) and not _WRITES.isdisjoint(mode)):
         return Unknown("a file")
     return call.machine.open_file(found[0], next(iter(call.node.args), call.node), call.frame.source)
@@ -223,7 +226,7 @@ def _copied_whole(call: Call) -> Value:
 
 
 def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
-    """Return a value with new lists and dictionaries all the way down, the same one where the same one was."""
+    """Return a copy with new lists and dictionaries at all levels; shared ones remain shared."""
     if isinstance(value, Guarded):
         return Guarded(_deep(machine, value.value, done), value.conditions)
     if isinstance(value, Union):
@@ -264,7 +267,7 @@ BUILTINS: Mapping[str, Value] = {
         )
     ),
 }  # fmt: skip
-"""Names that Python binds."""
+"""The builtin names of Python."""
 
 FUNCTIONS: Mapping[str, Rule] = {
     **container_functions.FUNCTIONS,
@@ -295,4 +298,4 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.input": unknown_text,
     "builtins.type": unknown,
 }
-"""What functions return, by their full names."""
+"""The models of functions, by their full names."""

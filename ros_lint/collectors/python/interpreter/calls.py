@@ -1,4 +1,4 @@
-"""A call of a library's function in a Python launch file."""
+"""Calls of library functions, as their models receive them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Call:
-    """A call of a library: whose it is, what it gets, where it stands."""
+    """A call of a library function: its name, arguments and place."""
 
     __slots__ = ("arguments", "frame", "keywords", "machine", "name", "node")
 
@@ -38,7 +38,7 @@ class Call:
         return self.arguments[position] if position < len(self.arguments) else None
 
     def texts(self, position: int, *names: str) -> tuple[str, ...]:
-        """Return an argument as texts, for a function that takes no None: where it is None, Python goes no further."""
+        """Return the texts of an argument. Alternatives that are None are ignored, as Python would fail there."""
         value = self.get(position, *names)
         if isinstance(value, Union):
             value = union(one for one in alternatives(value) if one.value is not None)
@@ -55,13 +55,13 @@ Rule = Callable[[Call], Value]
 
 
 def unknown(call: Call) -> Value:
-    """Return what a function returns of which nothing is known: what it got may go anywhere."""
+    """Return the unknown result of an unknown function. Its arguments escape."""
     call.machine.escape([call.arguments, call.keywords])
     return Unknown(f"{call.name.rpartition('.')[2]}()")
 
 
 def unknown_text(call: Call) -> Value:
-    """Return a text of which nothing is known."""
+    """Return an unknown text."""
     return written(UNKNOWN, call.node, call.frame.source)
 
 

@@ -1,4 +1,4 @@
-"""Functions of Python on collections in Python launch files. An element may be there only under conditions."""
+"""Models of Python's functions on collections, whose elements may exist only under conditions."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _zip(call: Call) -> Value:
 
 
 def _rows(call: Call, start: int) -> list[tuple[list[Value], Conditions]] | None:
-    """Return what zip() makes of the arguments from a position on, with the conditions of each row; None if it is unknown."""
+    """Return the rows of zip() over the arguments from ``start`` on with their conditions, or None."""
     columns = [items(call.machine, argument) for argument in call.arguments[start:]]
     if any(column is None for column in columns):
         return None
@@ -41,7 +41,7 @@ def _under(conditions: Conditions, value: Value) -> Value:
 
 
 def _extreme(function: Callable[..., int]) -> Rule:
-    """Return the rule for min() or max()."""
+    """Return the model of min() or max()."""
 
     def rule(call: Call) -> Value:
         values = call.items(0) if len(call.arguments) == 1 else call.arguments
@@ -106,7 +106,7 @@ def _any_all(wanted: bool) -> Rule:
 
 
 def _answer(machine: Interpreter, value: Value, wanted: bool) -> bool | None:
-    """Return whether an element is true; None if that is unknown, or if the element may be missing and would decide."""
+    """Return the truth of an element, None if it is unknown or the element may be missing and would decide."""
     answer, _ = truth(machine, value)
     return None if answer is wanted and isinstance(value, Guarded) else answer
 
@@ -154,4 +154,4 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.max": _extreme(max),
     "builtins.sum": _sum,
 }
-"""The rules of functions, by their full names."""
+"""The models of functions, by their full names."""

@@ -1,4 +1,4 @@
-"""Expressions of Python launch files."""
+"""Evaluation of Python expressions."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _tuple(machine: Interpreter, node: ast.Tuple, frame: Frame) -> Value:
 
 
 def _set(machine: Interpreter, node: ast.Set, frame: Frame) -> Value:
-    # Kept as a list: its order is of no account, and what is in it need not have a hash.
+    # Represented by a list, because its order does not matter and its elements need not be hashable.
     found = _elements(machine, node.elts, frame)
     return unique(found) if isinstance(found, list) else found
 
@@ -159,7 +159,9 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
             machine.record_misuse(value, "tested", part, frame)
         answer, condition = truth(machine, value)
         if part is node.values[-1] or answer is stop_at:
-            if not (value == "" and any(isinstance(plain(one), Unknown) for one in perhaps)):  # any value, and so an empty text
+            if not (
+                value == "" and any(isinstance(plain(one), Unknown) for one in perhaps)
+            ):  # an unknown value may be an empty text
                 perhaps.append(Guarded(value, passed) if passed else value)
             break
         if answer is None:
@@ -174,7 +176,7 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
 
 
 def _together(values: list[Value], word: str) -> Value:
-    """Return comparisons, all of which wait for arguments, as one truth; None for anything else."""
+    """Return comparisons of unknown texts as one unknown truth, None if any value is something else."""
     parts: list[str] = []
     for value in values:
         condition = value.condition if isinstance(value, Unknown) else None
@@ -264,7 +266,7 @@ def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
             machine.escape(value)
     if not isinstance(function, (Guarded, Union)):
         return machine.call(function, arguments, keywords, node, frame)
-    # Each is called only where it is the one.
+    # Each alternative is called only under its conditions.
     found: list[Value] = []
     for one in alternatives(plain(function)):
         with suppress(ProgramRaised), machine.under(*one.conditions):
@@ -279,7 +281,7 @@ def _lambda(machine: Interpreter, node: ast.Lambda, frame: Frame) -> Value:
 
 
 def _inside(node: ast.expr, frame: Frame) -> Frame:
-    """Return the names of a comprehension. What ``:=`` names in it has its name in the function around it."""
+    """Return the frame of a comprehension. A ``:=`` in it binds its name in the surrounding function."""
     inner = Frame(frame.source, frame, {})
     if frame.source.assigns_inside:
         names = [one.target.id for one in ast.walk(node) if isinstance(one, ast.NamedExpr)]
@@ -292,7 +294,7 @@ def _comprehension(machine: Interpreter, node: ast.ListComp | ast.SetComp | ast.
     inner = _inside(node, frame)
     of = machine.evaluate(node.generators[0].iter, inner)
     if isinstance(of, LibraryName) and of.name == INSTALLED:
-        return of  # whatever is made of each: who asks what is in it asks what is installed
+        return of  # whatever the element is: a membership test of the result asks for installed packages
     _generate(machine, node.generators, of, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
     return unique(found) if isinstance(node, ast.SetComp) else found
 
@@ -312,7 +314,7 @@ def _dict_comprehension(machine: Interpreter, node: ast.DictComp, frame: Frame) 
 def _generate(
     machine: Interpreter, generators: list[ast.comprehension], of: Value, frame: Frame, produce: Callable[[], None]
 ) -> None:
-    """Produce something for every choice of elements; ``of`` is what the first generator goes through."""
+    """Call ``produce`` for every combination of elements; ``of`` is the iterable of the first generator."""
     first, rest = generators[0], generators[1:]
     values = items(machine, of)
     guards: list[tuple[Value, Conditions]] = []

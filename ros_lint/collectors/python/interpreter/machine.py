@@ -1,8 +1,8 @@
-"""Statements and calls of Python launch files: a machine that follows the program and runs nothing.
+"""The interpreter of modules and calls: it evaluates programs symbolically and runs nothing.
 
-Where a branch depends on what is not known, both sides are followed on the same objects, under a condition each, and
-names that differ afterwards stand for one of several values. Steps, depth and sizes are bounded; what goes beyond the
-bounds is not known.
+If a condition is unknown, both sides of a branch are interpreted on the same objects, each under its condition. A
+name with different values afterwards has both as alternatives. Steps, depth and sizes are limited; values beyond the
+limits are unknown.
 """
 
 from __future__ import annotations
@@ -56,10 +56,14 @@ _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
 class Machine(Interpreter):
-    """Follows one launch file and the modules that it imports."""
+    """Interprets one launch file and the modules that it imports."""
 
     def __init__(self, modules: Modules, files: Callable[[str], Value], library: Library) -> None:
-        """``modules`` finds modules of the workspace, ``files`` texts of its files, ``library`` interprets other modules."""
+        """Start an interpreter.
+
+        ``modules`` finds modules of the workspace, ``files`` returns the texts of its files, ``library`` interprets
+        all other modules.
+        """
         super().__init__(library)
         self._modules = modules
         self._files = files
@@ -71,18 +75,18 @@ class Machine(Interpreter):
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
     def spend(self, steps: int) -> None:
-        """Count steps. Raises OutOfBudget."""
+        """Count steps. Raises BudgetExceeded."""
         self._left -= steps
         if self._left < 0:
             raise BudgetExceeded
 
     def grant(self) -> None:
-        """Allow some more steps: for what is left to do when the others were not enough."""
+        """Grant additional steps, for the work that remains after the budget is exceeded."""
         self._left = STEPS // 4
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Follow something that happens only under conditions."""
+        """Interpret a block under conditions."""
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:
@@ -93,7 +97,7 @@ class Machine(Interpreter):
     # --- modules --------------------------------------------------------------------------------------------------
 
     def run(self, tree: ast.Module, source: Source) -> Frame:
-        """Follow the statements of a module."""
+        """Interpret the statements of a module."""
         frame = Frame(source, None, source.names)
         source.names.setdefault("__name__", "launch_file")
         with suppress(ProgramRaised):
@@ -102,13 +106,13 @@ class Machine(Interpreter):
         return frame
 
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
-        """Return a module of the workspace, or a model of a released module, followed once; None for any other module."""
+        """Return a module of the workspace or a model of a released one, interpreted once; None for others."""
         top = name.partition(".")[0]
         known = top in STANDARD_LIBRARY or self.library.describes(top)
         key = f"{importer.text.path}:{name}" if name.startswith(".") else name
         if key in self._sources:
             return self._sources[key]
-        self._sources[key] = None  # while it is followed: modules may import each other
+        self._sources[key] = None  # while it is interpreted, because modules may import each other
         module = None if known else self._modules(name, importer.text)
         if module is not None:
             found = self._sources[key] = Source(module.text)
@@ -124,7 +128,7 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return what a helper of a released package does as if it stood where it is called, and the text around it."""
+        """Return a helper of a released package with all nodes placed at the call, and the source of the call."""
         key = id(function.node), id(call)
         if key not in self._placed:
             self.spend(100)
@@ -132,25 +136,25 @@ class Machine(Interpreter):
                 placed(function.node, call),
                 function.node,
                 call,
-            )  # as long as they are here, no other has their ids
+            )  # keeps the objects alive, so that no other object gets their ids
         source = function.frame.source
         return self._placed[key][0], source if source.text is caller.text else Source(caller.text, lent=True)
 
     # --- statements -----------------------------------------------------------------------------------------------
 
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
-        """Return the value of an expression. Raises Raised and OutOfBudget."""
+        """Return the value of an expression. Raises ProgramRaised and BudgetExceeded."""
         self._left -= 1
         if self._left < 0:
             raise BudgetExceeded
         return EVALUATE[type(node)](self, node, frame)
 
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Follow statements, and return how they end. Raises Raised and OutOfBudget."""
+        """Interpret statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
         return execute(self, body, frame)
 
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
-        """Return a function of the program."""
+        """Return the value of a function definition."""
         found = Function(node, frame)
         found.defaults = [self.evaluate(default, frame) for default in node.args.defaults]
         for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
@@ -161,17 +165,17 @@ class Machine(Interpreter):
     # --- calls ----------------------------------------------------------------------------------------------------
 
     def builtin(self, node: ast.Name, frame: Frame) -> Value:
-        """Return what a name means that the program does not bind."""
+        """Return the value of a name that the program does not bind."""
         if node.id == "__file__":
             return BUILTINS["__file__"]
         if node.id in BUILTINS:
             return LibraryName(f"builtins.{node.id}")
         self.unbound.append((node, frame.source))
-        # Python would stop here; what is meant is mostly plain.
+        # Python raises NameError here, but the intended meaning is mostly obvious.
         return LibraryName(node.id)
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        """Return what calling a value returns."""
+        """Return the result of a call."""
         self.spend(1)
         if isinstance(function, LibraryName):
             return self.library.call(self, function.name, arguments, keywords, node, frame)
@@ -185,7 +189,7 @@ class Machine(Interpreter):
             except ProgramRaised:
                 if function.frame.source is frame.source:
                     raise
-                # A helper is more likely to be misread than to fail.
+                # Its model or interpretation is more likely to be wrong than the program.
                 self.escape([arguments, keywords])
                 return Unknown(f"{getattr(function.node, 'name', 'a function')}() cannot be followed")
         if isinstance(function, Bound):
@@ -245,7 +249,7 @@ class Machine(Interpreter):
         except ProgramRaised:
             if not frame.returned:
                 raise
-            signal = LEAVE  # this way out of several ends here
+            signal = LEAVE  # this branch raises, but another one returned
         finally:
             self._under_way.pop()
             self._left = left - (allowed - self._left)
@@ -264,7 +268,7 @@ class Machine(Interpreter):
     # --- what the library needs -----------------------------------------------------------------------------------
 
     def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
-        """Return what ``/`` or joinpath makes: a path of pathlib, or a substitution."""
+        """Return the result of ``/`` or joinpath: a path of pathlib, or a substitution."""
         if isinstance(left, LaunchObject) or any(isinstance(plain(one), LaunchObject) for one in right):
             call = node if isinstance(node, ast.Call) else ast.Call(node, [], [])
             ast.copy_location(call, node)
@@ -274,7 +278,7 @@ class Machine(Interpreter):
         return union(guarded_text(text, FilePath(text)) for text in found)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the text of a file of the workspace, or what stands for it."""
+        """Return the text of a file of the workspace, Unknown for any other file."""
         if not self.guarded and not path.isascii():
             self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
@@ -285,7 +289,7 @@ class Machine(Interpreter):
         if found is None:
             self.wanted.add(paths[0])
             return unknown
-        # Who launches the file can name another one.
+        # The caller of the launch file can pass another path.
         return found if paths[0] == path else union([Guarded(found, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
 
     def texts(self, value: Value) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Attributes and methods of values in Python launch files."""
+"""Attributes and methods of values."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ _MOST_ITEMS = 5_000
 
 
 def items(machine: Interpreter, value: Value) -> list[Value] | None:
-    """Return the elements of a value in a fresh list, guarded where they are conditional; None if they are not known."""
+    """Return the elements of a value in a new list, conditional ones guarded; None if they are unknown."""
     value = plain(value)
     if isinstance(value, Union):
         found: list[Value] = []
@@ -114,7 +114,7 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
 
 
 def of_instance(owner: Instance, name: str) -> Value:
-    """Return an attribute of an object of the program."""
+    """Return an attribute of an object whose class is defined in the program."""
     if name in owner.attributes:
         return owner.attributes[name]
     found = owner.cls.find(name)
@@ -130,14 +130,14 @@ def of_instance(owner: Instance, name: str) -> Value:
 
 
 _OF_MARKED = STRIPS | SPLITS | {"replace"}
-"""Methods that mean something for texts, too, in which something stands that is known at launch only."""
+"""Methods that can be applied to texts with marks for values that are known only at launch."""
 _OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
 
 
 def call_method(
     machine: Interpreter, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
-    """Return what a method returns."""
+    """Return the result of a method."""
     owner, name = method.owner, method.name
     if isinstance(owner, (list, dict)):
         machine.spend(len(owner) // 8)
@@ -166,7 +166,7 @@ def _of_text(
             machine.record_misuse(value, "formatted", node, frame)
         return _formatted(owner, arguments, keywords, node, frame)
     if name == "read":
-        return owner  # a file that is open is its text
+        return owner  # an open file is represented by its text
     if name == "join" and arguments:
         values = items(machine, arguments[0])
         if values is None:
@@ -193,7 +193,7 @@ def _of_text(
 
 
 def _grows(text: str, name: str, values: list[Value]) -> bool:
-    """Whether a method would make a text too long."""
+    """Return whether a method would exceed the maximum length of a text."""
     if name == "zfill":
         return any(isinstance(width, int) and width > LONGEST for width in values)
     old, new = values[:2] if name == "replace" and len(values) > 1 else ("", "")

@@ -1,4 +1,4 @@
-"""Operators, comparisons and truth of values in Python launch files, with three answers where there are three."""
+"""Operators, comparisons and truth of values, where a truth may be unknown."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 INSTALLED = "installed packages"
-"""What stands for the answer of the ament index which packages there are."""
+"""The name of the object that represents the list of installed packages of the ament index."""
 
 _NUMBERS = (int, float, bool)
 _MOST_ITEMS = 5_000
@@ -63,7 +63,7 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
     for one in alternatives(value):
         try:
             found.append(Guarded(function(one.value), one.conditions))
-        except ProgramRaised:  # then this alternative is none
+        except ProgramRaised:  # the alternative is excluded
             raised = True
     if raised and not found:
         raise ProgramRaised
@@ -71,7 +71,7 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
 
 
 def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondition]:
-    """Return whether a value is true, and the condition for it where that is not known."""
+    """Return whether a value is true, None with the condition for it if that is unknown."""
     value = plain(value)
     if isinstance(value, Unknown):
         return None, value.condition or PERHAPS
@@ -98,7 +98,7 @@ def _truth_of_several(machine: Interpreter, value: Union) -> tuple[bool | None, 
 
 
 def text_of(value: Value) -> tuple[str, ...]:
-    """Return what str() makes of a value."""
+    """Return the alternatives of str() of a value."""
     if isinstance(value, str):
         return (value,)
     return distinct(text for one in alternatives(value) for text in under((_str(one.value),), one.conditions))
@@ -115,7 +115,7 @@ def _str(value: Value) -> str:
 
 
 def _shown(value: Any) -> str:
-    """Return the text of a collection if it holds nothing but what Python can show."""
+    """Return str() of a collection, UNKNOWN if it is large or contains anything but texts and numbers."""
     stack, count = [value], 0
     while stack:
         one = stack.pop()
@@ -132,7 +132,7 @@ def _shown(value: Any) -> str:
 
 
 def hashable(machine: Interpreter, key: Value) -> Any:
-    """Return what a value is as a key: itself, or a text for what cannot be one."""
+    """Return a value as a dictionary key: a text if it is not hashable in Python or not known."""
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
     if isinstance(key, (list, tuple, LaunchObject)):
@@ -142,7 +142,7 @@ def hashable(machine: Interpreter, key: Value) -> Any:
 
 
 def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
-    """Return a value formatted; ``text`` is its text, ``conversion`` as in :class:`ast.FormattedValue`."""
+    """Return a formatted value; ``text`` is its str(), ``conversion`` as in :class:`ast.FormattedValue`."""
     if not isinstance(spec, str) or not is_plain(spec) or not is_plain(text) or len(spec) > 8:
         return UNKNOWN
     try:
@@ -156,7 +156,7 @@ def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
 
 
 def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
-    """Return a text, or one of several, made by an expression."""
+    """Return the text of an expression, or its alternatives."""
     if len(found) == 1:
         return written(found[0], node, frame.source)
     return union(guarded_text(one, written(one, node, frame.source)) for one in found)
@@ -168,7 +168,7 @@ _ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 
 def operation(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
-    """Return what an operator makes of two values."""
+    """Return the result of an operator on two values."""
     if isinstance(op, ast.Add):
         for one, other in ((left, right), (right, left)):
             if isinstance(other, (str, list, tuple, LaunchObject)):
@@ -245,7 +245,7 @@ def negated(machine: Interpreter, value: Value) -> Value:
 
 
 def compared(op: ast.cmpop, left: Value, right: Value) -> Value:
-    """Return what a comparison gives."""
+    """Return the result of a comparison."""
     return each(left, lambda one: each(right, lambda other: _one_compare(op, one, other)))
 
 
@@ -306,19 +306,19 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def _asked(question: str) -> Unknown:
-    """Return a truth that waits for the arguments that a Python expression asks for."""
+    """Return an unknown truth, whose condition is a Python expression of launch configurations."""
     if UNKNOWN in question:
         return Unknown("comparison with what is not known")
     return Unknown("a truth", LaunchCondition((expression(question),), None))
 
 
 def opposite_of(condition: LaunchCondition) -> LaunchCondition:
-    """Return the condition that holds when this one does not."""
+    """Return the opposite of a condition."""
     return condition._replace(wanted=not condition.wanted)
 
 
 def sliced(owner: Value, parts: list[Value]) -> Value:
-    """Return a slice of a value; the parts are start, stop and step."""
+    """Return a slice of a value; ``parts`` are start, stop and step."""
     known = all(part is None or isinstance(part, int) for part in parts)
     if known and (isinstance(owner, (list, tuple)) or (isinstance(owner, str) and is_plain(owner))):
         try:
@@ -331,19 +331,19 @@ def sliced(owner: Value, parts: list[Value]) -> Value:
 
 
 def waits(text: str) -> bool:
-    """Whether a text is known as soon as the arguments and environment variables in it are."""
+    """Return whether a text is known once the configurations and environment variables in it are."""
     return UNKNOWN not in text and bool(named_in(text))
 
 
 def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
-    """Return what a dictionary has under a key that hangs on arguments: each value where the key is its own."""
+    """Return the values of a dictionary under an unknown key, each under the condition of its own key."""
     if not _is_choice(owner, key):
         return list(owner.values())
     return [Guarded(value, (LaunchCondition((str(key),), str(name)),)) for name, value in owner.items()]
 
 
 def without(owner: dict[Any, Value], key: str) -> Conditions:
-    """Return what must be so for a dictionary to have nothing under a key that hangs on arguments."""
+    """Return the conditions under which a dictionary does not contain an unknown key."""
     if not _is_choice(owner, key):
         return ()
     return tuple([LaunchCondition((str(key),), str(name), wanted=False) for name in owner])
@@ -354,7 +354,10 @@ def _is_choice(owner: dict[Any, Value], key: str) -> bool:
 
 
 def may_have_more(values: Sequence[Value]) -> bool:
-    """Whether a collection may hold more than is seen: one element stands for all that come of what is not known."""
+    """Return whether a collection may have more elements than are known.
+
+    A guarded or unknown element represents any number of elements.
+    """
     return any(isinstance(one, (Guarded, Unknown)) for one in values)
 
 

@@ -1,4 +1,4 @@
-"""Order and equality of values in Python launch files: what sorted(), min(), max() and sets make of them."""
+"""Order and equality of values, for sorted(), min(), max() and sets."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Frame
 
 MOST_COMPARED = 500
-"""How many values a collection may hold that is compared with another collection."""
+"""The maximum size of collections that are compared with each other."""
 
 
 def arranged(
     machine: Interpreter, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame
 ) -> list[Value]:
-    """Return values in the order of list.sort() with its keywords, or as they are if their order is unknown."""
+    """Return values as list.sort() with its keywords orders them, unchanged if their order is unknown."""
     keys = sort_keys(machine, values, keywords, node, frame)
     if keys is None:
         return values
@@ -31,7 +31,7 @@ def arranged(
 def sort_keys(
     machine: Interpreter, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame
 ) -> list[Any] | None:
-    """Return what values are compared by, None if that is unknown."""
+    """Return the sort keys of values, None if they are unknown."""
     key = keywords.get("key")
     keys = [plain(value if key is None else machine.call(key, [plain(value)], {}, node, frame)) for value in values]
     return keys if all(map(is_known, keys)) else None
@@ -47,7 +47,7 @@ def is_known(value: Value) -> bool:
 
 
 def is_small(value: Any) -> bool:
-    """Return whether a collection has few elements, those of the collections in it counted wherever they are."""
+    """Return whether a collection has few elements, with those of nested collections."""
     stack, count = [value], 0
     while stack:
         one = stack.pop()
@@ -62,7 +62,7 @@ def is_small(value: Any) -> bool:
 
 
 def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
-    """Return the positions of keys in their order. Raises Raised if they cannot be compared."""
+    """Return the positions of keys in their order. Raises ProgramRaised if they cannot be compared."""
     try:
         return sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
     except TypeError:
@@ -70,7 +70,7 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
 
 
 def unique(values: Iterable[Value]) -> list[Value]:
-    """Return values as the elements of a set: without those that equal an earlier value for certain."""
+    """Return the elements of a set: values without those that certainly equal an earlier one."""
     found: list[Value] = []
     seen: set[Any] = set()
     for value in values:

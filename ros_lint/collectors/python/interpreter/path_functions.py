@@ -1,4 +1,4 @@
-"""Paths in Python launch files: what os.path and pathlib make of texts in which something may not be known yet."""
+"""Functions of os.path and pathlib on symbolic texts."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ _MOST_PARENTS = 12
 def split(path: str) -> tuple[str, str]:
     """Return the folder and the name of a path, as os.path.split does.
 
-    A part that is known later counts as one name, unless its default has a slash or nothing stands before it.
+    A part that is known only at launch counts as one name, unless its default contains a slash or nothing precedes
+    it.
     """
     if is_plain(path):
         return posixpath.split(path)
@@ -46,7 +47,7 @@ def split_suffix(path: str) -> tuple[str, str]:
 
 
 def _last_outside(path: str, character: str) -> int:
-    """Return where a character is last, -1 if it is nowhere. What lies within a part that is known later does not count."""
+    """Return the last offset of a character outside of marked parts, -1 if there is none."""
     found, start, depth = -1, 0, 0
     for mark in BRACKETS.finditer(path):
         if not depth:
@@ -73,13 +74,13 @@ def of_path(owner: FilePath, name: str) -> Value:
             while folder and (not found or folder != found[-1].text):
                 found.append(FilePath(folder))
                 folder = split(folder)[0]
-            # What lies above a folder that is known only by name is not known.
+            # The folders above an unknown folder are unknown.
             return found if is_plain(owner.text) else [*found, *[FilePath(UNKNOWN)] * _MOST_PARENTS]
     return Method(owner, name)
 
 
 def _split_name(name: str) -> tuple[str, str]:
-    """Return the stem and the suffix of a name. A dot at its end is no suffix for pathlib."""
+    """Return the stem and the suffix of a name. For pathlib, a dot at its end is not a suffix."""
     stem, suffix = split_suffix(name)
     return (name, "") if suffix == "." else (stem, suffix)
 
@@ -87,7 +88,7 @@ def _split_name(name: str) -> tuple[str, str]:
 def call_of_path(
     machine: Interpreter, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame
 ) -> Value:
-    """Return what a method of a path of pathlib returns."""
+    """Return the result of a method of a path of pathlib."""
     match name:
         case "joinpath":
             return machine.join_paths(owner, list(arguments), node, frame)
@@ -106,5 +107,5 @@ def call_of_path(
         case "exists" | "is_file":
             return machine.ask((owner.text,))
         case "write_text" | "write_bytes":
-            machine.ask((owner.text,))  # it need not be there before
+            machine.ask((owner.text,))  # the file need not exist before
     return Unknown(f"{name}() of a path")

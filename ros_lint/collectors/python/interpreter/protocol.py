@@ -1,4 +1,4 @@
-"""The interfaces of the interpreter of Python: to its handlers, and to the libraries that programs use."""
+"""The interfaces of the Python interpreter: to its handlers, and to models of libraries."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 class Library(Protocol):
-    """The meaning of libraries that a program imports, and of the objects that they make."""
+    """The models of the libraries that a program imports, and of their objects."""
 
     def describes(self, module: str) -> bool:
-        """Return whether the library gives a top-level module its meaning, so that no source of the module is followed."""
+        """Return whether there is a model of a top-level module. If so, its source is not interpreted."""
         ...
 
     def model(self, module: str, at: ast.stmt) -> ast.Module | None:
-        """Return a program that has the effects of a module, all of it located at ``at``; None for any other module."""
+        """Return a program with the effects of a module, located at ``at``; None for any other module."""
         ...
 
     def is_substitution(self, name: str) -> bool:
-        """Return whether a name is a class of substitutions wherever it is imported from."""
+        """Return whether a name is a class of substitutions, whatever module it is imported from."""
         ...
 
     def call(
@@ -37,19 +37,22 @@ class Library(Protocol):
         node: ast.Call,
         frame: Frame,
     ) -> Value:
-        """Return the result of a function, named by its full name, or of a method of an object of the library."""
+        """Return the result of a library function (by its full name) or of a method of a library object."""
         ...
 
     def attribute(self, owner: LaunchObject, name: str) -> Value:
-        """Return an attribute of an object of the library."""
+        """Return an attribute of a library object."""
         ...
 
     def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:
-        """Return an element of an object of the library."""
+        """Return an item of a library object."""
         ...
 
     def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
-        """Return every text that a value can become; ``spend`` receives the number of steps and may raise BudgetExceeded."""
+        """Return every text that a value can become.
+
+        ``spend`` is called with the number of steps and may raise BudgetExceeded.
+        """
         ...
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
@@ -57,7 +60,7 @@ class Library(Protocol):
         ...
 
     def misuse(self, made: LaunchObject, how: How) -> How | None:
-        """Return in which way an operation misuses an object of the library, None if it does not."""
+        """Return how an operation misuses a library object, None if it does not."""
         ...
 
 
@@ -74,7 +77,7 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:
-        """Follow something that happens only under conditions."""
+        """Interpret a block under conditions."""
 
     @abstractmethod
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
@@ -86,11 +89,11 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Follow statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
+        """Interpret statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
 
     @abstractmethod
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
-        """Return a function of the program."""
+        """Return the value of a function definition."""
 
     @abstractmethod
     def builtin(self, node: ast.Name, frame: Frame) -> Value:

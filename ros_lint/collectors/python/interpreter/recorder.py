@@ -1,4 +1,4 @@
-"""What is found out while a Python launch file is followed, besides what it makes: what it looks up, reads, asks for and sets."""
+"""Side effects recorded while a launch file is interpreted: look-ups, files, conditions, variables."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchCondition
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
-"""The operation that takes a substitution for a text."""
+"""The operation that uses a substitution as a text."""
 
 
 class Misused(NamedTuple):
-    """A place where a substitution is taken for a text."""
+    """A place where a substitution is used as a text."""
 
     how: How
     made: LaunchObject
@@ -41,61 +41,67 @@ def are_unknown(conditions: Conditions) -> bool:
 
 
 class Recorder:
-    """What is found out about one launch file and the modules that it imports, and the conditions that hold just now."""
+    """The recorded effects of a launch file and its imports, and the conditions that hold at present."""
 
     def __init__(self) -> None:
         self._branches = 0
         self._variables: dict[str, Value] = {}
         self.conditions: Conditions = ()
         self.made: list[LaunchObject] = []
-        """Everything made of the classes of the launch libraries, in order."""
+        """All objects of the classes of the launch libraries, in order of creation."""
         self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
-        """Packages looked up at once, where, and under which conditions."""
+        """Packages that are looked up immediately, with the places and conditions."""
         self.unbound: list[tuple[ast.Name, Source]] = []
-        """Names met that nothing has bound so far."""
+        """Names that were not bound when they were evaluated."""
         self.misused: list[Misused] = []
-        """Substitutions that were taken for texts."""
+        """Substitutions that were used as texts."""
         self.wanted: set[str] = set()
-        """Modules and files that are read and were not at hand."""
+        """Modules and files that the program reads and that were not available."""
         self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
-        """Paths of files that are opened at once to be read, where, and under which conditions: those that must be there."""
+        """Paths of files that are opened for reading immediately, with places and conditions.
+
+        Reads whose error is caught are omitted, so that these files are required.
+        """
         self.asked: dict[tuple[str, ...], tuple[str, ...]] = {}
-        """Paths of files that it asks for, by what stands for the answer: it does without those that are not there."""
+        """Paths of files whose existence is tested, by the texts of the condition.
+
+        The program handles the case that they are missing.
+        """
         self.borrows = False
-        """Whether it calls helpers of released packages, of which not everything is known."""
+        """True if it calls models of released helpers, which are incomplete."""
         self.guarded = 0
-        """How many statements around would catch that a file is missing."""
+        """The number of surrounding try statements that catch the error of a missing file."""
         self.lazily: set[str] = set()
-        """Packages that are looked up when something is launched."""
+        """Packages that are looked up at launch only."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
-        """Where each package that is looked up is written first, by its name or, if it hangs on arguments, by its text."""
+        """The first literal of each looked-up package, by its name, or by its text if it depends on arguments."""
         self.variables: list[LaunchObject] = []
-        """What sets environment variables of the process that launches, in order."""
+        """Actions that set environment variables of the launch process, in order."""
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
     def fresh(self, condition: LaunchCondition) -> LaunchCondition:
-        """Return a condition of which nothing is known as one that its own opposite can be told from."""
+        """Return a condition; instead of PERHAPS a new one, so that it differs from its own opposite."""
         return condition if condition is not PERHAPS else LaunchCondition((self.another(),), None)
 
     def another(self) -> str:
-        """Return a text of which nothing is known but that it is no other one."""
+        """Return a new text that is unknown and differs from all others."""
         self._branches += 1
         return f"{UNKNOWN}{self._branches}"
 
     def guard(self, value: Value) -> Value:
-        """Return a value as it goes into a collection now."""
+        """Return a value guarded by the present conditions, to be added to a collection."""
         return Guarded(value, self.conditions) if self.conditions else value
 
     def joined(self, values: Sequence[Guarded]) -> Value:
-        """Return one of several values. Where these are too many to be kept apart, what they hold may be launched."""
+        """Return the union of values. If these are too many, they escape."""
         found = union(values)
         if isinstance(found, Unknown):
             self.escape(values)
         return found
 
     def escape(self, value: Value) -> None:
-        """Note that a value goes where it cannot be followed: what it holds may be launched."""
+        """Note that a value escapes to code that is not interpreted: the objects in it may be launched."""
         waiting, count = [value], 0
         while waiting and count < 1_000:
             one = waiting.pop()
@@ -118,13 +124,13 @@ class Recorder:
     # --- what is asked for, and set -------------------------------------------------------------------------------
 
     def ask(self, paths: tuple[str, ...]) -> Value:
-        """Return whether a file is there, which is not known."""
+        """Return the unknown truth whether a file exists."""
         answer = LaunchCondition((self.another(),), None)
         self.asked[answer.texts] = paths
         return Unknown("whether a file is there", answer)
 
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
-        """Note that a package is looked up; ``conditions`` are those under which it is this one."""
+        """Note a package look-up; ``conditions`` are those under which ``package`` is the name."""
         if UNKNOWN not in package and not source.lent:
             known = self.named.get(package)
             if known is None or (_says(at, package) and not _says(known[0], package)):
@@ -135,7 +141,7 @@ class Recorder:
             self.lazily.add(package)
 
     def set_variable(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
-        """Note that an environment variable is set for all that comes after it."""
+        """Note that an environment variable is set for everything after it."""
         made = LaunchObject("SetEnvironmentVariable", [name, value], {}, at, source)
         made.conditions = self.conditions
         self.variables.append(made)

@@ -1,8 +1,8 @@
-"""Calls in a Python launch file that repeat a call which is still being followed.
+"""Detection of recursive calls that repeat a call which is being interpreted.
 
-A function that searches a nested dictionary calls itself for each element. Where the dictionary is unknown, the inner call
-does the same as the outer call, on the same unknown values. To follow the inner call too adds no result and doubles the
-time at each level.
+A function that searches a nested dictionary calls itself for each element. If the dictionary is unknown, the inner
+call does the same as the outer call, on the same unknown values. Interpreting the inner call would add no result and
+double the time at each level.
 """
 
 from __future__ import annotations
@@ -27,29 +27,31 @@ from ros_lint.collectors.python.interpreter.values import (
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
 _MOST_VALUES = 500
-"""How many values two calls are compared by. A call that reads more values is never taken for a repetition."""
+"""The maximum number of values to compare. A call that reads more never counts as a repetition."""
 
 _DEEPEST = 12
-"""How many collections and objects lie within each other in a value that is compared."""
+"""The maximum nesting depth of collections and objects in a value to compare."""
 
 
 class UnderWay(NamedTuple):
-    """A call of a function of the program that is being followed."""
+    """A call of a function that is being interpreted."""
 
     node: ast.AST
     """The definition of the function."""
     conditions: int
     """The number of conditions under which the call happens."""
     outline: Any = None
-    """The outline of what the call reads; None if that is too much, and for the outermost call of a function."""
+    """The outline of the values that the call reads; None if too large, or for the outermost call."""
 
 
 def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value], conditions: int) -> bool:
-    """Add a call to those under way, and return True; return False if it repeats one of them, and is not to be followed.
+    """Record a call that begins, and return True; return False if it repeats a recorded one.
 
-    A call repeats a call around it if both read the same values and an undecided branch led from one to the other. Without
-    such a branch the program ends the calls by itself. ``names`` are the values of the parameters, ``conditions`` is the
-    number of conditions that hold. Most functions do not call themselves, so that outlines are made from the second call on.
+    A repeating call must not be interpreted. A call repeats a call around it if both read the same values and an
+    undecided branch led from one to the other. Without such a branch the program ends the recursion by itself.
+
+    ``names`` are the values of the parameters, ``conditions`` is the number of conditions that hold. Most functions
+    are not recursive, so outlines are computed from the second call on.
     """
     outline = None
     outer = [call for call in under_way if call.node is function.node and call.conditions < conditions]
@@ -62,7 +64,7 @@ def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value]
 
 
 def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
-    """Return what a function, and the functions that it may call, read from the functions and the module around them."""
+    """Return the outer names that a function, and the functions that it may call, read, with their values."""
     found: dict[tuple[str, Frame], Value] = {}
     waiting, seen = [function], {function.node}
     while waiting:
@@ -81,14 +83,14 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
 
 
 def _outline(names: dict[Any, Value]) -> Any:
-    """Return a value that is equal for names whose values differ only in what is unknown, None if that is too much."""
+    """Return a value that is equal for names which differ only in unknown values, None if too large."""
     outliner = _Outliner()
     made = outliner.of(names)
     return None if outliner.too_much else made
 
 
 class _Outliner:
-    """Makes hashable values that are equal for values which differ only in what is unknown."""
+    """Creates hashable values that are equal for values which differ only in unknown parts."""
 
     def __init__(self) -> None:
         self._left = _MOST_VALUES
@@ -97,7 +99,7 @@ class _Outliner:
         """The number of unknown values so far."""
 
     def of(self, value: Value, depth: int = 0) -> Any:
-        """Return the outline of a value that lies within ``depth`` others."""
+        """Return the outline of a value that is nested in ``depth`` others."""
         self._left -= 1
         if self._left < 0 or depth > _DEEPEST:
             self.too_much = True
@@ -128,7 +130,7 @@ class _Outliner:
         return type(value), value
 
     def _text(self, text: str) -> Any:
-        """Return a text, or its beginning and end if a part of it is unknown: what stands between does not matter."""
+        """Return a text, or only its known beginning and end if a part of it is unknown."""
         start, mark, rest = text.partition(UNKNOWN)
         if not mark:
             return str(text)
@@ -136,7 +138,7 @@ class _Outliner:
         return start, rest.rpartition(UNKNOWN)[2]
 
     def _elements(self, values: Iterable[Value], depth: int) -> Any:
-        """Return the outlines of elements. An element that is unknown or conditional stands for any number of them."""
+        """Return the outlines of elements. An unknown or conditional element represents any number of them."""
         found: dict[Any, None] = {}
         for value in values:
             before = self.unknown

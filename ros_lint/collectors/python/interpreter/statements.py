@@ -1,4 +1,4 @@
-"""Statements of Python launch files."""
+"""Interpretation of Python statements."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _Node = TypeVar("_Node", bound=ast.AST)
 
 
 def execute(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
-    """Follow statements. Raises Raised and OutOfBudget."""
+    """Interpret statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
     for statement in body:
         handler = _STATEMENTS.get(type(statement))
         if handler is not None:
@@ -63,7 +63,7 @@ def _expression(machine: Interpreter, node: ast.Expr, frame: Frame) -> int:
 def _if(machine: Interpreter, node: ast.If, frame: Frame) -> int:
     test = node.test
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And) and not node.orelse and not _may_leave(node.body):
-        inner: list[ast.stmt] = node.body  # one condition within the other, so that each is known for what it is
+        inner: list[ast.stmt] = node.body  # nested conditions, so that each is known by itself
         for part in reversed(test.values[1:]):
             inner = [ast.copy_location(ast.If(part, inner, []), node)]
         node = ast.copy_location(ast.If(test.values[0], inner, []), node)
@@ -92,7 +92,7 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
     before = machine.conditions
     missing = next((handler for handler in node.handlers if catches_missing_package(handler)), None)
     if missing is not None and _looks_up(node.body) and not gives_up(missing.body, everywhere=not machine.conditions):
-        # A package that is looked up may be missing, and the file does without.
+        # The package is optional, because the file handles the case that it is missing.
         there = LaunchCondition((presence(machine.another()),), None)
         signal = either(machine, [*node.body, *node.orelse], missing.body, there, frame)
         return _finally(machine, node, frame, before) or signal
@@ -120,7 +120,7 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
 
 
 def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditions) -> int:
-    """Follow what comes at the end of a try statement, which runs whatever way the statement is left."""
+    """Interpret the finally block, which runs however the try statement is left."""
     after, machine.conditions = machine.conditions, before
     signal = execute(machine, node.finalbody, frame)
     machine.conditions = (*after, *machine.conditions[len(before) :])
@@ -150,7 +150,7 @@ def _continue(_machine: Interpreter, _node: ast.Continue, _frame: Frame) -> int:
 
 
 _SUBJECT, _ANYTHING = "<subject>", "<anything>"
-"""Names that no program has."""
+"""Names that no program can contain."""
 
 
 def _match(machine: Interpreter, node: ast.Match, frame: Frame) -> int:
@@ -169,7 +169,7 @@ def _match(machine: Interpreter, node: ast.Match, frame: Frame) -> int:
 
 
 def _fits(pattern: ast.pattern) -> ast.expr:
-    """Return what is asked of the subject by a pattern."""
+    """Return the test of the subject that corresponds to a pattern."""
     subject: ast.expr = _at(ast.Name(_SUBJECT), pattern)
     match pattern:
         case ast.MatchValue(value=value):
@@ -202,11 +202,11 @@ def _function(machine: Interpreter, node: ast.FunctionDef | ast.AsyncFunctionDef
 
 
 _LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_testing", "pytest", "typing", "unittest"})
-"""Modules whose decorators have a function do what it does."""
+"""Modules whose decorators do not change what a function does."""
 
 
 def _decorated(machine: Interpreter, function: Function, decorator: ast.expr, frame: Frame) -> Value:
-    """Return what a decorator makes of a function; the function itself, marked as changed, if that is not followed."""
+    """Return a decorated function; the function itself, marked as changed, if the decorator is unknown."""
     name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
     if isinstance(name, LibraryName) and name.name.partition(".")[0] in _LEAVING:
         return function

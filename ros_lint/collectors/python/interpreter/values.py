@@ -1,7 +1,7 @@
-"""What a name in a Python launch file can stand for while the file is read.
+"""The values of names while a Python launch file is interpreted.
 
-Texts, numbers, lists and dictionaries are Python's own. What else there is has a class here: things of the launch
-libraries, functions and classes of the file, one of several values, and what is not known.
+Texts, numbers, lists and dictionaries are Python's own. This module has classes for the other values: objects of the
+launch libraries, functions and classes of the program, alternatives, and unknown values.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, are_consistent, con
 from ros_lint.facts.launch import LaunchCondition
 
 Value = Any
-"""A value of the program that is read: a str, int, list ... of Python, or an object of this module."""
+"""A value of the program: a str, int, list ... of Python, or an object of this module."""
 
 Conditions = tuple[LaunchCondition, ...]
 
 PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
-"""A condition of which nothing is known."""
+"""An unknown condition."""
 
 
 class Module(NamedTuple):
@@ -32,11 +32,11 @@ class Module(NamedTuple):
 
 
 Modules = Callable[[str, Text], "Module | None"]
-"""Finds a module by its dotted name (dots in front for a relative one), for a module that imports it."""
+"""Finds a module by its dotted name (with leading dots if relative), for the module that imports it."""
 
 
 class Source:
-    """A module: its text, and the names that it binds when it runs."""
+    """A module: its text, and the names that it binds."""
 
     __slots__ = ("ascii", "assigns_inside", "lent", "names", "text", "yields")
 
@@ -44,14 +44,14 @@ class Source:
         self.text = text
         self.ascii = text.text.isascii()
         self.lent = lent
-        """Whether it is a helper of a released package: all of it stands where it is called, in the text of who calls it."""
+        """True for a model of a helper of a released package. Its places are those of the call."""
         self.yields = "yield" in text.text
         self.assigns_inside = ":=" in text.text
         self.names: dict[str, Value] = {}
 
 
 class Written(str):
-    """A text that knows the expression which made it."""
+    """A text with the expression that produced it."""
 
     __slots__ = ("node", "source")
 
@@ -60,7 +60,7 @@ class Written(str):
 
 
 def written(text: str, node: ast.expr, source: Source) -> Written:
-    """Return a text with the expression that made it."""
+    """Return a text with the expression that produced it."""
     made = Written(text)
     made.node = node
     made.source = source
@@ -68,7 +68,7 @@ def written(text: str, node: ast.expr, source: Source) -> Written:
 
 
 class Unknown:
-    """Any value. ``condition`` is what it means when it is asked for its truth, if that is known."""
+    """Any value. ``condition`` is the condition of its truth, if known."""
 
     __slots__ = ("condition", "reason")
 
@@ -78,7 +78,7 @@ class Unknown:
 
 
 class Guarded:
-    """A value that is there only under conditions."""
+    """A value that exists only under conditions."""
 
     __slots__ = ("conditions", "value")
 
@@ -97,7 +97,7 @@ class Union:
 
 
 class FilePath:
-    """A path of pathlib. A text that is known whole is written as pathlib writes it: ``a/b`` for ``a//b/``."""
+    """A path of pathlib. A known text is normalized as by pathlib: ``a/b`` for ``a//b/``."""
 
     __slots__ = ("text",)
 
@@ -129,7 +129,7 @@ def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
 
 
 class LaunchObject:
-    """What calling a class of the launch libraries makes: an action, a substitution, a description."""
+    """An object of a class of the launch libraries: an action, a substitution, a description."""
 
     __slots__ = ("arguments", "conditions", "entities", "escaped", "keywords", "name", "node", "seen", "source")
 
@@ -141,14 +141,14 @@ class LaunchObject:
         self.source = source
         self.conditions: Conditions = ()
         self.entities: list[Value] = []
-        """Of a launch description: what it holds. The list lives on while it is visited."""
+        """The entities of a launch description. The list may grow while it is visited."""
         self.seen = False
-        """Whether it is part of what is launched."""
+        """True if it is part of what is launched."""
         self.escaped = False
-        """Whether it went where it cannot be followed."""
+        """True if it escaped to code that is not interpreted."""
 
     def get(self, position: int, *names: str) -> Value:
-        """Return an argument by its name or position, None when it is not there."""
+        """Return an argument by its name or position, None if it is missing."""
         for name in names:
             if name in self.keywords:
                 return self.keywords[name]
@@ -160,7 +160,7 @@ class LaunchObject:
 
 
 class Function:
-    """A function of the program. ``frame`` is where it was defined."""
+    """A function of the program. ``frame`` is the one in which it was defined."""
 
     __slots__ = ("changed", "defaults", "frame", "keyword_defaults", "node", "owner")
 
@@ -170,10 +170,10 @@ class Function:
         self.defaults: list[Value] = []
         self.keyword_defaults: dict[str, Value] = {}
         self.owner: Class | None = None
-        self.changed = False  # whether a decorator that is not followed makes something else of it
+        self.changed = False  # True if an unknown decorator may replace it
 
     def yields(self) -> bool:
-        """Whether it is a generator: it yields itself, not just a function in it."""
+        """Return whether it is a generator, disregarding ``yield`` in nested functions."""
         waiting: list[ast.AST] = list(self.node.body) if isinstance(self.node.body, list) else []
         while waiting:
             inner = waiting.pop()
@@ -184,7 +184,7 @@ class Function:
         return False
 
     def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
-        """Return what the names of a call stand for at its beginning."""
+        """Return the values of the parameters at the beginning of a call."""
         spec = self.node.args
         names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
         found: dict[str, Value] = dict(self.keyword_defaults)
@@ -216,7 +216,7 @@ class Bound:
 
 
 class Method:
-    """A method of a value of Python, or of what a library made."""
+    """A method of a value of Python or of a library object."""
 
     __slots__ = ("name", "owner")
 
@@ -235,7 +235,7 @@ class Class:
         self.bases = bases
         self.names = names
         self.fields = fields
-        """Annotated names, in order: what a dataclass takes."""
+        """Annotated names, in order: the parameters of a dataclass."""
 
     def find(self, name: str) -> Value | None:
         for one in self._line():
@@ -244,16 +244,16 @@ class Class:
         return None
 
     def every_field(self) -> dict[str, None]:
-        """Return the fields of the class and of those above it, which come first."""
+        """Return the fields of the class and its base classes; those of base classes come first."""
         line = [one for one in self._line() if isinstance(one, Class)]
         return dict.fromkeys(name for one in reversed(line) for name in one.fields)
 
     def library_base(self) -> LibraryName | None:
-        """Return the class of a library that it is made from."""
+        """Return the first base class that a library defines."""
         return next((one for one in self._line() if isinstance(one, LibraryName)), None)
 
     def _line(self) -> Iterator[Value]:
-        """Yield the class and those above it, each once."""
+        """Yield the class and its base classes, each once."""
         waiting: list[Value] = [self]
         seen: set[int] = set()
         while waiting:
@@ -266,7 +266,7 @@ class Class:
 
 
 class Instance:
-    """An object of a class of the program. ``made`` is what it is for the launch libraries, if anything."""
+    """An object of a class of the program. ``made`` is its launch object if a launch class is its base."""
 
     __slots__ = ("attributes", "cls", "made")
 
@@ -277,24 +277,24 @@ class Instance:
 
 
 class Context:
-    """The context that launch hands to functions."""
+    """The launch context that is passed to functions."""
 
     __slots__ = ()
 
 
 class Exit(NamedTuple):
-    """A way out of a turn, a loop or a function that is taken only under conditions."""
+    """An exit from an iteration, a loop or a function that is taken only under conditions."""
 
     signal: int
-    """The block that is left: CONTINUE, BREAK or LEAVE of :mod:`ros_lint.collectors.python.interpreter.branches`."""
+    """CONTINUE, BREAK or LEAVE of :mod:`ros_lint.collectors.python.interpreter.branches`."""
     conditions: Conditions
-    """All conditions that hold where it is taken."""
+    """All conditions that hold at the exit."""
     names: dict[str, Value]
-    """The names of the function there."""
+    """The names of the function at the exit."""
 
 
 class Frame:
-    """The names of a function that runs, or of a module."""
+    """The names of a running function, or of a module."""
 
     __slots__ = ("declared", "exits", "names", "outer", "returned", "source", "yielded")
 
@@ -303,15 +303,15 @@ class Frame:
         self.outer = outer
         self.names = names
         self.declared: dict[str, Frame] = {}
-        """Names that ``global`` or ``nonlocal`` gives to another frame."""
+        """Names that ``global`` or ``nonlocal`` binds in another frame."""
         self.exits: list[Exit] = []
-        """The ways out, in order, of the blocks that are being followed."""
+        """The exits, in order, of the blocks that are being interpreted."""
         self.returned: list[Guarded] = []
         self.yielded: list[Value] = []
 
 
-class ProgramRaised(Exception):  # noqa: N818  (it stands for any exception of the program)
-    """The program raises an exception of the class ``kind``, "" if that is unknown."""
+class ProgramRaised(Exception):  # noqa: N818  (it represents any exception of the program)
+    """The program raises an exception of the class ``kind``, "" if unknown."""
 
     def __init__(self, kind: str = "") -> None:
         super().__init__(kind)
@@ -319,11 +319,11 @@ class ProgramRaised(Exception):  # noqa: N818  (it stands for any exception of t
 
 
 class BudgetExceeded(Exception):  # noqa: N818
-    """The program takes too many steps, or too much memory."""
+    """The program needs too many steps or too much memory."""
 
 
 def union(values: Iterable[Value]) -> Value:
-    """Return one of several values: the only one, when they are the same."""
+    """Return a value that is one of several; the value itself if all are the same."""
     found: list[Guarded] = []
     for value in values:
         for one in alternatives(value):
@@ -341,7 +341,7 @@ def union(values: Iterable[Value]) -> Value:
 
 
 def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
-    """Yield every value that a value can be, with what must be so for it."""
+    """Yield every alternative of a value with its conditions."""
     if isinstance(value, Union):
         for one in value.values:
             yield from alternatives(one, conditions)
@@ -352,7 +352,7 @@ def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]
 
 
 def guarded_text(text: str, made: Value) -> Value:
-    """Return a value made from an alternative of a text, under the conditions of that one."""
+    """Return a value that was computed from an alternative of a text, under the conditions of the text."""
     conditions = conditions_of(text)
     return Guarded(made, conditions) if conditions else made
 
@@ -380,7 +380,7 @@ def around(value: Value) -> Conditions:
 
 
 def same(one: Value, other: Value) -> bool:
-    """Return whether two values are the same for certain."""
+    """Return whether two values are certainly the same."""
     if one is other:
         return True
     if isinstance(one, str) and isinstance(other, str):
@@ -390,5 +390,5 @@ def same(one: Value, other: Value) -> bool:
 
 
 def environment(name: str, default: str | None) -> str:
-    """Return the text that stands for an environment variable."""
+    """Return the symbolic text of an environment variable."""
     return configuration(f"${name}", default)
