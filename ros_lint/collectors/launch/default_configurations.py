@@ -21,7 +21,7 @@ class DefaultConfigurations(NamedTuple):
     """
 
     def is_own(self, text: str) -> bool:
-        """Return whether the value of a text cannot be changed by launch arguments."""
+        """Return whether launch arguments can at most choose between the alternatives of a text."""
         return _hangs_on(text, self.own)
 
 

@@ -47,7 +47,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     - Imports in a try statement that continues after an ImportError, or under a test of the platform, unless every
       branch imports from the same package.
     - Imports in a nested try statement that raises another error instead, which explains what is missing.
-    - Calls such as ``importlib.import_module()``, because the caller probably handles the error.
+    - Calls such as ``importlib.import_module()``, because such programs usually run without the module.
     - Imports after a call that skips the test if their module is missing.
     """
     walker = _Walker(tree)

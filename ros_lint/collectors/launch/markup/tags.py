@@ -42,7 +42,7 @@ EXTENSIONS: Mapping[str, str] = {
     "gz_robot_plugin": "ros_gz_sim",
     "trace": "tracetools_launch",
 }
-"""Tags of other packages (entry point group ``launch.frontend.launch_extension``)."""
+"""Tags that packages add by the entry point group ``launch.frontend.launch_extension``, by name."""
 
 ROS_1: Mapping[str, str] = {
     "$(find)": "$(find-pkg-share)",

@@ -65,7 +65,7 @@ _TAKES: Mapping[str, tuple[int, frozenset[str]]] = {
         "UnsetLaunchConfiguration": "1 name condition",
     }.items()
 }
-"""The number of positional arguments and all keywords, in any distribution.
+"""The maximum number of positional arguments and all keywords, in any distribution.
 
 From launch 3.7.1 and launch_ros 0.28.
 """

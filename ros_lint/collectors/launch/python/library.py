@@ -275,7 +275,7 @@ def _configured(call: Call) -> Value:
 
 
 def _expanded(call: Call) -> Value:
-    """Return the text that ``xacro.process_file`` and similar functions read from a file."""
+    """Return the output of xacro, for ``xacro.process_file`` and similar functions."""
     return _make(call, "Command") if call.arguments else unknown(call)
 
 

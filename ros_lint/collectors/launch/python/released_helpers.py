@@ -1,7 +1,7 @@
 """Models, in Python, of the helper functions of released packages that launch files call, by module.
 
-They are not copies: each contains only the relation between arguments and actions. Models are used if the workspace
-does not contain the package itself.
+They are not copies: each contains only the relation between arguments and actions. If the workspace contains the package,
+its source is interpreted instead, except for moveit_configs_utils.
 """
 
 from __future__ import annotations

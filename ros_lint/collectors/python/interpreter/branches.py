@@ -88,7 +88,7 @@ def either(
             continue
         rest.append(opposite_of(side.taken))
         if stops:
-            continue  # code after the branch counts as unconditional, because the branch only handles a failure
+            continue  # the exit is not recorded: code around the block runs only if nothing fails
         if side.signal == LEAVE and all(one.signal == LEAVE for one in side.exits):
             frame.exits.append(Exit(LEAVE, (*before, side.taken), side.names))
         else:

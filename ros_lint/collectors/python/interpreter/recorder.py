@@ -74,7 +74,7 @@ class Recorder:
         self.lazily: set[str] = set()
         """Packages that are looked up at launch only."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
-        """The first literal of each looked-up package, by its name, or by its text if it depends on arguments."""
+        """The first place of each looked-up package, a literal if possible, by its name or symbolic text."""
         self.variables: list[LaunchObject] = []
         """Actions that set environment variables of the launch process, in order."""
 
