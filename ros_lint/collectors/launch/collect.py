@@ -9,8 +9,8 @@ from ros_lint.facts.launch import LaunchFile
 
 def collect(source: Text, language: Language) -> LaunchFile:
     """Return the facts of a launch file. Never raises: errors of the file are among its ``problems``."""
-    found = _collect(source, language)
-    return found._replace(substitutes_parameters=True) if "allow_substs" in source.text else found
+    facts = _collect(source, language)
+    return facts._replace(substitutes_parameters=True) if "allow_substs" in source.text else facts
 
 
 def _collect(source: Text, language: Language) -> LaunchFile:

@@ -31,8 +31,8 @@ def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurat
     A value that is set under a condition is one of several alternatives. The default is no alternative if another
     value is set under the opposite condition.
     """
-    found: dict[str, tuple[str, ...]] = {}
-    given: set[str] = set()
+    values: dict[str, tuple[str, ...]] = {}
+    settable: set[str] = set()
     perhaps: dict[str, list[tuple[tuple[LaunchCondition, ...], tuple[str, ...]]]] = {}
     waiting: list[tuple[LaunchAction, tuple[LaunchCondition, ...]]] = [(action, ()) for action in reversed(tuple(actions))]
     while waiting:
@@ -45,21 +45,21 @@ def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurat
                 if action.kind == "set" and around:
                     perhaps.setdefault(name, []).append((around, action.value.texts))
                     continue
-                found[name] = action.value.texts
-                given.discard(name)
+                values[name] = action.value.texts
+                settable.discard(name)
                 perhaps.pop(name, None)
         if action.kind == "argument" and action.target is not None:
-            given.update(action.target.texts)
+            settable.update(action.target.texts)
         waiting += [(child, around) for child in reversed(action.children)]
-    for name, several in perhaps.items():
-        texts = [text for _, one in several for text in one]
-        if _covers([conditions for conditions, _ in several]):
-            given.discard(name)
+    for name, assignments in perhaps.items():
+        texts = [text for _, alternatives in assignments for text in alternatives]
+        if _covers([conditions for conditions, _ in assignments]):
+            settable.discard(name)
         else:
-            given.update({name} - found.keys())
-            texts = [*found.get(name, ()), *texts]
-        found[name] = tuple(dict.fromkeys(texts))
-    return DefaultConfigurations(found, _own(found, given))
+            settable.update({name} - values.keys())
+            texts = [*values.get(name, ()), *texts]
+        values[name] = tuple(dict.fromkeys(texts))
+    return DefaultConfigurations(values, _own(values, settable))
 
 
 _SOME_TIME = LaunchCondition((UNKNOWN,), None)

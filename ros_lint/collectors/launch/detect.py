@@ -58,12 +58,12 @@ def is_launch_file(path: str, text: str) -> Language | None:
 
 def entries(text: str) -> frozenset[str]:
     """Return which of ``launch`` and ``test`` a Python source defines a generate_*_description() for."""
-    found = set()
+    kinds = set()
     for match in _PYTHON.finditer(text):
         line = text.rfind("\n", 0, match.start()) + 1
         if _DEFINED.match(text, line, match.start()):
-            found.add(match[1])
-    return frozenset(found)
+            kinds.add(match[1])
+    return frozenset(kinds)
 
 
 def is_of_ros_1(text: str) -> bool:

@@ -184,14 +184,17 @@ class _Run:
         configuration that was set before keeps its value, because a function may have read it by then.
         """
         waiting, self._waiting = self._waiting, []
-        for one in reversed(waiting):  # in reverse, so that the positions of the earlier ones remain valid
+        for entry in reversed(waiting):  # in reverse, so that the positions of the earlier ones remain valid
             end = len(self.started)
-            self._open, self._via = list(one.open), one.via
-            self._actions(one.actions, one.scope._replace(values={**self._values, **one.scope.values}, later=True))
+            self._open, self._via = list(entry.open), entry.via
+            self._actions(
+                entry.actions,
+                entry.scope._replace(values={**self._values, **entry.scope.values}, later=True),
+            )
             self._wake()
             new = self.started[end:]
             del self.started[end:]
-            self.started[one.place : one.place] = new
+            self.started[entry.place : entry.place] = new
 
     def _actions(self, actions: Iterable[LaunchAction], scope: Scope) -> Scope:
         for action in actions:
@@ -234,15 +237,15 @@ class _Run:
 
     def _declare(self, action: LaunchAction, scope: Scope) -> None:
         for name in self._texts(action.target, scope):
-            given = name in scope.values
-            if not given and action.value is None:
+            is_given = name in scope.values
+            if not is_given and action.value is None:
                 if scope.certain:
                     self.missing.append(Missing(name, action.span, scope.include))
                 scope.values[name] = (UNKNOWN,)
-            elif not given:
+            elif not is_given:
                 self._set(scope, name, self._texts(action.value, scope), scope.certain)
             texts = scope.values[name]
-            self.arguments.append(Argument(name, texts, action.span, self._depth, given))
+            self.arguments.append(Argument(name, texts, action.span, self._depth, is_given))
             if scope.certain and len(texts) == 1 and is_settled(texts[0]) and self._is_refused(texts[0], action):
                 self.refused.append(Refused(name, texts[0], action.choices, action.span))
 
@@ -277,7 +280,7 @@ class _Run:
             order = -1 if action.name.texts == ("prepend",) else 1
             rows = [(before.get(name, (UNKNOWN,)), separators, texts)[::order] for name in names]
             pairs = tuple((name, joined(row, "".join)) for name, row in zip(names, rows, strict=True))
-        return scope._replace(environment=(*(one for one in scope.environment if one[0] not in names), *pairs))
+        return scope._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
 
     def _group(self, action: LaunchAction, scope: Scope) -> Scope:
         """Expand a group, and return the scope after it."""
@@ -285,8 +288,8 @@ class _Run:
         inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
         if action.has_scope and name:
             inner = inner._replace(container=name)
-        for given, value in action.arguments:
-            self._set(inner, given, self._texts(value, scope), certain=True)
+        for configuration, value in action.arguments:
+            self._set(inner, configuration, self._texts(value, scope), certain=True)
         after = self._actions(action.children, inner)
         return scope if action.has_scope else after
 
@@ -300,10 +303,10 @@ class _Run:
         if file is None:
             return scope
         self.started[-1] = started._replace(file=file.path)
-        again = (path, scope.values) in self._open
-        if again and scope.certain:
+        is_repeated = (path, scope.values) in self._open
+        if is_repeated and scope.certain:
             self.circles.append(Circle(file.path, action.span))
-        if again or self.circles or len(self._open) > _DEEPEST:
+        if is_repeated or self.circles or len(self._open) > _DEEPEST:
             self.complete = False
             return scope
         self._via = self._via if self._depth else action.span
@@ -322,8 +325,8 @@ class _Run:
         is_process = action.kind == "process"
         self._filling.unknown.clear()
         if self._brief:
-            words_only = tuple([one for one in action.arguments if not one[0]])
-            files_only = tuple([one for one in action.parameters if not one[0]])
+            words_only = tuple([argument for argument in action.arguments if not argument[0]])
+            files_only = tuple([argument for argument in action.parameters if not argument[0]])
             action = action._replace(parameters=files_only, remappings=(), arguments=words_only)
         is_node = action.kind in ("node", "component")
         words = tuple([self._texts(value, scope) for name, value in action.arguments if not name])
@@ -346,7 +349,7 @@ class _Run:
                 *(scope.remappings if is_node else ()),
                 *((self._texts(a, scope), self._texts(b, scope)) for a, b in action.remappings),
             ),
-            tuple(one for one in named if not one[0].startswith("$")),
+            tuple(argument for argument in named if not argument[0].startswith("$")),
             scope.certain,
             action.span,
             self._depth,

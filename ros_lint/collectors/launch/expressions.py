@@ -131,8 +131,8 @@ def _call(node: ast.Call) -> Any:
 
 
 def _truth(text: Any) -> bool:
-    found = means_true(str(text))
-    return _refuse() if found is None else found
+    truth = means_true(str(text))
+    return _refuse() if truth is None else truth
 
 
 def _equals(left: Any, right: Any) -> bool:
@@ -177,16 +177,16 @@ def _small(value: Any) -> Any:
 
 def _size(value: Any) -> int:
     """Return the number of characters and items in a value with nested ones. Stops above the limit."""
-    found = 0
+    size = 0
     waiting = [value]
-    while waiting and found <= _MOST:
-        one = waiting.pop()
-        found += len(one) if isinstance(one, (str, list, tuple, dict)) else 1
-        if isinstance(one, dict):
-            waiting += [*one.keys(), *one.values()]
-        elif isinstance(one, (list, tuple)):
-            waiting += one
-    return found
+    while waiting and size <= _MOST:
+        item = waiting.pop()
+        size += len(item) if isinstance(item, (str, list, tuple, dict)) else 1
+        if isinstance(item, dict):
+            waiting += [*item.keys(), *item.values()]
+        elif isinstance(item, (list, tuple)):
+            waiting += item
+    return size
 
 
 def _refuse() -> Any:

@@ -24,19 +24,19 @@ def _display(text: str) -> str:
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, Reads | None]]:
     """Return the values of an action, except its target, that can contain a path, each with its ``Reads``."""
-    found: list[tuple[LaunchValue, Reads | None]] = []
+    values: list[tuple[LaunchValue, Reads | None]] = []
     if action.value is not None:
-        found.append((action.value, None))
+        values.append((action.value, None))
     if action.name is not None:
-        found.append((action.name, None))
+        values.append((action.name, None))
     if action.namespace is not None:
-        found.append((action.namespace, None))
+        values.append((action.namespace, None))
     if action.arguments:
         shows = action.kind == "node" and action.package is not None and action.package.texts == ("rviz2",)
-        found += _shown(action.arguments) if shows else [(value, None) for _, value in action.arguments]
+        values += _shown(action.arguments) if shows else [(value, None) for _, value in action.arguments]
     if action.parameters:
-        found += [(value, None if name else _whole) for name, value in action.parameters]
-    return found
+        values += [(value, None if name else _whole) for name, value in action.parameters]
+    return values
 
 
 def _shown(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, Reads | None]]:

@@ -34,11 +34,11 @@ def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]
 
 def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions can hold in a distribution. Only those on ROS_DISTRO alone are evaluated."""
-    for (text, *others), equals, wanted in conditions:
-        if others or set(named_in(text) or ()) != {_ASKED}:
+    for (text, *further_texts), equals, wanted in conditions:
+        if further_texts or set(named_in(text) or ()) != {_ASKED}:
             continue
         texts = fill(text, lambda _: (distro,), evaluate)
-        answers = {means_true(one) if equals is None else one == equals for one in texts if is_settled(one)}
+        answers = {means_true(filled) if equals is None else filled == equals for filled in texts if is_settled(filled)}
         if answers == {not wanted}:
             return False
     return True

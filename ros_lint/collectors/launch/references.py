@@ -160,14 +160,14 @@ class References:
             if not name:
                 texts, default = self._filled(value)
                 words += [(word, value, default) for word in _words(texts[0] if len(texts) == 1 else UNKNOWN)]
-        said = tuple([word for word, _, _ in words[:2]])
-        if said[:1] == ("xacro",):
+        command = tuple([word for word, _, _ in words[:2]])
+        if command[:1] == ("xacro",):
             self._add("command", "xacro", "xacro", words[0][1], words[0][1], conditional, by_default=False)
-        elif said in _COMMANDS:
-            self._add("command", _COMMANDS[said], " ".join(said), words[1][1], words[1][1], conditional, by_default=False)
-        if said not in (("ros2", "run"), ("ros2", "launch")):
+        elif command in _COMMANDS:
+            self._add("command", _COMMANDS[command], " ".join(command), words[1][1], words[1][1], conditional, by_default=False)
+        if command not in (("ros2", "run"), ("ros2", "launch")):
             return
-        rest = [one for one in words[2:] if not one[0].startswith("-")][:2]
+        rest = [argument for argument in words[2:] if not argument[0].startswith("-")][:2]
         if not rest or not is_plain(rest[0][0]):
             self.hide(f"what ros2 {words[1][0]} starts is computed", action.span)
             return
@@ -246,25 +246,25 @@ class References:
         by_default = not all(map(self._held.is_own, value.texts))
         if len(value.texts) == 1:
             return self._fill(value.texts[0]), by_default
-        found = dict.fromkeys(text for one in value.texts for text in self._fill(one))
-        return tuple(found), by_default
+        texts = dict.fromkeys(text for alternative in value.texts for text in self._fill(alternative))
+        return tuple(texts), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
         """Restrict configurations to the values that conditions of the form "configuration equals x" allow."""
-        for (text, *others), equals, wanted in conditions:
+        for (text, *further_texts), equals, wanted in conditions:
             name = next((name for name, _, whole in configurations(text) if whole == text), "")
-            if name and equals is not None and not others and is_plain(equals):
-                left = [value for value in self._value(name) or () if value != equals]
-                self._narrowed, self._known = {**self._narrowed, name: (equals,) if wanted else tuple(left)}, {}
+            if name and equals is not None and not further_texts and is_plain(equals):
+                remaining = [value for value in self._value(name) or () if value != equals]
+                self._narrowed, self._known = {**self._narrowed, name: (equals,) if wanted else tuple(remaining)}, {}
 
     def _value(self, name: str) -> tuple[str, ...] | None:
         return self._narrowed[name] or None if name in self._narrowed else self._held.values.get(name)
 
     def _fill(self, text: str) -> tuple[str, ...]:
-        found = self._known.get(text)
-        if found is None:
-            found = self._known[text] = fill(text, self._value, evaluate)
-        return found
+        texts = self._known.get(text)
+        if texts is None:
+            texts = self._known[text] = fill(text, self._value, evaluate)
+        return texts
 
     def look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Note a package that is looked up while the file is read."""
@@ -331,10 +331,10 @@ class References:
         asked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
         if asked:
             self.found = {
-                one._replace(existence_checked=True)
-                if one.kind in ("file", "include") and (one.package, one.name) in asked
-                else one: None
-                for one in self.found
+                reference._replace(existence_checked=True)
+                if reference.kind in ("file", "include") and (reference.package, reference.name) in asked
+                else reference: None
+                for reference in self.found
             }
 
     def all(self) -> tuple[LaunchReference, ...]:
@@ -342,11 +342,11 @@ class References:
 
         A reference is not optional if the same place names the package in every distribution.
         """
-        found = list(self.found)
-        for number, one in enumerate(found):
-            if one.distros and self._named_in.get((one.package, one.package_span)) == EVERYWHERE:
-                found[number] = one._replace(optional=False)
-        return tuple(sorted(found, key=attrgetter("span")))
+        references = list(self.found)
+        for number, reference in enumerate(references):
+            if reference.distros and self._named_in.get((reference.package, reference.package_span)) == EVERYWHERE:
+                references[number] = reference._replace(optional=False)
+        return tuple(sorted(references, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
         """Note that an unknown value hides which packages are used."""

@@ -64,19 +64,19 @@ class Filling:
     def _filled(self, texts: Texts, scope: Scope) -> Texts:
         if len(texts) == 1 and is_settled(texts[0]) and OWN_FOLDER not in texts[0]:
             return texts
-        found: dict[str, None] = {}
+        results: dict[str, None] = {}
         for text in texts:
             if is_settled(text) and OWN_FOLDER not in text:
-                found[text] = None
+                results[text] = None
                 continue
-            for one in self._put(text, scope):
-                if OWN_FOLDER in one:
-                    found.update(dict.fromkeys([one.replace(OWN_FOLDER, folder) for folder in scope.folder]))
+            for filled in self._put(text, scope):
+                if OWN_FOLDER in filled:
+                    results.update(dict.fromkeys([filled.replace(OWN_FOLDER, folder) for folder in scope.folder]))
                 else:
-                    found[one] = None
-                if UNKNOWN in one:
+                    results[filled] = None
+                if UNKNOWN in filled:
                     self.unknown.update(dict.fromkeys(self._reasons(text, scope)))
-        return tuple(found)
+        return tuple(results)
 
     def _put(self, text: str, scope: Scope) -> Texts:
         names = named_in(text)

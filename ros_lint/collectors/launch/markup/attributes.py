@@ -43,13 +43,13 @@ class Reader:
 
     def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
         """Return the actions of entities. A rejected entity is noted and gives no action."""
-        found: list[LaunchAction] = []
+        actions: list[LaunchAction] = []
         for entity in entities:
             try:
-                found += self._action(entity)
+                actions += self._action(entity)
             except Rejected as error:
                 self.refuse(error)
-        return found
+        return actions
 
     def _action(self, entity: Entity) -> list[LaunchAction]:
         rule = self._rules.get(entity.tag)
@@ -67,10 +67,10 @@ class Reader:
 
     def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
         """Return the alternatives of a value with substitutions. Raises Rejected."""
-        found = reading(value)
+        texts_or_mistake = reading(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
-        return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
+        return self._refused(entity, name, value, texts_or_mistake) if isinstance(texts_or_mistake, Mistake) else texts_or_mistake
 
     def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
         """Return a value as literals and substitutions. Raises Rejected."""
@@ -126,7 +126,7 @@ class Reader:
         """Return an attribute of a type, a LaunchValue if it is a substitution instead, None if it is missing."""
         value = entity.get(name, kind)
         if isinstance(value, list):
-            kinds = {self._kind(entity, name, one) for one in value} - {None}
+            kinds = {self._kind(entity, name, item) for item in value} - {None}
             if len(kinds) > 1:
                 raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> mixes types in a list", entity.place(name))
             return value
@@ -136,7 +136,7 @@ class Reader:
 
     def listed(self, entity: Entity, name: str, values: list[Any]) -> LaunchValue:
         """Return a list in an attribute as one text in YAML notation."""
-        rows = [self._texts(entity, name, one) if isinstance(one, str) else (str(one),) for one in values]
+        rows = [self._texts(entity, name, item) if isinstance(item, str) else (str(item),) for item in values]
         return LaunchValue(joined(rows, _as_yaml), entity.place(name))
 
     def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
@@ -190,16 +190,16 @@ class Reader:
 
     def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
         """Return the names and values of the children with a tag."""
-        found: list[tuple[str, LaunchValue]] = []
+        pairs: list[tuple[str, LaunchValue]] = []
         children = entity.entities(tag)
         for child in children:
             if not child.simple or "name" not in child.attributes:
                 child.need("name")
-            given = self.text(child, "value")
-            found += [(one, given) for one in self.text(child, "name").texts]
+            value = self.text(child, "value")
+            pairs += [(name, value) for name in self.text(child, "name").texts]
         for child in children:
             child.finish()
-        return tuple(found)
+        return tuple(pairs)
 
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
         """Return the conditions of the attributes ``if`` and ``unless``. Raises Rejected."""
@@ -227,15 +227,15 @@ class Mistake(NamedTuple):
 
 
 def _as_yaml(row: tuple[str, ...]) -> str:
-    return f"[{', '.join(repr(one) if ',' in one else one for one in row)}]"
+    return f"[{', '.join(repr(item) if ',' in item else item for item in row)}]"
 
 
 @lru_cache(maxsize=4_096)
 def reading(value: str) -> tuple[str, ...] | Mistake:
     """Return the alternatives of a value, or its error. Cached, because most values occur repeatedly."""
-    found = simple_text(value)
-    if found is not None:
-        return (found,)
+    simple = simple_text(value)
+    if simple is not None:
+        return (simple,)
     pieces = _pieces(value)
     return pieces if isinstance(pieces, Mistake) else texts(pieces)
 
@@ -277,8 +277,8 @@ def _wrong(piece: Substitution) -> tuple[str, str] | None:
     least, most = limits
     if not least <= len(piece.arguments) <= most:
         wanted = str(least) if least == most else f"{least} to {most}"
-        given = len(piece.arguments)
-        message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {given}"
+        count = len(piece.arguments)
+        message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {count}"
         return "substitution-arguments", message
     if (
         piece.name == "eval"

@@ -13,13 +13,13 @@ from ros_lint.facts.launch import LaunchAction, LaunchValue
 def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     """Return the action with the attributes that nodes and executables share (``ExecuteProcess.parse``)."""
     conditions = reader.conditions(entity)
-    given: list[tuple[str, LaunchValue]] = []
+    arguments: list[tuple[str, LaunchValue]] = []
     if kind == "process":
-        given += reader.words(entity, "cmd", entity.need("cmd"))
+        arguments += reader.words(entity, "cmd", entity.need("cmd"))
     for attribute in () if entity.lacks(_SURROUNDINGS) else _SURROUNDINGS:
         value = reader.optional(entity, attribute)
         if value is not None and attribute in ("cwd", "launch-prefix"):
-            given.append((attribute.removeprefix("launch-"), value))
+            arguments.append((attribute.removeprefix("launch-"), value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"'on_exit' of <{entity.tag}> can only be 'shutdown'", entity.place("on_exit"))
@@ -27,13 +27,13 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
         _limits(reader, entity)
     entity.get("shell", "bool")
     entity.get("emulate_tty", "bool")
-    given += [(f"${variable}", value) for variable, value in reader.named(entity, "env")]
+    arguments += [(f"${variable}", value) for variable, value in reader.named(entity, "env")]
     return LaunchAction(
         kind,
         entity.span,
-        target=given[0][1] if kind == "process" and given else None,
+        target=arguments[0][1] if kind == "process" and arguments else None,
         name=name,
-        arguments=tuple(given),
+        arguments=tuple(arguments),
         package_span=reader.package_span(entity, "cmd", "launch-prefix"),
         conditions=conditions,
     )
@@ -61,11 +61,11 @@ def _executable(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _node(reader: Reader, entity: Entity) -> LaunchAction:
     action = _process(reader, entity, "node")
-    given = list(action.arguments)
+    arguments = list(action.arguments)
     for name in ("args", "ros_args"):
         value = entity.get(name)
         if value is not None:
-            given += reader.words(entity, name, value)
+            arguments += reader.words(entity, name, value)
     if entity.get("node-name") is not None:
         raise Rejected("unexpected-attribute", "the attribute 'node-name' was removed; use 'name'", entity.place("node-name"))
     reader.optional(entity, "exec_name")
@@ -75,7 +75,7 @@ def _node(reader: Reader, entity: Entity) -> LaunchAction:
         namespace=reader.optional(entity, "namespace"),
         remappings=_remappings(reader, entity),
         parameters=_parameters(reader, entity),
-        arguments=tuple(given),
+        arguments=tuple(arguments),
         package_span=reader.package_span(entity, "args", "ros_args", "exec") or action.package_span,
     )
 
@@ -133,10 +133,10 @@ def _component(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _remappings(reader: Reader, entity: Entity) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
     children = entity.entities("remap")
-    found = tuple((reader.text(child, "from"), reader.text(child, "to")) for child in children)
+    pairs = tuple((reader.text(child, "from"), reader.text(child, "to")) for child in children)
     for child in children:
         child.finish()
-    return found
+    return pairs
 
 
 _TYPES: Mapping[str, Type] = {
@@ -154,7 +154,7 @@ _SCALARS: Mapping[str, tuple[type, ...]] = {"str": (str,), "bool": (bool,), "flo
 
 
 def _parameters(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue], ...]:
-    found: list[tuple[str, LaunchValue]] = []
+    parameters: list[tuple[str, LaunchValue]] = []
     for param in entity.entities("param"):
         file, name = param.get("from"), param.get("name")
         substituted = param.get("allow_substs", "bool")
@@ -164,14 +164,14 @@ def _parameters(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue]
             if isinstance(substituted, str):
                 raise Rejected("wrong-type", "'allow_substs' of <param> is neither true nor false", param.place("allow_substs"))
             param.finish()
-            found.append(("", reader.text(param, "from")))
+            parameters.append(("", reader.text(param, "from")))
         elif name is None:
             raise Rejected("parameter", "<param> requires 'name' or 'from'", param.span)
         elif substituted is not None:
             raise Rejected("parameter", "'allow_substs' is only valid together with 'from'", param.place("allow_substs"))
         else:
-            found += _nested(reader, param, "")
-    return tuple(found)
+            parameters += _nested(reader, param, "")
+    return tuple(parameters)
 
 
 def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, LaunchValue]]:

@@ -75,7 +75,7 @@ class _Parser:
     def _pieces(self, at: int, stops: str, escaped: str, depth: int, quote: str) -> tuple[tuple[Piece, ...], int]:
         """Read until a character of ``stops`` or to the end. A backslash escapes the characters in ``escaped``."""
         text = self._text
-        found: list[Piece] = []
+        pieces: list[Piece] = []
         begin = at
         stop = _STOPS[stops]
         while match := stop.search(text, at):
@@ -86,17 +86,17 @@ class _Parser:
                 break
             elif text.startswith("(", at + 1):
                 if begin < at:
-                    found.append(Literal(_unescape(text[begin:at]), begin, at))
+                    pieces.append(Literal(_unescape(text[begin:at]), begin, at))
                 substitution = self._substitution(at, depth + 1, quote)
-                found.append(substitution)
+                pieces.append(substitution)
                 begin = at = substitution.end
             else:
                 at += 1
         else:
             at = len(text)
         if begin < at:
-            found.append(Literal(_unescape(text[begin:at]), begin, at))
-        return tuple(found), at
+            pieces.append(Literal(_unescape(text[begin:at]), begin, at))
+        return tuple(pieces), at
 
     def _substitution(self, start: int, depth: int, quote: str) -> Substitution:
         text = self._text

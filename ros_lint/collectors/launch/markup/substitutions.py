@@ -33,7 +33,7 @@ def simple_text(value: str) -> str | None:
     """Return the text of a value with only simple and valid substitutions, None if it needs the parser."""
     if "\\" in value:
         return None
-    found: list[str] = []
+    parts_made: list[str] = []
     parts = _SIMPLE.split(value)
     for at in range(0, len(parts) - 1, 3):
         literal, name, rest = parts[at : at + 3]
@@ -45,12 +45,12 @@ def simple_text(value: str) -> str | None:
         made = rule([(argument,) for argument in arguments]) if rule is not None else (UNKNOWN,)
         if len(made) != 1:
             return None
-        found += (literal, made[0])
+        parts_made += (literal, made[0])
     if "$(" in parts[-1]:
         return None
-    found.append(parts[-1])
-    text = "".join(found)
-    return text if len(text) <= launch_text.LONGEST or len(found) == 1 else UNKNOWN
+    parts_made.append(parts[-1])
+    text = "".join(parts_made)
+    return text if len(text) <= launch_text.LONGEST or len(parts_made) == 1 else UNKNOWN
 
 
 def package_of(pieces: Pieces) -> Pieces:

@@ -22,17 +22,17 @@ def collect(source: Text) -> LaunchFile:
             opaque=(Opaque(Facet.USES, "the file is no XML that can be read", span),),
             problems=(Problem("syntax", error.message, span),),
         )
-    found = launch_markup.read(source, root)
+    facts = launch_markup.read(source, root)
     asks = launch_markup.asks(source.text)
     return LaunchFile(
         source.path,
         "xml",
-        found.references,
-        found.opaque,
-        found.problems,
-        actions=found.actions,
+        facts.references,
+        facts.opaque,
+        facts.problems,
+        actions=facts.actions,
         configurations_read=asks,
-        version_problems=found.newer,
+        version_problems=facts.newer,
     )
 
 

@@ -38,17 +38,17 @@ def collect(source: Text) -> LaunchFile:
         start = source.span(0, 0)
         problem = Problem("root", "the file must be a mapping with the one key launch", start)
         return LaunchFile(source.path, "yaml", problems=(problem,))
-    found = launch_markup.read(source, root)
+    facts = launch_markup.read(source, root)
     asks = launch_markup.asks(source.text)
     return LaunchFile(
         source.path,
         "yaml",
-        found.references,
-        found.opaque,
-        found.problems,
-        actions=found.actions,
+        facts.references,
+        facts.opaque,
+        facts.problems,
+        actions=facts.actions,
         configurations_read=asks,
-        version_problems=found.newer,
+        version_problems=facts.newer,
     )
 
 
@@ -131,8 +131,8 @@ def _value(node: yaml.Node) -> Any:
     import yaml  # noqa: PLC0415
 
     if isinstance(node, yaml.SequenceNode):
-        found = [_value(item) if _is_scalar(item) else NO_VALUE for item in node.value[:1_000]]
-        return NO_VALUE if NO_VALUE in found else found
+        values = [_value(item) if _is_scalar(item) else NO_VALUE for item in node.value[:1_000]]
+        return NO_VALUE if NO_VALUE in values else values
     if not isinstance(node, yaml.ScalarNode):
         return NO_VALUE
     kind = node.tag.rpartition(":")[2]

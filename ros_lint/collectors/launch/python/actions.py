@@ -30,11 +30,11 @@ def walker(machine: Interpreter, source: Source) -> Walker:
 
 
 def _include(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    given = made.get(0, "launch_description_source")
+    source_argument = made.get(0, "launch_description_source")
     node, where = made.written(0, "launch_description_source"), made.source
-    while isinstance(source := plain(given), LaunchObject) and source.name.endswith("LaunchDescriptionSource"):
+    while isinstance(source := plain(source_argument), LaunchObject) and source.name.endswith("LaunchDescriptionSource"):
         node, where = source.written(0, "launch_file_path", "location", "launch_description"), source.source
-        given = source.get(0, "launch_file_path", "location", "launch_description")
+        source_argument = source.get(0, "launch_file_path", "location", "launch_description")
     if isinstance(source, LaunchObject) and source.name == "LaunchDescription":
         return walker.actions(source, conditions)
     target = walker.text(source, node, where)
@@ -47,15 +47,15 @@ def _include(walker: Walker, made: LaunchObject, conditions: Conditions) -> list
         conditions=conditions,
         builtin_model=made.source.lent,
     )
-    return [_given(one, passed) for one in walker.apart(include, given)]
+    return [_given(action, passed) for action in walker.apart(include, source_argument)]
 
 
 def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
     """Return an include with its arguments. Those of a branch that excludes the include are omitted."""
-    together = [one for one in passed if launch_text.are_consistent((*include.conditions, *one.conditions))]
+    together = [argument for argument in passed if launch_text.are_consistent((*include.conditions, *argument.conditions))]
     return include._replace(
-        arguments=tuple([(one.name, one.value) for one in together]),
-        argument_spans=tuple([one.span for one in together]),
+        arguments=tuple([(argument.name, argument.value) for argument in together]),
+        argument_spans=tuple([argument.span for argument in together]),
         conditional_arguments=_perhaps(together),
     )
 
@@ -75,18 +75,18 @@ class _Passed(NamedTuple):
 
 def _pairs(walker: Walker, value: Value, made: LaunchObject) -> Iterator[_Passed]:
     node = made.written(1, "launch_arguments")
-    given = plain(value)
-    if isinstance(given, dict):
-        given = list(given.items())
-    pairs = items(walker.machine, given) if given is not None else []
-    for pair in pairs if pairs is not None else [given]:
+    passed = plain(value)
+    if isinstance(passed, dict):
+        passed = list(passed.items())
+    pairs = items(walker.machine, passed) if passed is not None else []
+    for pair in pairs if pairs is not None else [passed]:
         parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
             unknown = walker.text(UNKNOWN, node, made.source)
             yield _Passed(UNKNOWN, unknown.span, unknown, (), perhaps=True)
             continue
         place = walker.text(parts[0], node, made.source).span
-        ways = [one.conditions for one in alternatives(pair)]
+        ways = [alternative.conditions for alternative in alternatives(pair)]
         perhaps = any(UNKNOWN in text for way in ways for condition in way for text in condition.texts)
         for name in texts(parts[0]):
             what = walker.text(parts[1], node, made.source)
@@ -95,14 +95,14 @@ def _pairs(walker: Walker, value: Value, made: LaunchObject) -> Iterator[_Passed
 
 def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
     """Return the arguments that may not be passed. Those that both sides of a branch pass are certain."""
-    sides = Counter([one.name for one in passed])
-    return tuple([one.name for one in passed if one.perhaps and sides[one.name] == 1])
+    sides = Counter([argument.name for argument in passed])
+    return tuple([argument.name for argument in passed if argument.perhaps and sides[argument.name] == 1])
 
 
 def _declare(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    given = made.get(-1, "choices")
+    options = made.get(-1, "choices")
     # For a text, launch tests whether the value is a substring of it.
-    choices = items(walker.machine, given) if given is not None and not isinstance(plain(given), str) else None
+    choices = items(walker.machine, options) if options is not None and not isinstance(plain(options), str) else None
     default = walker.value(made, 1, "default_value")
     return [
         LaunchAction(
@@ -174,17 +174,17 @@ def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[L
         (action,) = _declare(walker, made, conditions)
         unknown = LaunchValue((UNKNOWN,), place_of(made))  # it may have a default in its own class, which is not read
         return [action._replace(value=action.value or unknown)] if action.target else []
-    given: list[tuple[str, LaunchValue]] = []
+    arguments: list[tuple[str, LaunchValue]] = []
     for position, value in enumerate(made.arguments):
-        given += [("", walker.text(one, made.written(position), made.source)) for one in _texts_in(value)]
+        arguments += [("", walker.text(text, made.written(position), made.source)) for text in _texts_in(value)]
     for name, value in made.keywords.items():
-        given += [("", walker.text(one, made.written(-1, name), made.source)) for one in _texts_in(value)]
+        arguments += [("", walker.text(text, made.written(-1, name), made.source)) for text in _texts_in(value)]
     return [
         LaunchAction(
             "other",
             place_of(made),
             name=LaunchValue((made.name,), place_of(made)),
-            arguments=tuple(given),
+            arguments=tuple(arguments),
             conditions=conditions,
             children=tuple(nested(walker, made)),
         )
@@ -193,19 +193,19 @@ def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[L
 
 def _texts_in(value: Value) -> list[Value]:
     """Return the texts in a value: itself, or those in a list or dictionary."""
-    found: list[Value] = []
+    text_values: list[Value] = []
     waiting = [value]
     for _ in range(_MOST_TEXTS):
         if not waiting:
             break
-        one = plain(waiting.pop(0))
-        if isinstance(one, dict):
-            waiting += one.values()
-        elif isinstance(one, (list, tuple)):
-            waiting += one
-        elif isinstance(one, str) or is_text(one):
-            found.append(one)
-    return found
+        item = plain(waiting.pop(0))
+        if isinstance(item, dict):
+            waiting += item.values()
+        elif isinstance(item, (list, tuple)):
+            waiting += item
+        elif isinstance(item, str) or is_text(item):
+            text_values.append(item)
+    return text_values
 
 
 def _silent(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001

@@ -93,8 +93,8 @@ def _asks_for_arguments(node: ast.stmt) -> bool:
     """
     if not isinstance(node, ast.FunctionDef) or node.name != "generate_launch_description" or node.decorator_list:
         return False
-    given = node.args
-    return len(given.posonlyargs) + len(given.args) > len(given.defaults) or None in given.kw_defaults
+    parameters = node.args
+    return len(parameters.posonlyargs) + len(parameters.args) > len(parameters.defaults) or None in parameters.kw_defaults
 
 
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
@@ -163,15 +163,15 @@ class _Reading:
     def asks(self) -> tuple[str, ...]:
         """Return the launch configurations that are read, with UNKNOWN among them if others may be."""
         within = Within()
-        found = {
+        names = {
             str(name)
             for made in self._machine.made
             if made.name.startswith("LaunchConfig")  # also LaunchConfigAsBool of nav2_common
             for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
         }
         if self._machine.borrows or ".launch_configurations" in self._source.text.text:
-            found.add(UNKNOWN)
-        return tuple(sorted(found))
+            names.add(UNKNOWN)
+        return tuple(sorted(names))
 
     def _spare(self, references: References) -> None:
         """Mark packages as optional whose look-ups all tolerate that the package is missing.
@@ -179,11 +179,11 @@ class _Reading:
         A look-up while the file is read stops the file if the package is missing, unless the exception is caught or a
         condition tests for the package.
         """
-        asked = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
+        optional = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
         for package, _, _, conditions in self._machine.looked_up:
             if not is_guarded_by_presence(conditions):
-                asked.pop(package, None)
-        references.spare(asked)
+                optional.pop(package, None)
+        references.spare(optional)
 
     def places(self) -> dict[str, Span]:
         """Return the look-ups of packages that have a path in the file or a command that it runs."""

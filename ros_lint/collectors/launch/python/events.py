@@ -29,42 +29,42 @@ def _timer(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[L
 
 def _event(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """Return the actions of an event handler: its list of actions, or the result of its function."""
-    found: list[LaunchAction] = []
-    for one in alternatives(made.get(0, "event_handler")):
-        handler = one.value
+    actions: list[LaunchAction] = []
+    for alternative in alternatives(made.get(0, "event_handler")):
+        handler = alternative.value
         if isinstance(handler, Instance):
             handler = handler.made
         if isinstance(handler, LaunchObject):
-            found += _handled(walker, handler)
-    return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(found))] if found else []
+            actions += _handled(walker, handler)
+    return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(actions))] if actions else []
 
 
 def _handled(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
     handler.seen = True
-    found: list[LaunchAction] = []
+    actions: list[LaunchAction] = []
     targets = {"target_action", "matcher", "handle_once", "target_lifecycle_node", "start_state", "goal_state", "transition"}
-    for name, given in [*[("", one) for one in handler.arguments[1:]], *handler.keywords.items()]:
+    for name, argument in [*[("", alternative) for alternative in handler.arguments[1:]], *handler.keywords.items()]:
         if name in targets:
             continue
-        for one in alternatives(given):
-            value = one.value
+        for alternative in alternatives(argument):
+            value = alternative.value
             if isinstance(value, (Function, Bound)):
                 value = walker.run(value, [Unknown("an event"), Context()], {}, handler)
-            found += walker.actions(value, one.conditions, place_of(handler))
-    return found
+            actions += walker.actions(value, alternative.conditions, place_of(handler))
+    return actions
 
 
 def later(walker: Walker, made: LaunchObject, *names: str) -> list[LaunchAction]:
     """Return the actions that run when the event of one of the named arguments occurs."""
-    found: list[LaunchAction] = []
+    actions: list[LaunchAction] = []
     for name in names:
-        for one in alternatives(made.get(-1, name)) if name in made.keywords else ():
-            value = one.value
+        for alternative in alternatives(made.get(-1, name)) if name in made.keywords else ():
+            value = alternative.value
             if isinstance(value, (Function, Bound)):
                 value = walker.run(value, [Unknown("an event"), Context()], {}, made)
             if value is not None and not isinstance(value, Unknown):
-                found += walker.actions(value, one.conditions, place_of(made))
-    return [LaunchAction("later", place_of(made), children=tuple(found))] if found else []
+                actions += walker.actions(value, alternative.conditions, place_of(made))
+    return [LaunchAction("later", place_of(made), children=tuple(actions))] if actions else []
 
 
 def _opaque_function(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
@@ -83,8 +83,8 @@ def _opaque_function(walker: Walker, made: LaunchObject, conditions: Conditions)
         walker.machine.conditions, its_own = before, walker.machine.variables
         walker.machine.variables = variables
     # Its assignments may depend on arguments that are declared before it, not on later ones.
-    found = walker.actions(its_own, conditions, place_of(made))
-    return [*found, *walker.actions(result, conditions, place_of(made))] if result is not None else found
+    actions = walker.actions(its_own, conditions, place_of(made))
+    return [*actions, *walker.actions(result, conditions, place_of(made))] if result is not None else actions
 
 
 def _for_each(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:

@@ -64,11 +64,11 @@ def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
     if not any(_is_stray(f"launch{module}", name) for module, name in _ASKED.findall(source.text.text)):
         return  # because walking the whole tree takes longer than everything else
     imported = _imported(tree)
-    for one in ast.walk(tree):
-        if isinstance(one, ast.Attribute) and one.attr in _HOMES and isinstance(one.value, ast.Attribute):
-            root = one.value.value
+    for node_inside in ast.walk(tree):
+        if isinstance(node_inside, ast.Attribute) and node_inside.attr in _HOMES and isinstance(node_inside.value, ast.Attribute):
+            root = node_inside.value.value
             if isinstance(root, ast.Name) and root.id in imported:
-                yield from _stray(f"{root.id}.{one.value.attr}", one.attr, one, source)
+                yield from _stray(f"{root.id}.{node_inside.value.attr}", node_inside.attr, node_inside, source)
 
 
 def _stray(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
@@ -84,16 +84,16 @@ def _is_stray(module: str, name: str) -> bool:
 
 def _imported(tree: ast.Module) -> frozenset[str]:
     """Return the launch libraries that are imported without an alias and whose names are not rebound."""
-    found: set[str] = set()
-    other: set[str] = set()
+    imported: set[str] = set()
+    rebound: set[str] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            found.update(alias.name.partition(".")[0] for alias in node.names if alias.asname is None)
+            imported.update(alias.name.partition(".")[0] for alias in node.names if alias.asname is None)
         elif isinstance(node, ast.arg):
-            other.add(node.arg)
+            rebound.add(node.arg)
         elif isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
-            other.add(node.id)
-    return frozenset({"launch", "launch_ros"} & found - other)
+            rebound.add(node.id)
+    return frozenset({"launch", "launch_ros"} & imported - rebound)
 
 
 def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:

@@ -83,9 +83,9 @@ def _make(call: Call, name: str) -> LaunchObject:
 
 def _note_command(call: Call, made: LaunchObject) -> None:
     """Note the first place that runs a command of a package."""
-    given, at = made.get(0, "command"), made.written(0, "command")
-    if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(given)):
-        first = at.elts[0] if isinstance(at, (ast.List, ast.Tuple)) and at.elts else at
+    command, expression = made.get(0, "command"), made.written(0, "command")
+    if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(command)):
+        first = expression.elts[0] if isinstance(expression, (ast.List, ast.Tuple)) and expression.elts else expression
         call.machine.named.setdefault("xacro", (first, call.frame.source))
 
 
@@ -95,12 +95,12 @@ def _note_builder(call: Call, made: LaunchObject) -> None:
     Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
     """
     position = 2 if made.name == "MoveItConfigsBuilder" else 0
-    given = made.get(position, "package_name")
-    if given is not None:
-        _note(call, given, made.written(position, "package_name"), eager=True)
+    package = made.get(position, "package_name")
+    if package is not None:
+        _note(call, package, made.written(position, "package_name"), eager=True)
     elif position:
         robots = made.get(0, "robot_name")
-        names = tuple(f"{one.value}_moveit_config" for one in alternatives(robots) if isinstance(one.value, str))
+        names = tuple(f"{robot.value}_moveit_config" for robot in alternatives(robots) if isinstance(robot.value, str))
         for name in names:
             _note(call, name, made.written(0, "robot_name"), eager=True)
 
@@ -149,23 +149,23 @@ def _note_built(call: Call, owner: LaunchObject) -> None:
     position = _READ_BY_BUILDERS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
         return
-    package, given = built_for(owner), call.get(position, "file_path")
-    if not package or not isinstance(given, (str, FilePath)):
+    package, file = built_for(owner), call.get(position, "file_path")
+    if not package or not isinstance(file, (str, FilePath)):
         return
-    at = argument_of(call.node, position, "file_path")
-    for path in text_of(given):
+    expression = argument_of(call.node, position, "file_path")
+    for path in text_of(file):
         whole = posixpath.join(launch_text.share(package), path)
-        call.machine.opened.append((whole, at, call.frame.source, call.machine.conditions))
+        call.machine.opened.append((whole, expression, call.frame.source, call.machine.conditions))
 
 
 def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
     source = call.frame.source
-    for one in alternatives(package):
-        node, where = getattr(one.value, "node", at), getattr(one.value, "source", source)
-        if isinstance(one.value, str):
-            call.machine.look_up(str(one.value), node, where, eager, one.conditions)
-        elif isinstance(one.value, LaunchObject):
-            for text in call.machine.texts(one.value):
+    for alternative in alternatives(package):
+        node, where = getattr(alternative.value, "node", at), getattr(alternative.value, "source", source)
+        if isinstance(alternative.value, str):
+            call.machine.look_up(str(alternative.value), node, where, eager, alternative.conditions)
+        elif isinstance(alternative.value, LaunchObject):
+            for text in call.machine.texts(alternative.value):
                 call.machine.named.setdefault(text, (at, source))
 
 
@@ -186,8 +186,8 @@ def _method(call: Call, owner: LaunchObject) -> Value:
     if name == "find" and owner.name in ("FindPackageShare", "FindPackagePrefix", "FindPackage"):
         return (_share if owner.name == "FindPackageShare" else _prefix)(call)
     if name == "evaluate":
-        found = conditions_of(owner)
-        return Unknown("a condition", found[0] if len(found) == 1 else None)
+        conditions = conditions_of(owner)
+        return Unknown("a condition", conditions[0] if len(conditions) == 1 else None)
     if owner.name.endswith("Builder"):
         _note_built(call, owner)
         owner.keywords.update({f"{name}.{key}": value for key, value in call.keywords.items()})
@@ -198,19 +198,19 @@ def _method(call: Call, owner: LaunchObject) -> Value:
 
 
 def _share(call: Call) -> Value:
-    given = call.get(0, "package_name", "package")
-    _note(call, given, call.node.args[0] if call.node.args else call.node, eager=True)
+    package = call.get(0, "package_name", "package")
+    _note(call, package, call.node.args[0] if call.node.args else call.node, eager=True)
     return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.share(row[0])))
 
 
 def _share_path(call: Call) -> Value:
-    found = _share(call)
-    return union(Guarded(FilePath(str(one.value)), one.conditions) for one in alternatives(found))
+    paths = _share(call)
+    return union(Guarded(FilePath(str(path.value)), path.conditions) for path in alternatives(paths))
 
 
 def _prefix(call: Call) -> Value:
-    given = call.get(0, "package_name", "package")
-    _note(call, given, call.node.args[0] if call.node.args else call.node, eager=True)
+    package = call.get(0, "package_name", "package")
+    _note(call, package, call.node.args[0] if call.node.args else call.node, eager=True)
     return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.prefix(row[0])))
 
 
@@ -231,8 +231,8 @@ def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
 
 def _path(call: Call) -> Value:
     rows = [call.texts(position) for position in range(len(call.arguments))]
-    found = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
-    return union(guarded_text(text, FilePath(text)) for text in found)
+    paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
+    return union(guarded_text(text, FilePath(text)) for text in paths)
 
 
 def _variable(call: Call) -> Value:
@@ -244,7 +244,7 @@ def _variable(call: Call) -> Value:
     if default is None and call.name != "os.environ" and names != ("ROS_DISTRO",):
         return Unknown("an environment variable")
     defaults = call.texts(1, "default") if default is not None else (None,)
-    return call.result(tuple(environment(name, one) for name in names for one in defaults))
+    return call.result(tuple(environment(name, value) for name in names for value in defaults))
 
 
 def _has_resource(call: Call) -> Value:
@@ -271,7 +271,7 @@ def _perform(position: int) -> Rule:
 def _configured(call: Call) -> Value:
     default = call.get(1)
     defaults = call.texts(1) if default is not None else (None,)
-    return call.result(tuple(launch_text.configuration(name, one) for name in call.texts(0) for one in defaults))
+    return call.result(tuple(launch_text.configuration(name, value) for name in call.texts(0) for value in defaults))
 
 
 def _expanded(call: Call) -> Value:

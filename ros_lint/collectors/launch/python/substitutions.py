@@ -50,18 +50,18 @@ def texts(value: Value, within: Within | None = None) -> tuple[str, ...]:
         return (str(value),)  # a plain str, so that facts contain no objects of the interpreter
     if within is None:
         within = Within()
-    done = within.known.get(id(value))
-    if done is not None:
-        return done[1]
+    known = within.known.get(id(value))
+    if known is not None:
+        return known[1]
     if within.depth > _DEEPEST or within.left <= 0:
         return (UNKNOWN,)
     within.left -= 1
     within.spend(3)
     within.depth += 1
-    found = _found(value, within)
+    result = _found(value, within)
     within.depth -= 1
-    within.known[id(value)] = (value, found)
-    return found
+    within.known[id(value)] = (value, result)
+    return result
 
 
 def _found(value: Value, within: Within) -> tuple[str, ...]:
@@ -69,8 +69,8 @@ def _found(value: Value, within: Within) -> tuple[str, ...]:
         only = _one(value, within)
         if len(only) == 1:
             return only
-    found = distinct(text for one in alternatives(value) for text in under(_one(one.value, within), one.conditions))
-    return found if 0 < len(found) <= launch_text.MOST else (UNKNOWN,)
+    result = distinct(text for choice in alternatives(value) for text in under(_one(choice.value, within), choice.conditions))
+    return result if 0 < len(result) <= launch_text.MOST else (UNKNOWN,)
 
 
 def _one(value: Value, within: Within) -> tuple[str, ...]:
@@ -97,14 +97,14 @@ def _configuration(made: LaunchObject, within: Within) -> tuple[str, ...]:
     names = texts(made.get(0, "variable_name"), within)
     default = made.get(1, "default")
     defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, within)
-    return tuple(launch_text.configuration(name, one) for name in names for one in defaults)
+    return tuple(launch_text.configuration(name, value) for name in names for value in defaults)
 
 
 def _environment(made: LaunchObject, within: Within) -> tuple[str, ...]:
     names = texts(made.get(0, "name"), within)
     default = made.get(1, "default_value")
     defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, within)
-    return tuple(environment(name, one) for name in names for one in defaults)
+    return tuple(environment(name, value) for name in names for value in defaults)
 
 
 def _path(made: LaunchObject, within: Within) -> tuple[str, ...]:
@@ -222,19 +222,19 @@ def conditions_of(value: Value, within: Within | None = None) -> Conditions:
 
     Any other value gives an unknown condition.
     """
-    found: list[LaunchCondition] = []
-    for one in alternatives(value):
-        made = one.value
+    conditions: list[LaunchCondition] = []
+    for alternative in alternatives(value):
+        made = alternative.value
         if isinstance(made, LaunchObject) and made.name in _ASKING:
-            asked = tuple(map(str, texts(made.get(0, "predicate_expression"), within)))
-            found.append(LaunchCondition(asked, None, made.name == "IfCondition"))
+            predicates = tuple(map(str, texts(made.get(0, "predicate_expression"), within)))
+            conditions.append(LaunchCondition(predicates, None, made.name == "IfCondition"))
         elif isinstance(made, LaunchObject) and made.name in _COMPARING:
             names = texts(made.get(0, "launch_configuration_name"), within)
             wanted = texts(made.get(1, "expected_value"), within)
             if len(names) != 1 or len(wanted) != 1:
                 return (PERHAPS,)
             equal = made.name == "LaunchConfigurationEquals"
-            found.append(LaunchCondition((launch_text.configuration(names[0]),), str(wanted[0]), equal))
+            conditions.append(LaunchCondition((launch_text.configuration(names[0]),), str(wanted[0]), equal))
         else:
             return (PERHAPS,)
-    return tuple(found) if len(found) == 1 else (PERHAPS,)
+    return tuple(conditions) if len(conditions) == 1 else (PERHAPS,)

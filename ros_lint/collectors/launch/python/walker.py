@@ -71,20 +71,20 @@ class Walker:
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
         """Return the actions of a value when it is launched."""
-        found: list[LaunchAction] = []
+        actions: list[LaunchAction] = []
         if self._depth > _DEEPEST or self._left <= 0:
             self._stop("there is too much of it" if self._left <= 0 else "it is nested too deeply", at)
-            return found
+            return actions
         self._left -= 1
         self._depth += 1
         try:
             if not isinstance(value, (Union, Guarded)):
                 return self._one(value, conditions, at)
-            for one in alternatives(value, conditions):
-                found += self._one(one.value, one.conditions, at)
+            for alternative in alternatives(value, conditions):
+                actions += self._one(alternative.value, alternative.conditions, at)
         finally:
             self._depth -= 1
-        return found
+        return actions
 
     def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
         if isinstance(value, Instance) and value.made is not None:
@@ -99,7 +99,7 @@ class Walker:
             finally:
                 self._open.discard(id(value))
         if isinstance(value, (list, tuple)):
-            return [action for one in value for action in self.actions(one, conditions, at)]
+            return [action for item in value for action in self.actions(item, conditions, at)]
         if isinstance(value, Unknown) and value.reason:
             self.blind.append((value.reason, at or file_start(self._source.text.path)))
         return []
@@ -123,33 +123,35 @@ class Walker:
         if not all(_depends(text) for text in targets):
             return [action]
         packages = self._alternatives(package)
-        found: list[LaunchAction] = []
+        actions: list[LaunchAction] = []
         for text in targets:
-            held = launch_text.conditions_of(text)
-            together = tuple(str(one) for one in packages if launch_text.are_consistent((*held, *launch_text.conditions_of(one))))
-            found.append(
+            conditions = launch_text.conditions_of(text)
+            together = tuple(
+                str(name) for name in packages if launch_text.are_consistent((*conditions, *launch_text.conditions_of(name)))
+            )
+            actions.append(
                 action._replace(
                     target=LaunchValue((str(text),), action.target.span),
                     package=action.package._replace(texts=together or action.package.texts) if action.package else None,
-                    conditions=_merged(action.conditions, held),
+                    conditions=_merged(action.conditions, conditions),
                 )
             )
-        return found
+        return actions
 
     def _alternatives(self, value: Value) -> tuple[str, ...]:
         return texts(value, Within(self.machine.spend)) if value is not None else ()
 
     def _description(self, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-        found: list[LaunchAction] = []
+        actions: list[LaunchAction] = []
         index = 0
         # Functions that are called in the meantime may add entities.
         at = span_of(made.node, made.source)
         while index < len(made.entities) and self._left > 0:
-            found += self.actions(made.entities[index], conditions, at)
+            actions += self.actions(made.entities[index], conditions, at)
             index += 1
         if index < len(made.entities):
             self._stop("there is too much of it", at)
-        return found
+        return actions
 
     def _stop(self, reason: str, at: Span | None) -> None:
         """Note once that the conversion is incomplete."""
@@ -159,12 +161,12 @@ class Walker:
 
     def value(self, made: LaunchObject, position: int, *names: str) -> LaunchValue | None:
         """Return an argument as a text, None if it is missing."""
-        given = made.get(position, *names)
-        return None if given is None else self.text(given, made.written(position, *names), made.source)
+        argument = made.get(position, *names)
+        return None if argument is None else self.text(argument, made.written(position, *names), made.source)
 
     def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return a value as a text with the place of its literal."""
-        found = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
+        choices = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
         origin = plain(given)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
@@ -173,34 +175,34 @@ class Walker:
         if isinstance(origin, Written):
             node, source = origin.node, origin.source
         span = span_of(node, source)
-        if not isinstance(node, ast.Constant) or len(found) != 1 or not found[0] or node.value != found[0]:
-            return LaunchValue(found, span)
+        if not isinstance(node, ast.Constant) or len(choices) != 1 or not choices[0] or node.value != choices[0]:
+            return LaunchValue(choices, span)
         path, line, column, last, end = span
-        if line == last and end - column == len(found[0]) + 2:  # the literal contains no escapes
-            return LaunchValue(found, Span(path, line, column + 1, last, end - 1), exact=True)
-        at = source.text.text.find(found[0], *python_syntax.range_of(source.text, node))
+        if line == last and end - column == len(choices[0]) + 2:  # the literal contains no escapes
+            return LaunchValue(choices, Span(path, line, column + 1, last, end - 1), exact=True)
+        at = source.text.text.find(choices[0], *python_syntax.range_of(source.text, node))
         if at < 0:
-            return LaunchValue(found, span)
-        return LaunchValue(found, source.text.span(at, at + len(found[0])), exact=True)
+            return LaunchValue(choices, span)
+        return LaunchValue(choices, source.text.span(at, at + len(choices[0])), exact=True)
 
     def each_text(self, given: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
         """Return the alternatives of a value with their conditions, one value for all if any has no condition."""
         value = self.text(given, node, source)
         if len(value.texts) == 1:
             return [value]
-        found = [(text, launch_text.conditions_of(text)) for text in self._alternatives(given)]
-        if not all(conditions for _, conditions in found):
+        pairs = [(text, launch_text.conditions_of(text)) for text in self._alternatives(given)]
+        if not all(conditions for _, conditions in pairs):
             return [value]
-        return [value._replace(texts=(str(text),), conditions=conditions) for text, conditions in found]
+        return [value._replace(texts=(str(text),), conditions=conditions) for text, conditions in pairs]
 
     def package_span(self, value: LaunchValue | None) -> Span | None:
         """Return the place of the package name of the first install path in a value."""
         for text in value.texts if value is not None else ():
             if text.isascii():
                 continue
-            for found in installed(text):
-                if found.package in self.machine.named:
-                    return self.look_up_span(found.package)
+            for place in installed(text):
+                if place.package in self.machine.named:
+                    return self.look_up_span(place.package)
         return None
 
     def look_up_span(self, package: str) -> Span:
@@ -222,13 +224,13 @@ def _plain(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def _merged(left: Conditions, right: Conditions) -> Conditions:
-    return (*left, *(one for one in right if one not in left))
+    return (*left, *(condition for condition in right if condition not in left))
 
 
 def _depends(text: str) -> bool:
     """Return whether a text has conditions, and all of them can be evaluated once arguments have values."""
     conditions = launch_text.conditions_of(text)
-    return bool(conditions) and not any(UNKNOWN in one for condition in conditions for one in condition.texts)
+    return bool(conditions) and not any(UNKNOWN in part for condition in conditions for part in condition.texts)
 
 
 Rule = Callable[[Walker, LaunchObject, Conditions], list[LaunchAction]]
