@@ -110,8 +110,8 @@ def configuration(name: str, default: str | None = None) -> str:
 @lru_cache(maxsize=8_192)
 def named_in(text: str) -> tuple[str, ...] | None:
     """Return the names of the launch configurations in a text, None if a name is computed."""
-    found = _NAME_OF_CONFIGURATION.findall(text)
-    return None if any(mark == _CONFIGURATION[0] for _, mark in found) else tuple([name for name, _ in found])
+    names = _NAME_OF_CONFIGURATION.findall(text)
+    return None if any(mark == _CONFIGURATION[0] for _, mark in names) else tuple([name for name, _ in names])
 
 
 def expression(text: str) -> str:
@@ -218,8 +218,10 @@ def _said(inner: str) -> str:
         words = ()
     if match is None or not words or not isinstance(words, tuple) or not all(isinstance(word, str) for word in words):
         return f"$(eval {inner})"
-    said = " ".join(f"'{word}'" if not word or (" " in certain_part(word) and word[:2] != "$(") else word for word in words)
-    return f"$({match[1].replace('_', '-')} {said})"
+    joined_words = " ".join(
+        f"'{word}'" if not word or (" " in certain_part(word) and word[:2] != "$(") else word for word in words
+    )
+    return f"$({match[1].replace('_', '-')} {joined_words})"
 
 
 def _readable_root(match: re.Match[str]) -> str:
@@ -243,18 +245,18 @@ def names_places(text: str, carriers: Container[str] = ()) -> bool:
 
 def carriers_of_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Return the launch configurations whose values may contain an install place, directly or indirectly."""
-    found: set[str] = set()
-    left: dict[str, tuple[str, ...]] = {}
+    carriers: set[str] = set()
+    candidates: dict[str, tuple[str, ...]] = {}
     for name, texts in values.items():
         for text in texts:
             if not text.isascii() or "xacro" in text:
-                left[name] = texts
+                candidates[name] = texts
                 break
-    while new := [name for name, texts in left.items() if any(names_places(text, found) for text in texts)]:
-        found.update(new)
+    while new := [name for name, texts in candidates.items() if any(names_places(text, carriers) for text in texts)]:
+        carriers.update(new)
         for name in new:
-            del left[name]
-    return frozenset(found)
+            del candidates[name]
+    return frozenset(carriers)
 
 
 def installed(text: str) -> Iterator[Installed]:
@@ -319,10 +321,10 @@ def distinct(texts: Iterable[str]) -> tuple[str, ...]:
     every = {(text, conditions_of(text)): text for text in texts}
     if len(every) <= MOST:
         return tuple([text for (plain, conditions), text in every.items() if not conditions or (plain, ()) not in every])
-    found: dict[str, str] = {}
+    results: dict[str, str] = {}
     for (plain, _), text in every.items():
-        found[plain] = str(text) if plain in found else text
-    return tuple(found.values())
+        results[plain] = str(text) if plain in results else text
+    return tuple(results.values())
 
 
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
@@ -331,13 +333,13 @@ def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]]
     if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
         choice = tuple([row[0] for row in rows])
         return (function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN,)
-    found: list[str] = []
+    results: list[str] = []
     for choice in islice(product(*rows), _MOST_CHOICES):
         conditions = tuple(dict.fromkeys(condition for text in choice for condition in conditions_of(text)))
         if conditions and not are_consistent(conditions):
             continue
-        found.append(conditional(function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN, conditions))
-    texts = distinct(found)
+        results.append(conditional(function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN, conditions))
+    texts = distinct(results)
     return texts if 0 < len(texts) <= MOST else (UNKNOWN,)
 
 
@@ -347,10 +349,10 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
     ``values`` returns the alternatives of a configuration, None if it is not set; ``evaluate`` the value of a fully
     known expression, UNKNOWN if it has none.
     """
-    found = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
-    if len(found) == 1:
-        return (_settle(found[0], evaluate),)
-    return tuple(dict.fromkeys([_settle(one, evaluate) for one in found]))
+    filled = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
+    if len(filled) == 1:
+        return (_settle(filled[0], evaluate),)
+    return tuple(dict.fromkeys([_settle(candidate, evaluate) for candidate in filled]))
 
 
 class _Filling:
@@ -367,34 +369,34 @@ class _Filling:
         waiting = [text]
         done: dict[str, None] = {}
         while waiting:
-            one = waiting.pop()
-            match = _INNERMOST.search(one) if _CONFIGURATION[0] in one else None
+            candidate = waiting.pop()
+            match = _INNERMOST.search(candidate) if _CONFIGURATION[0] in candidate else None
             if match is None:
-                done[one] = None
+                done[candidate] = None
                 continue
             self._left -= 1
-            found = self._one(match[1], busy)
-            if len(waiting) + len(done) + len(found) > MOST or len(one) > LONGEST or self._left < 0:
+            alternatives = self._one(match[1], busy)
+            if len(waiting) + len(done) + len(alternatives) > MOST or len(candidate) > LONGEST or self._left < 0:
                 return (UNKNOWN,)
             start, end = match.span()
-            waiting += [one[:start] + value + one[end:] for value in reversed(found)]
+            waiting += [candidate[:start] + value + candidate[end:] for value in reversed(alternatives)]
         return tuple(done)
 
     def _one(self, configuration: str, busy: frozenset[str]) -> tuple[str, ...]:
         name, mark, default = configuration.partition(_DEFAULT)
-        given = None if not mark else self._values(name)
-        if given is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in given:
+        values = None if not mark else self._values(name)
+        if values is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in values:
             return (default,)  # the argument has this default, whichever alternative applies
         # A default that uses its own argument is evaluated before that argument has a value.
-        given = None if name in busy or len(busy) > _DEEPEST else self._values(name)
-        if given is None:
+        values = None if name in busy or len(busy) > _DEEPEST else self._values(name)
+        if values is None:
             return (default,) if mark else (UNKNOWN,)
-        if len(given) > MOST:
+        if len(values) > MOST:
             return (UNKNOWN,)
-        if len(given) == 1 and _CONFIGURATION[0] not in given[0]:
-            return given
+        if len(values) == 1 and _CONFIGURATION[0] not in values[0]:
+            return values
         busy |= {name}
-        return tuple([inner for value in given for inner in self.of(value, busy)])
+        return tuple([inner for value in values for inner in self.of(value, busy)])
 
 
 def _settle(text: str, evaluate: Callable[[str], str]) -> str:

@@ -42,10 +42,10 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     does not parse, the imports are found by line and marked optional.
     """
     try:
-        found, looked_up = _found(source, launch)
+        imports, looked_up = _found(source, launch)
     except NotPythonError as error:
         return _unreadable(source, error)
-    named = [item for item in found if item.module and item.module[0] != "."]
+    named = [item for item in imports if item.module and item.module[0] != "."]
     spans = list(source.spans([(item.start, item.start + len(item.module)) for item in named]))
     folders = added_folders(source.text) if "sys.path" in source.text else ()
     added = tuple([span for item, span in zip(named, spans, strict=True) if not item.caught and _is_added(item, folders)])
@@ -55,7 +55,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     ]
     opaque = [
         Opaque(Facet.USES, "which module is imported here is computed", source.span(item.start, item.start))
-        for item in found
+        for item in imports
         if not item.module
     ]
     if looked_up.mentions:
@@ -64,7 +64,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         tuple(mentions),
         (*opaque, *looked_up.opaque),
         lookups=looked_up.files,
-        optional_modules=tuple([item.module for item in found if item.caught]),
+        optional_modules=tuple([item.module for item in imports if item.caught]),
         path_additions=added,
         sets_path="sys.path" in source.text,
         programs=_programs(source.text),
@@ -74,15 +74,15 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
 
 def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
     """Return imports and look-ups, by text scans if possible, else by the parser. Raises NotPythonError."""
-    found = scan(source.text)
+    imports = scan(source.text)
     looked_up = Found() if launch else literals(source)
-    if found is not None and looked_up is None:
+    if imports is not None and looked_up is None:
         with suppress(NotPythonError):
             looked_up = in_excerpt(source)
-    if found is not None and looked_up is not None:
-        return found, looked_up
+    if imports is not None and looked_up is not None:
+        return imports, looked_up
     tree = parse(source)
-    return walk(source, tree) if found is None else found, look_ups(source, tree) if looked_up is None else looked_up
+    return walk(source, tree) if imports is None else imports, look_ups(source, tree) if looked_up is None else looked_up
 
 
 def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[ImportedType]:
@@ -92,10 +92,14 @@ def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[Imp
         if match is None:
             continue
         group = 1 if match[1] is not None else 2
-        found = list(_ONE.finditer(_COMMENT.sub(lambda comment: " " * len(comment[0]), match[group])))
+        names = list(_ONE.finditer(_COMMENT.sub(lambda comment: " " * len(comment[0]), match[group])))
         start = match.start(group)
-        for one, span in zip(found, source.spans([(start + one.start(1), start + one.end(1)) for one in found]), strict=True):
-            yield ImportedType(f"{item.module.replace('.', '/')}/{one[1]}", span, module)
+        for match_of_name, span in zip(
+            names,
+            source.spans([(start + match_of_name.start(1), start + match_of_name.end(1)) for match_of_name in names]),
+            strict=True,
+        ):
+            yield ImportedType(f"{item.module.replace('.', '/')}/{match_of_name[1]}", span, module)
 
 
 def _programs(text: str) -> tuple[str, ...]:

@@ -51,16 +51,16 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     - Imports after a call that skips the test if their module is missing.
     """
     walker = _Walker(tree)
-    found = [
+    imports = [
         Import(start, module, bool(optional), optional == _CAUGHT)
         for statement, optional in walker.imports(tree.body, inside=False)
         if optional == _CAUGHT or not _is_relative(statement)
         for start, module in _modules(source, statement)
     ]
     if any(name in source.text for name in _DYNAMIC):
-        found += _calls(source, tree)
-    found.sort()
-    return _after_skips(found) if _SKIPS in source.text else found
+        imports += _calls(source, tree)
+    imports.sort()
+    return _after_skips(imports) if _SKIPS in source.text else imports
 
 
 def _off(tree: ast.Module) -> frozenset[str]:
@@ -89,26 +89,26 @@ def _off(tree: ast.Module) -> frozenset[str]:
 def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and node.args:
-            given = node.args[0]
+            module = node.args[0]
             name = callee(node)
             if name not in _DYNAMIC:
                 continue
-            if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
-                yield Import(start_of(source, given), "", True)
-            elif not given.value.startswith("."):
-                start = source.text.find(given.value, start_of(source, given))
-                yield Import(max(start, 0), given.value, True, skips=name == _SKIPS)
+            if not isinstance(module, ast.Constant) or not isinstance(module.value, str):
+                yield Import(start_of(source, module), "", True)
+            elif not module.value.startswith("."):
+                start = source.text.find(module.value, start_of(source, module))
+                yield Import(max(start, 0), module.value, True, skips=name == _SKIPS)
 
 
 def _after_skips(imports: Iterable[Import]) -> list[Import]:
     """Return imports, where those that follow a skip of the test without their module are optional."""
-    found: list[Import] = []
+    results: list[Import] = []
     skips: tuple[str, ...] = ()
     for item in imports:
         if item.skips:
             skips += (f"{item.module}.",)
-        found.append(item._replace(optional=item.optional or f"{item.module}.".startswith(skips)))
-    return found
+        results.append(item._replace(optional=item.optional or f"{item.module}.".startswith(skips)))
+    return results
 
 
 _Found = tuple["ast.Import | ast.ImportFrom", int]
@@ -165,15 +165,15 @@ class _Walker:
 
     def _try(self, statement: ast.Try, inside: bool) -> Iterator[_Found]:
         branches = [[*self.imports(statement.body), *self.imports(statement.orelse)]]
-        others: list[_Found] = []
+        in_other_handlers: list[_Found] = []
         for handler in statement.handlers:
             if _catches_import_error(handler) and (not _gives_up(handler) or (inside and _explains(handler))):
                 branches.append(list(self.imports(handler.body)))
             else:
-                others += self.imports(handler.body)
+                in_other_handlers += self.imports(handler.body)
         kind = _CAUGHT if any(_catches_import_error(handler, _MISSING) for handler in statement.handlers) else 1
         yield from _alternatives(branches, kind) if len(branches) > 1 else branches[0]
-        yield from others
+        yield from in_other_handlers
         yield from self.imports(statement.finalbody)
 
 
@@ -202,12 +202,15 @@ def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
 
     A relative import is required if another branch imports something, because it may replace just that module.
     """
-    needed = [{root for found, optional in branch if not optional for root in _roots(found)} for branch in branches]
+    needed = [{root for statement, optional in branch if not optional for root in _roots(statement)} for branch in branches]
     always = set.intersection(*needed)
     replaced = sum(map(bool, branches)) > 1
     for branch in branches:
-        for found, optional in branch:
-            yield found, optional or (0 if always.issuperset(_roots(found)) or (replaced and _is_relative(found)) else kind)
+        for statement, optional in branch:
+            yield (
+                statement,
+                optional or (0 if always.issuperset(_roots(statement)) or (replaced and _is_relative(statement)) else kind),
+            )
 
 
 def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:

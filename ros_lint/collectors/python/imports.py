@@ -45,7 +45,7 @@ def scan(text: str) -> list[Import] | None:
     switches = {match[1] for match in named if match}
     if switches and re.search(rf"^[ \t]*(?:el)?if\b[^\n]*\b(?:{'|'.join(switches)})\b", text, re.MULTILINE):
         return None
-    found: list[Import] = []
+    imports: list[Import] = []
     places: list[int] = []  # the result holds only if none of these is in a string
     blocks: _Blocks | None = None
     done = 0
@@ -77,11 +77,11 @@ def scan(text: str) -> list[Import] | None:
                     names = _fragment(statement, guard.start)
                     if names is None:
                         return None
-                    while found and found[-1].start > guard.start:
-                        found.pop()
-        found += names
+                    while imports and imports[-1].start > guard.start:
+                        imports.pop()
+        imports += names
     if not places or (outside_strings(text, places) and not _CONTINUED.search(text)):
-        return found
+        return imports
     return None
 
 
@@ -110,15 +110,15 @@ def _names(text: str, start: int) -> list[Import] | None:
     """Return the modules of ``import a.b as c, d``, None if the line contains anything else."""
     end = text.find("\n", start)
     line = text[start : end if end >= 0 else len(text)].partition("#")[0]
-    found = []
+    imports = []
     at = 0
     while True:
         match = _MODULE.match(line, at)
         if match is None:
             return None
-        found.append(Import(start + match.start(1), match[1], False))
+        imports.append(Import(start + match.start(1), match[1], False))
         if not match[2]:
-            return found
+            return imports
         at = match.end()
 
 
@@ -151,16 +151,16 @@ class _Blocks:
 
     def _leave(self, width: int) -> _Block | None:
         """Leave the blocks that are indented at least that far. Return the outermost of them."""
-        left = None
+        block = None
         while self._stack and self._stack[-1].width >= width:
-            left = self._stack.pop()
-        return left
+            block = self._stack.pop()
+        return block
 
     def _enter(self, head: re.Match[str]) -> None:
         width, line = len(head[1]), head.start()
-        left = self._leave(width)
-        continues = left is not None and left.width == width and head[2] not in (None, "try")
-        start = left.start if left and continues else line
+        block = self._leave(width)
+        continues = block is not None and block.width == width and head[2] not in (None, "try")
+        start = block.start if block and continues else line
         guards = head[2] is not None or ":" not in head[0] or GUARD.search(head[0]) is not None
         self._stack.append(_Block(width, line, start, guards))
 
@@ -170,10 +170,10 @@ def _fragment(text: str, start: int) -> list[Import] | None:
     head = "if 1:\n" if text[0] in " \t\f" else ""
     source = Text("", head + text)
     try:
-        found = walk(source, parse(source))
+        imports = walk(source, parse(source))
     except NotPythonError:
         return None
-    return [item._replace(start=item.start + start - len(head)) for item in found]
+    return [item._replace(start=item.start + start - len(head)) for item in imports]
 
 
 _EXTENDS = re.compile(r"\bsys\.path(?:\.(?:append|insert|extend)[ \t]*\(|[ \t]*\+?=|\[)([^\n]*(?:\n[^\n()]*\)?)?)")
@@ -182,14 +182,14 @@ _WRITTEN = re.compile(r"""["']([^"'\n]*)["']""")
 
 def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
     """Return the offsets at which a source extends sys.path, each with the names in the added paths."""
-    found = []
+    folders = []
     for match in _EXTENDS.finditer(text):
-        given = match[1]
-        for name in re.findall(r"\b[^\W\d]\w*\b", _WRITTEN.sub("", given)):
-            given += "\n".join(re.findall(rf"^[ \t]*{name}[ \t]*=([^=\n].*)$", text, re.MULTILINE))
-        parts = [part for written in _WRITTEN.findall(given) for part in written.split("/")]
-        found.append((match.start(), frozenset(parts) - {""}))
-    return found
+        added = match[1]
+        for name in re.findall(r"\b[^\W\d]\w*\b", _WRITTEN.sub("", added)):
+            added += "\n".join(re.findall(rf"^[ \t]*{name}[ \t]*=([^=\n].*)$", text, re.MULTILINE))
+        parts = [part for written in _WRITTEN.findall(added) for part in written.split("/")]
+        folders.append((match.start(), frozenset(parts) - {""}))
+    return folders
 
 
 def outside_strings(text: str, places: list[int]) -> bool:

@@ -42,19 +42,20 @@ def literals(source: Text) -> Found | None:
     calls = [match for match in _NAMED.finditer(text) if match[0][-1] == "("]
     if not calls:
         return Found()
-    found = []
+    calls_with_names = []
     for call in calls:
         before = text[text.rfind("\n", 0, call.start()) + 1 : call.start()]
-        given = _LITERAL.match(text, call.end())
-        if given is None or "#" in before or "'" in before or '"' in before:
+        name_match = _LITERAL.match(text, call.end())
+        if name_match is None or "#" in before or "'" in before or '"' in before:
             return None
-        found.append((call[1], given))
+        calls_with_names.append((call[1], name_match))
     if _FILE_NAME.search(text) or _CATCHES.search(text) or not outside_strings(text, [call.start() for call in calls]):
         return None
-    spans = source.spans([(given.start(1), given.end(2) + 1) for _, given in found])
+    spans = source.spans([(name_match.start(1), name_match.end(2) + 1) for _, name_match in calls_with_names])
     return Found(
         tuple(
-            Mention(given[2], "package", span, f'{name}("{given[2]}")') for (name, given), span in zip(found, spans, strict=True)
+            Mention(name_match[2], "package", span, f'{name}("{name_match[2]}")')
+            for (name, name_match), span in zip(calls_with_names, spans, strict=True)
         )
     )
 
@@ -69,10 +70,10 @@ def in_excerpt(source: Text) -> Found:
         text, omitted = excerpt(source.text, words)
         tree = parse(Text(source.path, text))
         telling = list(_telling(scan(tree)))
-        given = {name for expression, _ in telling if expression.where.scope.shared for name in _bound(expression)}
-        if words.issuperset(given) or not any(name in body for name in given for body in omitted):
+        names = {name for expression, _ in telling if expression.where.scope.shared for name in _bound(expression)}
+        if words.issuperset(names) or not any(name in body for name in names for body in omitted):
             return _found(source, tree, telling)
-        words |= given
+        words |= names
 
 
 def look_ups(source: Text, tree: ast.Module) -> Found:
@@ -112,15 +113,15 @@ def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[t
     """Yield the expressions with package look-ups, and those that use the results of such expressions."""
     calls = [list(_calls(expression.inner)) for expression in expressions]
     names = [{node.id for node in expression.inner if node.__class__ is ast.Name} for expression in expressions]
-    given: set[str] = set()
+    names_bound: set[str] = set()
     relevant: set[int] = set()
     grown = True
     while grown:
         grown = False
         for index, expression in enumerate(expressions):
-            if index not in relevant and (calls[index] or not given.isdisjoint(names[index])):
+            if index not in relevant and (calls[index] or not names_bound.isdisjoint(names[index])):
                 relevant.add(index)
-                given |= _bound(expression)
+                names_bound |= _bound(expression)
                 grown = True
     return ((expressions[index], calls[index]) for index in sorted(relevant))
 
@@ -132,9 +133,9 @@ def _bound(expression: Expression) -> set[str]:
 def _calls(inner: list[ast.AST]) -> Iterator[tuple[ast.Call, ast.expr]]:
     for node in inner:
         if node.__class__ is ast.Call and callee(node) in LOOK_UPS:
-            given = argument(node, "package", "package_name")
-            if given is not None:
-                yield node, given
+            package = argument(node, "package", "package_name")
+            if package is not None:
+                yield node, package
 
 
 def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple[ast.expr, str, str]]:
@@ -154,17 +155,17 @@ def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple
 
 def _guarded(tree: ast.Module) -> list[range]:
     """Return the lines that run only if a package exists: a condition tests it, or its exception is caught."""
-    found = []
+    lines = []
     for node in nodes(tree):
         if isinstance(node, ast.Try) and any(catches_missing_package(handler) for handler in node.handlers):
-            found.append(_lines(node.body))
+            lines.append(_lines(node.body))
         block = getattr(node, "body", None)
         body: list[ast.stmt] = block if isinstance(block, list) else []
         for index, inner in enumerate(body):
             if isinstance(inner, ast.If) and (there := _asks(inner.test)) is not None:
                 rest = body[index + 1 :] if isinstance(inner.body[-1], (ast.Return, ast.Continue)) else []
-                found += [_lines(inner.body)] if there else [_lines(inner.orelse), _lines(rest)]
-    return found
+                lines += [_lines(inner.body)] if there else [_lines(inner.orelse), _lines(rest)]
+    return lines
 
 
 def _lines(body: list[ast.stmt]) -> range:

@@ -269,12 +269,12 @@ def _blanked(text: str, *, joined: bool = False) -> str:
 
 def _edited(text: str, edits: Sequence[_Edit]) -> str:
     """Return a text with edits applied. An edit within another one is ignored."""
-    found, at = list[str](), 0
+    pieces, at = list[str](), 0
     for edit in sorted(edits):
         if edit.start >= at:
-            found += [text[at : edit.start], edit.text]
+            pieces += [text[at : edit.start], edit.text]
             at = edit.end
-    return "".join(found) + text[at:]
+    return "".join(pieces) + text[at:]
 
 
 def brackets(text: str, tokens: Sequence[Token]) -> tuple[str, int] | None:

@@ -78,19 +78,19 @@ class _Restorer:
         if not isinstance(node.ctx, ast.Load):
             raise TokenError("nothing can be given to a string", group[0].start)
         start, end = place_of(self._source, group[0].start), place_of(self._source, group[-1].end)
-        found = ast.JoinedStr(list(_merged(self._parts(group))))
-        for part in ast.walk(found):
+        joined = ast.JoinedStr(list(_merged(self._parts(group))))
+        for part in ast.walk(joined):
             if not hasattr(part, "lineno") and isinstance(part, ast.expr):
                 part.lineno, part.col_offset = start
                 part.end_lineno, part.end_col_offset = end
-        return found
+        return joined
 
     def _parts(self, group: Sequence[Token]) -> Iterator[ast.expr]:
         for token in group:
             written = self._source.text[token.start : token.end]
             if token.kind == "template":
-                found = template(self._source.text, token.start)
-                yield from self._pieces(found.pieces, found)
+                parsed = template(self._source.text, token.start)
+                yield from self._pieces(parsed.pieces, parsed)
             else:
                 yield ast.Constant(_evaluated(written, token.start))
 

@@ -165,19 +165,19 @@ class _Scanner:
     def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: Scope, where: Where) -> None:
         scope.bind(node.name, None, where)
         inner = Scope(scope, shared=False)
-        given = node.args
-        for default in (*given.defaults, *given.kw_defaults, *node.decorator_list):
+        parameters = node.args
+        for default in (*parameters.defaults, *parameters.kw_defaults, *node.decorator_list):
             if default is not None:
                 self._expression(default, where)
-        for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg):
+        for argument in (*parameters.posonlyargs, *parameters.args, *parameters.kwonlyargs, parameters.vararg, parameters.kwarg):
             if argument is not None:
                 inner.bind(argument.arg, None, Where(inner, (), node.lineno, node.col_offset))
         self.block(node.body, inner, ())
 
     def _expression(self, node: ast.expr, where: Where, targets: tuple[ast.expr, ...] = ()) -> None:
-        found = nodes(node)
-        self.expressions.append(Expression(node, where, found, targets))
-        for inner in found:
+        inner_nodes = nodes(node)
+        self.expressions.append(Expression(node, where, inner_nodes, targets))
+        for inner in inner_nodes:
             if inner.__class__ not in _BINDING:
                 continue
             if isinstance(inner, ast.NamedExpr):
@@ -202,15 +202,15 @@ class _Scanner:
 
 def nodes(node: ast.AST) -> list[ast.AST]:
     """Return a node and all its descendants, in no order. Faster than ``ast.walk``."""
-    found = [node]
-    for inner in found:
+    collected = [node]
+    for inner in collected:
         for name in inner._fields:
             value = getattr(inner, name)
             if value.__class__ is list:
-                found += [item for item in value if isinstance(item, ast.AST)]
+                collected += [item for item in value if isinstance(item, ast.AST)]
             elif isinstance(value, ast.AST) and value._fields:
-                found.append(value)
-    return found
+                collected.append(value)
+    return collected
 
 
 def reaching(name: str, where: Where) -> Iterator[Binding] | None:
@@ -228,10 +228,10 @@ def reaching(name: str, where: Where) -> Iterator[Binding] | None:
 
 def _last(bindings: Sequence[Binding], block: Block) -> list[Binding]:
     """Return the last binding that certainly happened, and the later ones that may have happened."""
-    found: list[Binding] = []
+    possible: list[Binding] = []
     for binding in bindings:
         own = binding.where.block
         if own == block[: len(own)]:
-            found = []
-        found.append(binding)
-    return found
+            possible = []
+        possible.append(binding)
+    return possible

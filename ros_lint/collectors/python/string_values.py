@@ -76,13 +76,13 @@ class Evaluator:
         self._depth += 1
         try:
             handler = _HANDLERS.get(type(node))
-            found = tuple(dict.fromkeys(handler(self, node, where))) if handler else ANYTHING
+            texts = tuple(dict.fromkeys(handler(self, node, where))) if handler else ANYTHING
         finally:
             self._depth -= 1
-        if len(found) > _MOST or any(text and len(text) > _LONGEST for text in found):
-            found = ANYTHING
-        self._done[id(node)] = found
-        return found
+        if len(texts) > _MOST or any(text and len(text) > _LONGEST for text in texts):
+            texts = ANYTHING
+        self._done[id(node)] = texts
+        return texts
 
     def _name(self, node: ast.Name, where: Where) -> Values:
         bindings = reaching(node.id, where)
@@ -136,8 +136,8 @@ class Evaluator:
             case ast.Div():
                 return self._combine([node.left, node.right], where, _join)
             case ast.Mod():
-                given = node.right.elts if isinstance(node.right, ast.Tuple) else [node.right]
-                return self._fill(node.left, "%s", given, where)
+                operands = node.right.elts if isinstance(node.right, ast.Tuple) else [node.right]
+                return self._fill(node.left, "%s", operands, where)
         return ANYTHING
 
     def _fill(self, template: ast.expr, mark: str, parts: list[ast.expr], where: Where) -> Values:
@@ -157,8 +157,8 @@ class Evaluator:
         name = callee(node)
         if name in LOOK_UPS:
             place = share if name in _SHARE else prefix
-            given = self.values(argument(node, "package", "package_name"), where)
-            return tuple(None if text is None else place(text) for text in given)
+            packages = self.values(argument(node, "package", "package_name"), where)
+            return tuple(None if text is None else place(text) for text in packages)
         if name == "join" and not (isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Constant)):
             return self._combine(node.args, where, _join)
         if name in _PATHS and len(node.args) > 1:

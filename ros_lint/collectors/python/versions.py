@@ -43,5 +43,5 @@ def too_new(syntax: Iterable[NewerSyntax], distro: str) -> Iterator[Problem]:
     runs = PYTHON_OF.get(distro)
     for construct, version, span in syntax:
         if runs is not None and runs < version:
-            needs, has = (".".join(map(str, one)) for one in (version, runs))
+            needs, has = (".".join(map(str, version_pair)) for version_pair in (version, runs))
             yield Problem("newer-python", f"{construct} need Python {needs}; {distro} runs {has}", span)

@@ -44,17 +44,17 @@ def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
     value = machine.evaluate(node.value, frame)
     load: ast.expr = node.target
     before = machine.evaluate(load, frame)
-    one = plain(before)
-    if isinstance(one, list) and isinstance(node.op, ast.Add):
-        found = items(machine, value)
-        if found is None:
+    target_value = plain(before)
+    if isinstance(target_value, list) and isinstance(node.op, ast.Add):
+        elements = items(machine, value)
+        if elements is None:
             machine.escape(value)
-            found = [Unknown("elements that are not known")]
-        machine.spend(len(found))
-        one += [machine.guard(element) for element in found]
+            elements = [Unknown("elements that are not known")]
+        machine.spend(len(elements))
+        target_value += [machine.guard(element) for element in elements]
         return
     # An augmented text keeps the place of the original text.
-    where = one.node if isinstance(one, Written) and one.source is frame.source else node.value
+    where = target_value.node if isinstance(target_value, Written) and target_value.source is frame.source else node.value
     bind(machine, node.target, operation(machine, node.op, before, value, where, frame), frame)
 
 
@@ -68,11 +68,11 @@ def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> 
     elif isinstance(target, (ast.Tuple, ast.List)):
         _unpack(machine, target.elts, value, frame)
     elif isinstance(target, ast.Attribute):
-        for one in alternatives(machine.evaluate(target.value, frame)):
-            if isinstance(one.value, Instance):
-                one.value.attributes[target.attr] = value
-            elif isinstance(one.value, LaunchObject):
-                one.value.keywords[target.attr] = value
+        for alternative in alternatives(machine.evaluate(target.value, frame)):
+            if isinstance(alternative.value, Instance):
+                alternative.value.attributes[target.attr] = value
+            elif isinstance(alternative.value, LaunchObject):
+                alternative.value.keywords[target.attr] = value
             else:
                 machine.escape(value)
     elif isinstance(target, ast.Subscript):
@@ -92,14 +92,14 @@ def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, fra
     if star >= 0:
         after = len(targets) - star - 1
         values = [*values[:star], values[star : len(values) - after], *values[len(values) - after :]]
-    for target, one in zip(targets, values, strict=True):
-        bind(machine, target, plain(one), frame)
+    for target, element in zip(targets, values, strict=True):
+        bind(machine, target, plain(element), frame)
 
 
 def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Frame) -> None:
     key = _key(machine, target.slice, frame)
-    for one in alternatives(machine.evaluate(target.value, frame)):
-        owner = one.value
+    for alternative in alternatives(machine.evaluate(target.value, frame)):
+        owner = alternative.value
         if isinstance(owner, list) and isinstance(key, slice) and not machine.conditions:
             _store_slice(machine, owner, key, value)
         elif isinstance(owner, dict):
@@ -125,12 +125,12 @@ def _key(machine: Interpreter, node: ast.expr, frame: Frame) -> Value:
 
 
 def _store_slice(machine: Interpreter, owner: list[Value], key: slice, value: Value) -> None:
-    given = items(machine, value)
-    if given is None:
+    elements = items(machine, value)
+    if elements is None:
         machine.escape(value)
-        given = [Unknown("elements that are not known")]
+        elements = [Unknown("elements that are not known")]
     try:
-        owner[key] = given
+        owner[key] = elements
     except ValueError:
         raise ProgramRaised("ValueError") from None
 
@@ -143,25 +143,25 @@ def _set_variable(machine: Interpreter, target: ast.Subscript, name: Value, valu
 
 def _import(machine: Interpreter, node: ast.Import, frame: Frame) -> None:
     for alias in node.names:
-        found = machine.module(alias.name, frame.source, node)
+        module = machine.module(alias.name, frame.source, node)
         top = alias.name.partition(".")[0]
         if alias.asname:
-            frame.names[alias.asname] = found or LibraryName(alias.name)
-        elif found is None or "." not in alias.name:
-            frame.names[top] = found or LibraryName(top)
+            frame.names[alias.asname] = module or LibraryName(alias.name)
+        elif module is None or "." not in alias.name:
+            frame.names[top] = module or LibraryName(top)
 
 
 def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> None:
     name = "." * node.level + (node.module or "")
-    found = machine.module(name, frame.source, node)
+    module = machine.module(name, frame.source, node)
     for alias in node.names:
         if alias.name == "*":
-            frame.names.update(found.names if found is not None else {})
+            frame.names.update(module.names if module is not None else {})
             continue
         if machine.library.is_substitution(alias.name):
             frame.names[alias.asname or alias.name] = LibraryName(f"{name}.{alias.name}")
             continue
-        inner = found.names.get(alias.name) if found is not None else None
+        inner = module.names.get(alias.name) if module is not None else None
         if inner is None:
             full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
             inner = machine.module(full, frame.source, node)
@@ -198,8 +198,8 @@ def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
                 owner.attributes.pop(target.attr, None)
         elif isinstance(target, ast.Subscript):
             key = _key(machine, target.slice, frame)
-            for one in alternatives(machine.evaluate(target.value, frame)):
-                _delete_element(machine, one.value, key)
+            for alternative in alternatives(machine.evaluate(target.value, frame)):
+                _delete_element(machine, alternative.value, key)
 
 
 def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
@@ -215,7 +215,7 @@ def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
         if not machine.conditions:
             del owner[key]
         elif isinstance(key, slice):
-            owner[key] = [Guarded(one, (PERHAPS,)) for one in owner[key]]
+            owner[key] = [Guarded(element, (PERHAPS,)) for element in owner[key]]
         else:
             owner[key] = Guarded(owner[key], (PERHAPS,))
     except (LookupError, TypeError) as error:

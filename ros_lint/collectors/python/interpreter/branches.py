@@ -89,7 +89,7 @@ def either(
         rest.append(opposite_of(side.taken))
         if stops:
             continue  # the exit is not recorded: code around the block runs only if nothing fails
-        if side.signal == LEAVE and all(one.signal == LEAVE for one in side.exits):
+        if side.signal == LEAVE and all(way_out.signal == LEAVE for way_out in side.exits):
             frame.exits.append(Exit(LEAVE, (*before, side.taken), side.names))
         else:
             frame.exits += [*side.exits, Exit(side.signal, side.conditions, side.names)]
@@ -123,10 +123,10 @@ def _follow(
     del frame.exits[known:]
     if loop:
         signal = LEAVE if signal == LEAVE else NEXT
-        for one in exits:
-            if one.signal != LEAVE:
-                _join_exit(machine, frame, one, (*before, taken))
-        exits = [one for one in exits if one.signal == LEAVE]
+        for way_out in exits:
+            if way_out.signal != LEAVE:
+                _join_exit(machine, frame, way_out, (*before, taken))
+        exits = [way_out for way_out in exits if way_out.signal == LEAVE]
     return _Side(block, taken, signal, frame.names, machine.conditions, exits)
 
 
@@ -153,8 +153,8 @@ def _beyond(one: Exit, around: Iterable[LaunchCondition]) -> Conditions:
 def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
     """Return the conditions under which no exit is taken, if ``depth`` conditions hold around them."""
     bars: list[LaunchCondition] = []
-    for one in exits:
-        bars.append(_complement(machine, _beyond(one, (*one.conditions[:depth], *bars))))
+    for way_out in exits:
+        bars.append(_complement(machine, _beyond(way_out, (*way_out.conditions[:depth], *bars))))
     return bars
 
 
@@ -219,12 +219,12 @@ class _Loop:
         del frame.exits[self._known :]
         if signal in (BREAK, LEAVE):
             exits.append(Exit(signal, machine.conditions, dict(frame.names)))
-        for one in exits:
-            if one.signal == CONTINUE:
-                _join_exit(machine, frame, one, around)
+        for way_out in exits:
+            if way_out.signal == CONTINUE:
+                _join_exit(machine, frame, way_out, around)
                 continue
-            taken = _beyond(one, (*self._before, *self._bars))
-            self.exits.append(one)
+            taken = _beyond(way_out, (*self._before, *self._bars))
+            self.exits.append(way_out)
             self.ended = self.ended or not taken
             self._bars.append(_complement(machine, taken))
         machine.conditions = (*self._before, *self._bars)
@@ -232,8 +232,8 @@ class _Loop:
     def end(self, orelse: Sequence[ast.stmt]) -> int:
         """Interpret the else block after the last iteration, and join the results of the exits."""
         machine, frame = self._machine, self._frame
-        breaks = [one for one in self.exits if one.signal == BREAK]
-        leaves = [one for one in self.exits if one.signal == LEAVE]
+        breaks = [way_out for way_out in self.exits if way_out.signal == BREAK]
+        leaves = [way_out for way_out in self.exits if way_out.signal == LEAVE]
         signal = LEAVE if self.ended else machine.execute(orelse, frame)
         if not breaks and (signal or not leaves):
             machine.conditions = self._before
@@ -243,8 +243,8 @@ class _Loop:
             frame.names = breaks.pop().names
             if not self.ended:
                 leaves.append(Exit(signal, machine.conditions, frame.names))
-        for one in breaks:
-            _join_exit(machine, frame, one, self._before)
+        for way_out in breaks:
+            _join_exit(machine, frame, way_out, self._before)
         machine.conditions = (*self._before, *_bars(machine, leaves, len(self._before)))
         frame.exits += leaves
         return NEXT

@@ -68,19 +68,19 @@ def _bool(call: Call) -> Value:
 def _list(call: Call) -> Value:
     if not call.arguments:
         return []
-    found = call.items(0)
-    return found if found is not None else unknown(call)
+    elements = call.items(0)
+    return elements if elements is not None else unknown(call)
 
 
 def _tuple(call: Call) -> Value:
-    found = _list(call)
-    return tuple(found) if isinstance(found, list) else found
+    elements = _list(call)
+    return tuple(elements) if isinstance(elements, list) else elements
 
 
 def _dict(call: Call) -> Value:
-    found: dict[Any, Value] = {}
-    call_method(call.machine, Method(found, "update"), call.arguments, call.keywords, call.node, call.frame)
-    return found
+    entries: dict[Any, Value] = {}
+    call_method(call.machine, Method(entries, "update"), call.arguments, call.keywords, call.node, call.frame)
+    return entries
 
 
 def _length(call: Call) -> Value:
@@ -96,7 +96,7 @@ def _length_of(value: Value) -> Value:
 
 def _range(call: Call) -> Value:
     *before, last = call.arguments or [None]
-    return each(last, lambda one: _range_of([*before, one]))
+    return each(last, lambda last_value: _range_of([*before, last_value]))
 
 
 def _range_of(arguments: list[Value]) -> Value:
@@ -110,11 +110,11 @@ def _range_of(arguments: list[Value]) -> Value:
 
 
 def _enumerate(call: Call) -> Value:
-    found = call.items(0)
+    elements = call.items(0)
     start = plain(call.get(1, "start")) or 0
-    if found is None or not isinstance(start, int):
+    if elements is None or not isinstance(start, int):
         return unknown(call)
-    return [_keep(one, partial(_pair, index)) for index, one in enumerate(found, start)]
+    return [_keep(element, partial(_pair, index)) for index, element in enumerate(elements, start)]
 
 
 def _pair(index: int, value: Value) -> Value:
@@ -131,7 +131,7 @@ def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
 def _isinstance(call: Call) -> Value:
     value, kind = plain(call.get(0)), plain(call.get(1))
     kinds = kind if isinstance(kind, tuple) else (kind,)
-    names = {one.last for one in kinds if isinstance(one, LibraryName)}
+    names = {class_.last for class_ in kinds if isinstance(class_, LibraryName)}
     if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
         if isinstance(value, list) and any("set" in name.lower() for name in names):
             return Unknown("a kind")  # sets are represented by lists
@@ -139,7 +139,7 @@ def _isinstance(call: Call) -> Value:
     if isinstance(value, LaunchObject) and len(names) == len(kinds):
         return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
     if isinstance(value, Instance):
-        return any(isinstance(one, Class) and value.cls is one for one in kinds) or Unknown("a kind")
+        return any(isinstance(class_, Class) and value.cls is class_ for class_ in kinds) or Unknown("a kind")
     return Unknown("a kind")
 
 
@@ -166,25 +166,25 @@ def _getattr(call: Call) -> Value:
 
 def _fields(call: Call) -> Value:
     """Return objects with the names of the fields, as ``dataclasses.fields()`` does."""
-    given = plain(call.get(0))
-    cls = given.cls if isinstance(given, Instance) else given
+    owner = plain(call.get(0))
+    cls = owner.cls if isinstance(owner, Instance) else owner
     if not isinstance(cls, Class):
         return unknown(call)
-    found: list[Value] = []
+    fields: list[Value] = []
     for name in cls.every_field():
         field = Instance(Class("Field", [], {}, []))
         field.attributes["name"] = name
-        found.append(field)
-    return found
+        fields.append(field)
+    return fields
 
 
 def _open(call: Call) -> Value:
-    found, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
+    paths, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
     if isinstance(mode, str) and not _MAKES.isdisjoint(mode):
-        call.machine.ask(found)  # the file need not exist before
-    if len(found) != 1 or (isinstance(mode, str) and not _WRITES.isdisjoint(mode)):
+        call.machine.ask(paths)  # the file need not exist before
+    if len(paths) != 1 or (isinstance(mode, str) and not _WRITES.isdisjoint(mode)):
         return Unknown("a file")
-    return call.machine.open_file(found[0], next(iter(call.node.args), call.node), call.frame.source)
+    return call.machine.open_file(paths[0], next(iter(call.node.args), call.node), call.frame.source)
 
 
 _WRITES = frozenset("wxa+")
@@ -230,20 +230,20 @@ def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
     if isinstance(value, Guarded):
         return Guarded(_deep(machine, value.value, done), value.conditions)
     if isinstance(value, Union):
-        return Union(tuple([Guarded(_deep(machine, one.value, done), one.conditions) for one in value.values]))
+        return Union(tuple([Guarded(_deep(machine, element.value, done), element.conditions) for element in value.values]))
     if isinstance(value, tuple):
-        return tuple([_deep(machine, one, done) for one in value])
+        return tuple([_deep(machine, element, done) for element in value])
     if not isinstance(value, (list, dict)) or id(value) in done:
         return done.get(id(value), value)
     machine.spend(1 + len(value) // 8)
     if isinstance(value, list):
         items: list[Value] = []
         done[id(value)] = items
-        items += [_deep(machine, one, done) for one in value]
+        items += [_deep(machine, element, done) for element in value]
         return items
     entries: dict[Any, Value] = {}
     done[id(value)] = entries
-    entries.update({key: _deep(machine, one, done) for key, one in value.items()})
+    entries.update({key: _deep(machine, element, done) for key, element in value.items()})
     return entries
 
 

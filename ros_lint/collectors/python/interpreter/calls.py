@@ -41,7 +41,7 @@ class Call:
         """Return the texts of an argument. Alternatives that are None are ignored, as Python would fail there."""
         value = self.get(position, *names)
         if isinstance(value, Union):
-            value = union(one for one in alternatives(value) if one.value is not None)
+            value = union(alternative for alternative in alternatives(value) if alternative.value is not None)
         return (UNKNOWN,) if value is None else text_of(value)
 
     def result(self, found: tuple[str, ...]) -> Value:

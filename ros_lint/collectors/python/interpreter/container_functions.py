@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 def _set(call: Call) -> Value:
     if not call.arguments:
         return []
-    found = call.items(0)
-    return unknown(call) if found is None else unique(found)
+    elements = call.items(0)
+    return unknown(call) if elements is None else unique(elements)
 
 
 def _zip(call: Call) -> Value:
@@ -33,7 +33,10 @@ def _rows(call: Call, start: int) -> list[tuple[list[Value], Conditions]] | None
     if any(column is None for column in columns):
         return None
     rows = zip(*[column or [] for column in columns], strict=False)
-    return [([plain(one) for one in row], tuple([condition for one in row for condition in around(one)])) for row in rows]
+    return [
+        ([plain(element) for element in row], tuple([condition for element in row for condition in around(element)]))
+        for row in rows
+    ]
 
 
 def _under(conditions: Conditions, value: Value) -> Value:
@@ -61,43 +64,45 @@ def _extreme(function: Callable[..., int]) -> Rule:
 
 
 def _sorted(call: Call) -> Value:
-    found = call.items(0)
-    return unknown(call) if found is None else arranged(call.machine, found, call.keywords, call.node, call.frame)
+    elements = call.items(0)
+    return unknown(call) if elements is None else arranged(call.machine, elements, call.keywords, call.node, call.frame)
 
 
 def _reversed(call: Call) -> Value:
-    found = call.items(0)
-    return found[::-1] if found is not None else unknown(call)
+    elements = call.items(0)
+    return elements[::-1] if elements is not None else unknown(call)
 
 
 def _map(call: Call) -> Value:
     rows = _rows(call, 1)
     if not rows:
         return unknown(call) if rows is None else []
-    found: list[Value] = []
+    results: list[Value] = []
     for row, conditions in rows:
         with call.machine.under(*conditions):
-            found.append(_under(conditions, call.machine.call(call.arguments[0], row, {}, call.node, call.frame)))
-    return found
+            results.append(_under(conditions, call.machine.call(call.arguments[0], row, {}, call.node, call.frame)))
+    return results
 
 
 def _filter(call: Call) -> Value:
-    found = call.items(1)
-    if found is None:
+    elements = call.items(1)
+    if elements is None:
         return unknown(call)
     kept = []
-    for one in found:
-        asked = call.machine.call(call.arguments[0], [plain(one)], {}, call.node, call.frame) if call.arguments[0] else one
-        answer, condition = truth(call.machine, asked)
+    for element in elements:
+        result = (
+            call.machine.call(call.arguments[0], [plain(element)], {}, call.node, call.frame) if call.arguments[0] else element
+        )
+        answer, condition = truth(call.machine, result)
         if answer is not False:
-            kept.append(one if answer else Guarded(one, (condition,)))
+            kept.append(element if answer else Guarded(element, (condition,)))
     return kept
 
 
 def _any_all(wanted: bool) -> Rule:
     def rule(call: Call) -> Value:
-        found = call.items(0)
-        answers = [_answer(call.machine, one, wanted) for one in found] if found is not None else [None]
+        elements = call.items(0)
+        answers = [_answer(call.machine, element, wanted) for element in elements] if elements is not None else [None]
         if wanted in answers:
             return wanted
         return Unknown("any or all") if None in answers else not wanted
@@ -119,24 +124,24 @@ def _sum(call: Call) -> Value:
         values = [0 if start is None else start, *parts]
         known = all(isinstance(value, (int, float)) for value in values)
         return sum(values) if known else Unknown("a number")
-    found = list(start)
+    elements = list(start)
     for part in parts:
         inner = items(call.machine, part)
         if inner is None:
             return unknown(call)
         call.machine.spend(len(inner))
-        found += [_under(around(part), one) for one in inner]
-    return found
+        elements += [_under(around(part), element) for element in inner]
+    return elements
 
 
 def _chain(call: Call) -> Value:
-    found: list[Value] = []
+    elements: list[Value] = []
     for argument in call.arguments:
         inner = items(call.machine, argument)
         if inner is None:
             return unknown(call)
-        found += inner
-    return found
+        elements += inner
+    return elements
 
 
 FUNCTIONS: Mapping[str, Rule] = {

@@ -69,49 +69,49 @@ def _list(machine: Interpreter, node: ast.List, frame: Frame) -> Value:
 
 
 def _tuple(machine: Interpreter, node: ast.Tuple, frame: Frame) -> Value:
-    found = _elements(machine, node.elts, frame)
-    return tuple(found) if isinstance(found, list) else found
+    elements = _elements(machine, node.elts, frame)
+    return tuple(elements) if isinstance(elements, list) else elements
 
 
 def _set(machine: Interpreter, node: ast.Set, frame: Frame) -> Value:
     # Represented by a list, because its order does not matter and its elements need not be hashable.
-    found = _elements(machine, node.elts, frame)
-    return unique(found) if isinstance(found, list) else found
+    elements = _elements(machine, node.elts, frame)
+    return unique(elements) if isinstance(elements, list) else elements
 
 
 def _elements(machine: Interpreter, nodes: Iterable[ast.expr], frame: Frame) -> Value:
-    found: list[Value] = []
+    elements: list[Value] = []
     for node in nodes:
         if not isinstance(node, ast.Starred):
-            found.append(machine.evaluate(node, frame))
+            elements.append(machine.evaluate(node, frame))
             continue
         value = machine.evaluate(node.value, frame)
         inner = items(machine, value)
         if inner is None:
             machine.escape(value)
             return Unknown("a list with * of what is not known")
-        found += inner
-    return found
+        elements += inner
+    return elements
 
 
 def _dict(machine: Interpreter, node: ast.Dict, frame: Frame) -> Value:
-    found: dict[Value, Value] = {}
+    entries: dict[Value, Value] = {}
     unknown = False
     for key_node, value_node in zip(node.keys, node.values, strict=True):
         value = machine.evaluate(value_node, frame)
         if key_node is None:
             value = plain(value)
             if isinstance(value, dict):
-                found.update(value)
+                entries.update(value)
             else:
                 unknown = True
             continue
         key = plain(machine.evaluate(key_node, frame))
-        found[hashable(machine, key)] = value
+        entries[hashable(machine, key)] = value
     if unknown:
-        machine.escape(found)
-        found[UNKNOWN] = Unknown("elements that are not known")
-    return found
+        machine.escape(entries)
+        entries[UNKNOWN] = Unknown("elements that are not known")
+    return entries
 
 
 def _formatted(machine: Interpreter, node: ast.JoinedStr, frame: Frame) -> Value:
@@ -123,11 +123,11 @@ def _formatted(machine: Interpreter, node: ast.JoinedStr, frame: Frame) -> Value
         assert isinstance(part, ast.FormattedValue)
         value = machine.evaluate(part.value, frame)
         machine.record_misuse(value, "formatted", node, frame)
-        found = text_of(value)
+        texts = text_of(value)
         if part.format_spec is not None or part.conversion not in (-1, 115):
             spec = machine.evaluate(part.format_spec, frame) if part.format_spec is not None else ""
-            found = tuple(with_format(plain(value), one, plain(spec), part.conversion) for one in found)
-        rows.append(found)
+            texts = tuple(with_format(plain(value), text, plain(spec), part.conversion) for text in texts)
+        rows.append(texts)
     return texts_made(joined(rows, "".join), node, frame)
 
 
@@ -160,7 +160,7 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
         answer, condition = truth(machine, value)
         if part is node.values[-1] or answer is stop_at:
             if not (
-                value == "" and any(isinstance(plain(one), Unknown) for one in perhaps)
+                value == "" and any(isinstance(plain(alternative), Unknown) for alternative in perhaps)
             ):  # an unknown value may be an empty text
                 perhaps.append(Guarded(value, passed) if passed else value)
             break
@@ -171,7 +171,7 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
             passed = (*passed, opposite_of(ends))
     if len(perhaps) == 1:
         return perhaps[0]
-    together = _together([plain(one) for one in perhaps], "or" if stop_at else "and")
+    together = _together([plain(alternative) for alternative in perhaps], "or" if stop_at else "and")
     return union(perhaps) if together is None else together
 
 
@@ -195,9 +195,9 @@ def _compare(machine: Interpreter, node: ast.Compare, frame: Frame) -> Value:
         if isinstance(op, (ast.In, ast.NotIn)) and isinstance(right, (list, tuple, dict, str)):
             machine.spend(len(right) // 8)
         elif isinstance(op, (ast.Eq, ast.NotEq)):
-            for one, other in ((left, right), (right, left)):
-                if isinstance(other, str):
-                    machine.record_misuse(one, "compared", node, frame)
+            for side, opposite_side in ((left, right), (right, left)):
+                if isinstance(opposite_side, str):
+                    machine.record_misuse(side, "compared", node, frame)
         result = compared(op, left, right)
         if len(node.ops) == 1:
             return result
@@ -227,7 +227,7 @@ def _attribute(machine: Interpreter, node: ast.Attribute, frame: Frame) -> Value
     owner = machine.evaluate(node.value, frame)
     if not isinstance(owner, (Guarded, Union)):
         return attribute(machine, owner, node, frame)
-    return each(owner, lambda one: attribute(machine, one, node, frame))
+    return each(owner, lambda alternative: attribute(machine, alternative, node, frame))
 
 
 def _subscript(machine: Interpreter, node: ast.Subscript, frame: Frame) -> Value:
@@ -237,9 +237,9 @@ def _subscript(machine: Interpreter, node: ast.Subscript, frame: Frame) -> Value
             plain(machine.evaluate(part, frame)) if part is not None else None
             for part in (node.slice.lower, node.slice.upper, node.slice.step)
         ]
-        return each(owner, lambda one: sliced(one, parts))
+        return each(owner, lambda alternative: sliced(alternative, parts))
     key = machine.evaluate(node.slice, frame)
-    return each(owner, lambda one: each(key, lambda other: subscript(machine, one, other)))
+    return each(owner, lambda alternative: each(key, lambda key_alternative: subscript(machine, alternative, key_alternative)))
 
 
 def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
@@ -261,19 +261,19 @@ def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
         inner_value = plain(value)
         if isinstance(inner_value, dict):
             machine.spend(len(inner_value) // 8)
-            keywords.update({str(name): one for name, one in inner_value.items()})
+            keywords.update({str(name): alternative for name, alternative in inner_value.items()})
         else:
             machine.escape(value)
     if not isinstance(function, (Guarded, Union)):
         return machine.call(function, arguments, keywords, node, frame)
     # Each alternative is called only under its conditions.
-    found: list[Value] = []
-    for one in alternatives(plain(function)):
-        with suppress(ProgramRaised), machine.under(*one.conditions):
-            found.append(Guarded(machine.call(one.value, arguments, keywords, node, frame), one.conditions))
-    if not found:
+    results: list[Value] = []
+    for alternative in alternatives(plain(function)):
+        with suppress(ProgramRaised), machine.under(*alternative.conditions):
+            results.append(Guarded(machine.call(alternative.value, arguments, keywords, node, frame), alternative.conditions))
+    if not results:
         raise ProgramRaised
-    return union(found)
+    return union(results)
 
 
 def _lambda(machine: Interpreter, node: ast.Lambda, frame: Frame) -> Value:
@@ -284,31 +284,31 @@ def _inside(node: ast.expr, frame: Frame) -> Frame:
     """Return the frame of a comprehension. A ``:=`` in it binds its name in the surrounding function."""
     inner = Frame(frame.source, frame, {})
     if frame.source.assigns_inside:
-        names = [one.target.id for one in ast.walk(node) if isinstance(one, ast.NamedExpr)]
+        names = [node_inside.target.id for node_inside in ast.walk(node) if isinstance(node_inside, ast.NamedExpr)]
         inner.declared = {name: frame.declared.get(name, frame) for name in names}
     return inner
 
 
 def _comprehension(machine: Interpreter, node: ast.ListComp | ast.SetComp | ast.GeneratorExp, frame: Frame) -> Value:
-    found: list[Value] = []
+    elements: list[Value] = []
     inner = _inside(node, frame)
     of = machine.evaluate(node.generators[0].iter, inner)
     if isinstance(of, LibraryName) and of.name == INSTALLED:
         return of  # whatever the element is: a membership test of the result asks for installed packages
-    _generate(machine, node.generators, of, inner, lambda: found.append(machine.guard(machine.evaluate(node.elt, inner))))
-    return unique(found) if isinstance(node, ast.SetComp) else found
+    _generate(machine, node.generators, of, inner, lambda: elements.append(machine.guard(machine.evaluate(node.elt, inner))))
+    return unique(elements) if isinstance(node, ast.SetComp) else elements
 
 
 def _dict_comprehension(machine: Interpreter, node: ast.DictComp, frame: Frame) -> Value:
-    found: dict[Value, Value] = {}
+    entries: dict[Value, Value] = {}
     inner = _inside(node, frame)
 
     def add() -> None:
         key = hashable(machine, plain(machine.evaluate(node.key, inner)))
-        found[key] = machine.evaluate(node.value, inner)
+        entries[key] = machine.evaluate(node.value, inner)
 
     _generate(machine, node.generators, machine.evaluate(node.generators[0].iter, inner), inner, add)
-    return found
+    return entries
 
 
 def _generate(
@@ -321,7 +321,7 @@ def _generate(
     if values is None:
         guards.append((Unknown("element of what is not known"), (PERHAPS,)))
     else:
-        guards = [(plain(one), around(one)) for one in values]
+        guards = [(plain(element), around(element)) for element in values]
     for value, conditions in guards:
         bind(machine, first.target, value, frame)
         needed = list(conditions)

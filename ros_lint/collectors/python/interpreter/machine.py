@@ -115,16 +115,16 @@ class Machine(Interpreter):
         self._sources[key] = None  # while it is interpreted, because modules may import each other
         module = None if known else self._modules(name, importer.text)
         if module is not None:
-            found = self._sources[key] = Source(module.text)
-            self.run(module.tree, found)
-            return found
+            source = self._sources[key] = Source(module.text)
+            self.run(module.tree, source)
+            return source
         if not known:
             self.wanted.add(name)
         model = self.library.model(name, at)
         if model is not None:
             self.borrows = True
-            found = self._sources[key] = Source(importer.text, lent=True)
-            self.run(model, found)
+            source = self._sources[key] = Source(importer.text, lent=True)
+            self.run(model, source)
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
@@ -155,12 +155,12 @@ class Machine(Interpreter):
 
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
         """Return the value of a function definition."""
-        found = Function(node, frame)
-        found.defaults = [self.evaluate(default, frame) for default in node.args.defaults]
+        function = Function(node, frame)
+        function.defaults = [self.evaluate(default, frame) for default in node.args.defaults]
         for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
             if default is not None:
-                found.keyword_defaults[argument.arg] = self.evaluate(default, frame)
-        return found
+                function.keyword_defaults[argument.arg] = self.evaluate(default, frame)
+        return function
 
     # --- calls ----------------------------------------------------------------------------------------------------
 
@@ -236,13 +236,13 @@ class Machine(Interpreter):
                 return self.evaluate(node.body, frame)
             finally:
                 self._under_way.pop()
-        before, left = self.conditions, self._left
-        self._left = min(left, _STEPS_A_CALL)
+        before, steps_left = self.conditions, self._left
+        self._left = min(steps_left, _STEPS_A_CALL)
         allowed = self._left
         try:
             signal = execute(self, node.body, frame)
         except BudgetExceeded:
-            if left <= allowed:
+            if steps_left <= allowed:
                 raise
             self.escape([arguments, keywords])
             return Unknown("a call that takes too long")
@@ -252,7 +252,7 @@ class Machine(Interpreter):
             signal = LEAVE  # this branch raises, but another one returned
         finally:
             self._under_way.pop()
-            self._left = left - (allowed - self._left)
+            self._left = steps_left - (allowed - self._left)
             self.conditions = before
         if frame.source.yields and function.yields():
             return frame.yielded
@@ -263,19 +263,19 @@ class Machine(Interpreter):
         if len(frame.returned) == 1:
             return frame.returned[0].value
         count = len(before)
-        return self.joined([Guarded(one.value, one.conditions[count:]) for one in frame.returned])
+        return self.joined([Guarded(returned.value, returned.conditions[count:]) for returned in frame.returned])
 
     # --- what the library needs -----------------------------------------------------------------------------------
 
     def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
         """Return the result of ``/`` or joinpath: a path of pathlib, or a substitution."""
-        if isinstance(left, LaunchObject) or any(isinstance(plain(one), LaunchObject) for one in right):
+        if isinstance(left, LaunchObject) or any(isinstance(plain(part), LaunchObject) for part in right):
             call = node if isinstance(node, ast.Call) else ast.Call(node, [], [])
             ast.copy_location(call, node)
             return LaunchObject("PathJoinSubstitution", [[left, *right]], {}, call, frame.source)
-        rows = [text_of(left), *[text_of(one) for one in right]]
-        found = joined(rows, lambda row: posixpath.join("", *row))
-        return union(guarded_text(text, FilePath(text)) for text in found)
+        rows = [text_of(left), *[text_of(part) for part in right]]
+        texts = joined(rows, lambda row: posixpath.join("", *row))
+        return union(guarded_text(text, FilePath(text)) for text in texts)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
         """Return the text of a file of the workspace, Unknown for any other file."""
@@ -285,12 +285,12 @@ class Machine(Interpreter):
         paths = self.library.with_defaults(self, path)
         if len(paths) != 1 or not is_settled(paths[0]):
             return unknown
-        found = self._files(paths[0])
-        if found is None:
+        content = self._files(paths[0])
+        if content is None:
             self.wanted.add(paths[0])
             return unknown
         # The caller of the launch file can pass another path.
-        return found if paths[0] == path else union([Guarded(found, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
+        return content if paths[0] == path else union([Guarded(content, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
 
     def texts(self, value: Value) -> tuple[str, ...]:
         return self.library.texts(value, self.spend)

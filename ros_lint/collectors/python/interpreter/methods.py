@@ -65,15 +65,15 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
     """Return the elements of a value in a new list, conditional ones guarded; None if they are unknown."""
     value = plain(value)
     if isinstance(value, Union):
-        found: list[Value] = []
-        for one in alternatives(value):
-            inner = items(machine, one.value)
-            if inner is None and isinstance(one.value, Unknown):
+        elements: list[Value] = []
+        for alternative in alternatives(value):
+            inner = items(machine, alternative.value)
+            if inner is None and isinstance(alternative.value, Unknown):
                 inner = [Unknown("element of what is not known")]
             elif inner is None:
                 return None
-            found += [Guarded(element, one.conditions or (PERHAPS,)) for element in inner]
-        return found
+            elements += [Guarded(element, alternative.conditions or (PERHAPS,)) for element in inner]
+        return elements
     if isinstance(value, (list, tuple, set, frozenset, dict)):
         machine.spend(len(value) // 8)
         return list(value) if len(value) <= _MOST_ITEMS else None
@@ -97,8 +97,8 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
     if isinstance(owner, Instance):
         return of_instance(owner, name)
     if isinstance(owner, Class):
-        found = owner.find(name)
-        return found if found is not None else Unknown(f"attribute {name}")
+        member = owner.find(name)
+        return member if member is not None else Unknown(f"attribute {name}")
     if isinstance(owner, Source):
         return owner.names.get(name, Unknown(f"{name} of a module"))
     if isinstance(owner, FilePath):
@@ -117,13 +117,13 @@ def of_instance(owner: Instance, name: str) -> Value:
     """Return an attribute of an object whose class is defined in the program."""
     if name in owner.attributes:
         return owner.attributes[name]
-    found = owner.cls.find(name)
-    if isinstance(found, Function):
-        return Bound(found, [owner])
-    if isinstance(found, Bound) and isinstance(found.function, Function):  # property, classmethod, staticmethod
-        return found
-    if found is not None:
-        return found
+    member = owner.cls.find(name)
+    if isinstance(member, Function):
+        return Bound(member, [owner])
+    if isinstance(member, Bound) and isinstance(member.function, Function):  # property, classmethod, staticmethod
+        return member
+    if member is not None:
+        return member
     if owner.made is not None:
         return Method(owner.made, name)
     return Unknown(f"attribute {name} of an object")
@@ -219,7 +219,7 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
         if value is None:
             rows.append((UNKNOWN,))
         elif spec or conversion in ("r", "a"):
-            rows.append(tuple(with_format(plain(value), one, spec or "", ord(conversion or "s")) for one in text_of(value)))
+            rows.append(tuple(with_format(plain(value), text, spec or "", ord(conversion or "s")) for text in text_of(value)))
         else:
             rows.append(text_of(value))
     return texts_made(joined(rows, "".join), node, frame)
@@ -232,19 +232,19 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
             machine.spend(1)
             owner.append(machine.guard(first))
             return None
-        case "add" if any(same(one, first) for one in owner):
+        case "add" if any(same(element, first) for element in owner):
             return None
         case "add":
             owner.append(machine.guard(first))
             return None
         case "extend" | "update":
-            found = items(machine, first)
-            if found is None:
+            elements = items(machine, first)
+            if elements is None:
                 machine.escape(first)
                 owner.append(machine.guard(Unknown("elements that are not known")))
             else:
-                machine.spend(len(found))
-                owner += [machine.guard(one) for one in found]
+                machine.spend(len(elements))
+                owner += [machine.guard(element) for element in elements]
             if name == "update":
                 owner[:] = unique(owner)
             return None
@@ -263,14 +263,14 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
             owner.clear()
             return None
         case "remove" | "discard":
-            same_ones = [index for index, one in enumerate(owner) if same(plain(one), plain(first))]
+            same_ones = [index for index, element in enumerate(owner) if same(plain(element), plain(first))]
             if same_ones:
                 del owner[same_ones[0]]
             elif name == "remove" and all(map(is_known, (*owner, first))):
                 raise ProgramRaised("ValueError")
             return None
         case "union":
-            return unique([*owner, *(one for argument in arguments for one in items(machine, argument) or [])])
+            return unique([*owner, *(element for argument in arguments for element in items(machine, argument) or [])])
     return Unknown(f"{name}() of a list")
 
 
@@ -324,11 +324,11 @@ def _of_dict(
 
 def _updated(machine: Interpreter, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
     for argument in arguments:
-        for one in alternatives(argument):
-            if isinstance(one.value, dict):
-                owner.update(one.value)
+        for alternative in alternatives(argument):
+            if isinstance(alternative.value, dict):
+                owner.update(alternative.value)
                 continue
-            pairs = items(machine, one.value)
+            pairs = items(machine, alternative.value)
             for pair in pairs or ():
                 parts = items(machine, pair)
                 if parts is not None and len(parts) == 2:
@@ -337,5 +337,5 @@ def _updated(machine: Interpreter, owner: dict[Any, Value], arguments: list[Valu
                     owner[UNKNOWN] = Unknown("elements that are not known")
             if pairs is None:
                 owner[UNKNOWN] = Unknown("elements that are not known")
-                machine.escape(one.value)
+                machine.escape(alternative.value)
     owner.update(keywords)

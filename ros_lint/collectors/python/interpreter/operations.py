@@ -58,16 +58,16 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
         value = value.value
     if not isinstance(value, Union):
         return function(value)
-    found: list[Value] = []
+    results: list[Value] = []
     raised = False
-    for one in alternatives(value):
+    for alternative in alternatives(value):
         try:
-            found.append(Guarded(function(one.value), one.conditions))
+            results.append(Guarded(function(alternative.value), alternative.conditions))
         except ProgramRaised:  # the alternative is excluded
             raised = True
-    if raised and not found:
+    if raised and not results:
         raise ProgramRaised
-    return union(found)
+    return union(results)
 
 
 def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondition]:
@@ -87,13 +87,13 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 
 
 def _truth_of_several(machine: Interpreter, value: Union) -> tuple[bool | None, LaunchCondition]:
-    answers = [(truth(machine, one.value)[0], one.conditions) for one in alternatives(value)]
+    answers = [(truth(machine, alternative.value)[0], alternative.conditions) for alternative in alternatives(value)]
     if len({answer for answer, _ in answers}) == 1:
         return answers[0][0], PERHAPS
     for wanted in (True, False):
-        found = [conditions for answer, conditions in answers if answer is wanted]
-        if len(found) == 1 and len(found[0]) == 1 and all(answer is not None for answer, _ in answers):
-            return None, found[0][0] if wanted else opposite_of(found[0][0])
+        matching = [conditions for answer, conditions in answers if answer is wanted]
+        if len(matching) == 1 and len(matching[0]) == 1 and all(answer is not None for answer, _ in answers):
+            return None, matching[0][0] if wanted else opposite_of(matching[0][0])
     return None, PERHAPS
 
 
@@ -101,7 +101,9 @@ def text_of(value: Value) -> tuple[str, ...]:
     """Return the alternatives of str() of a value."""
     if isinstance(value, str):
         return (value,)
-    return distinct(text for one in alternatives(value) for text in under((_str(one.value),), one.conditions))
+    return distinct(
+        text for alternative in alternatives(value) for text in under((_str(alternative.value),), alternative.conditions)
+    )
 
 
 def _str(value: Value) -> str:
@@ -118,15 +120,15 @@ def _shown(value: Any) -> str:
     """Return str() of a collection, UNKNOWN if it is large or contains anything but texts and numbers."""
     stack, count = [value], 0
     while stack:
-        one = stack.pop()
+        item = stack.pop()
         count += 1
         if count > 200:
             return UNKNOWN
-        if isinstance(one, dict):
-            stack += [*one.keys(), *one.values()]
-        elif isinstance(one, (list, tuple, set)):
-            stack += one
-        elif not (one is None or isinstance(one, (str, *_NUMBERS))):
+        if isinstance(item, dict):
+            stack += [*item.keys(), *item.values()]
+        elif isinstance(item, (list, tuple, set)):
+            stack += item
+        elif not (item is None or isinstance(item, (str, *_NUMBERS))):
             return UNKNOWN
     return str(value)
 
@@ -136,8 +138,8 @@ def hashable(machine: Interpreter, key: Value) -> Any:
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
     if isinstance(key, (list, tuple, LaunchObject)):
-        found = machine.texts(key)
-        return found[0] if len(found) == 1 else UNKNOWN
+        texts = machine.texts(key)
+        return texts[0] if len(texts) == 1 else UNKNOWN
     return UNKNOWN
 
 
@@ -159,7 +161,7 @@ def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
     """Return the text of an expression, or its alternatives."""
     if len(found) == 1:
         return written(found[0], node, frame.source)
-    return union(guarded_text(one, written(one, node, frame.source)) for one in found)
+    return union(guarded_text(text, written(text, node, frame.source)) for text in found)
 
 
 _CONVERSIONS = {ord("r"): repr, ord("a"): ascii}
@@ -170,13 +172,13 @@ _ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 def operation(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
     """Return the result of an operator on two values."""
     if isinstance(op, ast.Add):
-        for one, other in ((left, right), (right, left)):
-            if isinstance(other, (str, list, tuple, LaunchObject)):
-                machine.record_misuse(one, "added", node, frame)
+        for side, opposite_side in ((left, right), (right, left)):
+            if isinstance(opposite_side, (str, list, tuple, LaunchObject)):
+                machine.record_misuse(side, "added", node, frame)
     elif isinstance(op, ast.Mod) and isinstance(left, str):
-        for one in right if isinstance(right, tuple) else (right,):
-            machine.record_misuse(one, "formatted", node, frame)
-    return each(left, lambda one: each(right, lambda other: _single(machine, op, one, other, node, frame)))
+        for side in right if isinstance(right, tuple) else (right,):
+            machine.record_misuse(side, "formatted", node, frame)
+    return each(left, lambda side: each(right, lambda opposite_side: _single(machine, op, side, opposite_side, node, frame)))
 
 
 def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
@@ -246,7 +248,7 @@ def negated(machine: Interpreter, value: Value) -> Value:
 
 def compared(op: ast.cmpop, left: Value, right: Value) -> Value:
     """Return the result of a comparison."""
-    return each(left, lambda one: each(right, lambda other: _one_compare(op, one, other)))
+    return each(left, lambda left_value: each(right, lambda right_value: _one_compare(op, left_value, right_value)))
 
 
 def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
@@ -291,16 +293,16 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
     elif isinstance(right, range):
         return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
     elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
-        inner = [plain(one) for one in right]
-        if any(isinstance(one, (str, *_NUMBERS, type(None))) and one == left for one in inner):
+        inner = [plain(item) for item in right]
+        if any(isinstance(item, (str, *_NUMBERS, type(None))) and item == left for item in inner):
             return wanted
-        known = all(isinstance(one, (*_NUMBERS, type(None))) or (isinstance(one, str) and is_plain(one)) for one in inner)
+        known = all(isinstance(item, (*_NUMBERS, type(None))) or (isinstance(item, str) and is_plain(item)) for item in inner)
         if known and (not isinstance(left, str) or is_plain(left)):
             return not wanted
         if known and len(inner) == 1 and isinstance(inner[0], str):
             return Unknown("comparison with an argument", LaunchCondition((str(left),), inner[0], wanted))
         if known and isinstance(left, str) and len(inner) <= MOST_COMPARED:
-            one_of = ", ".join([quoted(one) for one in inner if isinstance(one, str)])
+            one_of = ", ".join([quoted(item) for item in inner if isinstance(item, str)])
             return _asked(f"{quoted(left)} {'in' if wanted else 'not in'} ({one_of},)")
     return Unknown("membership that is not known")
 
@@ -350,7 +352,7 @@ def without(owner: dict[Any, Value], key: str) -> Conditions:
 
 
 def _is_choice(owner: dict[Any, Value], key: str) -> bool:
-    return len(owner) <= MOST and waits(key) and all(isinstance(one, str) and is_plain(one) for one in owner)
+    return len(owner) <= MOST and waits(key) and all(isinstance(key_name, str) and is_plain(key_name) for key_name in owner)
 
 
 def may_have_more(values: Sequence[Value]) -> bool:
@@ -358,7 +360,7 @@ def may_have_more(values: Sequence[Value]) -> bool:
 
     A guarded or unknown element represents any number of elements.
     """
-    return any(isinstance(one, (Guarded, Unknown)) for one in values)
+    return any(isinstance(value, (Guarded, Unknown)) for value in values)
 
 
 def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:

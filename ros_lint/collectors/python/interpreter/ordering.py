@@ -50,14 +50,14 @@ def is_small(value: Any) -> bool:
     """Return whether a collection has few elements, with those of nested collections."""
     stack, count = [value], 0
     while stack:
-        one = stack.pop()
+        item = stack.pop()
         count += 1
         if count > MOST_COMPARED:
             return False
-        if isinstance(one, dict):
-            stack += one.values()
-        elif isinstance(one, (list, tuple, set)):
-            stack += one
+        if isinstance(item, dict):
+            stack += item.values()
+        elif isinstance(item, (list, tuple, set)):
+            stack += item
     return True
 
 
@@ -71,17 +71,17 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
 
 def unique(values: Iterable[Value]) -> list[Value]:
     """Return the elements of a set: values without those that certainly equal an earlier one."""
-    found: list[Value] = []
+    elements: list[Value] = []
     seen: set[Any] = set()
     for value in values:
         inner = plain(value)
         if not _has_known_equality(inner):
-            found.append(value)
+            elements.append(value)
         elif inner not in seen:
-            found.append(value)
+            elements.append(value)
             if not isinstance(value, Guarded):
                 seen.add(inner)
-    return found
+    return elements
 
 
 def _has_known_equality(value: Value) -> bool:

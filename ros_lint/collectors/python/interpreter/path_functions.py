@@ -48,13 +48,13 @@ def split_suffix(path: str) -> tuple[str, str]:
 
 def _last_outside(path: str, character: str) -> int:
     """Return the last offset of a character outside of marked parts, -1 if there is none."""
-    found, start, depth = -1, 0, 0
+    position, start, depth = -1, 0, 0
     for mark in BRACKETS.finditer(path):
         if not depth:
-            found = max(found, path.rfind(character, start, mark.start()))
+            position = max(position, path.rfind(character, start, mark.start()))
         depth += 1 if mark[1] else -1
         start = mark.end()
-    return max(found, path.rfind(character, start))
+    return max(position, path.rfind(character, start))
 
 
 def of_path(owner: FilePath, name: str) -> Value:
@@ -70,12 +70,12 @@ def of_path(owner: FilePath, name: str) -> Value:
         case "suffix":
             return _split_name(last)[1]
         case "parents":
-            found: list[FilePath] = []
-            while folder and (not found or folder != found[-1].text):
-                found.append(FilePath(folder))
+            folders: list[FilePath] = []
+            while folder and (not folders or folder != folders[-1].text):
+                folders.append(FilePath(folder))
                 folder = split(folder)[0]
             # The folders above an unknown folder are unknown.
-            return found if is_plain(owner.text) else [*found, *[FilePath(UNKNOWN)] * _MOST_PARENTS]
+            return folders if is_plain(owner.text) else [*folders, *[FilePath(UNKNOWN)] * _MOST_PARENTS]
     return Method(owner, name)
 
 
@@ -97,11 +97,11 @@ def call_of_path(
         case "resolve" | "absolute" | "expanduser":
             return owner
         case "with_suffix" | "with_name":
-            given = plain(arguments[0]) if arguments else None
-            if isinstance(given, str):
+            argument = plain(arguments[0]) if arguments else None
+            if isinstance(argument, str):
                 if name == "with_suffix":
-                    return FilePath(split_suffix(owner.text)[0] + given)
-                return FilePath(posixpath.join(split(owner.text)[0], given))
+                    return FilePath(split_suffix(owner.text)[0] + argument)
+                return FilePath(posixpath.join(split(owner.text)[0], argument))
         case "open" | "read_text" | "read_bytes":
             return machine.open_file(owner.text, node, frame.source)
         case "exists" | "is_file":

@@ -95,31 +95,31 @@ class Recorder:
 
     def joined(self, values: Sequence[Guarded]) -> Value:
         """Return the union of values. If these are too many, they escape."""
-        found = union(values)
-        if isinstance(found, Unknown):
+        joined_value = union(values)
+        if isinstance(joined_value, Unknown):
             self.escape(values)
-        return found
+        return joined_value
 
     def escape(self, value: Value) -> None:
         """Note that a value escapes to code that is not interpreted: the objects in it may be launched."""
         waiting, count = [value], 0
         while waiting and count < 1_000:
-            one = waiting.pop()
+            item = waiting.pop()
             count += 1
-            if isinstance(one, LaunchObject):
-                if not one.escaped:
-                    one.escaped = True
-                    waiting += [*one.arguments, *one.keywords.values(), *one.entities]
-            elif isinstance(one, Guarded):
-                waiting.append(one.value)
-            elif isinstance(one, Union):
-                waiting += one.values
-            elif isinstance(one, (list, tuple)):
-                waiting += one
-            elif isinstance(one, dict):
-                waiting += one.values()
-            elif isinstance(one, Instance):
-                waiting += [one.made, *one.attributes.values()] if one.made is not None else one.attributes.values()
+            if isinstance(item, LaunchObject):
+                if not item.escaped:
+                    item.escaped = True
+                    waiting += [*item.arguments, *item.keywords.values(), *item.entities]
+            elif isinstance(item, Guarded):
+                waiting.append(item.value)
+            elif isinstance(item, Union):
+                waiting += item.values
+            elif isinstance(item, (list, tuple)):
+                waiting += item
+            elif isinstance(item, dict):
+                waiting += item.values()
+            elif isinstance(item, Instance):
+                waiting += [item.made, *item.attributes.values()] if item.made is not None else item.attributes.values()
 
     # --- what is asked for, and set -------------------------------------------------------------------------------
 

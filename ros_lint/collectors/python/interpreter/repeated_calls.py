@@ -65,7 +65,7 @@ def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value]
 
 def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
     """Return the outer names that a function, and the functions that it may call, read, with their values."""
-    found: dict[tuple[str, Frame], Value] = {}
+    values: dict[tuple[str, Frame], Value] = {}
     waiting, seen = [function], {function.node}
     while waiting:
         function = waiting.pop()
@@ -75,11 +75,11 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
                 around = around.outer
             if around is None:
                 continue
-            value = found[name, around] = around.names[name]
+            value = values[name, around] = around.names[name]
             if isinstance(value, Function) and value.node not in seen:
                 seen.add(value.node)
                 waiting.append(value)
-    return found
+    return values
 
 
 def _outline(names: dict[Any, Value]) -> Any:
@@ -110,7 +110,7 @@ class _Outliner:
             case Guarded(value=inner):
                 return self.of(inner, depth + 1)
             case Union():
-                return frozenset(self.of(one.value, depth + 1) for one in alternatives(value))
+                return frozenset(self.of(item.value, depth + 1) for item in alternatives(value))
             case Unknown(condition=condition):
                 self.unknown += 1
                 known = condition is not None and not any(UNKNOWN in text for text in condition.texts)
@@ -120,7 +120,7 @@ class _Outliner:
             case list() | tuple() | set() | frozenset():
                 return type(value), self._elements(value, depth + 1)
             case dict():
-                return dict, frozenset((key, self.of(one, depth + 1)) for key, one in value.items())
+                return dict, frozenset((key, self.of(item, depth + 1)) for key, item in value.items())
             case Instance(cls=cls, attributes=attributes):
                 return cls, self.of(attributes, depth + 1)
             case LaunchObject(node=node, arguments=arguments, keywords=keywords, entities=entities):
@@ -139,10 +139,10 @@ class _Outliner:
 
     def _elements(self, values: Iterable[Value], depth: int) -> Any:
         """Return the outlines of elements. An unknown or conditional element represents any number of them."""
-        found: dict[Any, None] = {}
+        outlines: dict[Any, None] = {}
         for value in values:
             before = self.unknown
-            one = self.of(value, depth)
+            outline = self.of(value, depth)
             several = self.unknown > before or isinstance(value, Guarded)
-            found[one if several else (len(found), one)] = None
-        return tuple(found)
+            outlines[outline if several else (len(outlines), outline)] = None
+        return tuple(outlines)

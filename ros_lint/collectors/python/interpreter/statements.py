@@ -177,7 +177,7 @@ def _fits(pattern: ast.pattern) -> ast.expr:
         case ast.MatchSingleton(value=value):
             return _at(ast.Compare(subject, [ast.Is()], [_at(ast.Constant(value), pattern)]), pattern)
         case ast.MatchOr(patterns=patterns):
-            return _at(ast.BoolOp(ast.Or(), [_fits(one) for one in patterns]), pattern)
+            return _at(ast.BoolOp(ast.Or(), [_fits(alternative) for alternative in patterns]), pattern)
         case ast.MatchAs(pattern=None):
             return _at(ast.Constant(value=True), pattern)
         case ast.MatchAs(pattern=inner) if inner is not None:
@@ -190,14 +190,14 @@ def _at(made: _Node, place: ast.AST) -> _Node:
 
 
 def _function(machine: Interpreter, node: ast.FunctionDef | ast.AsyncFunctionDef, frame: Frame) -> int:
-    found: Value = machine.function(node, frame)
+    function: Value = machine.function(node, frame)
     for decorator in reversed(node.decorator_list):
         name = decorator.id if isinstance(decorator, ast.Name) else ""
         if name in ("classmethod", "staticmethod", "property"):
-            found = Bound(found, [], {"": name})
-        elif isinstance(found, Function):
-            found = _decorated(machine, found, decorator, frame)
-    frame.names[node.name] = found
+            function = Bound(function, [], {"": name})
+        elif isinstance(function, Function):
+            function = _decorated(machine, function, decorator, frame)
+    frame.names[node.name] = function
     return NEXT
 
 
@@ -229,15 +229,15 @@ def _class(machine: Interpreter, node: ast.ClassDef, frame: Frame) -> int:
         for statement in node.body
         if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
     ]
-    found = Class(node.name, bases, inner.names, fields)
+    cls = Class(node.name, bases, inner.names, fields)
     for value in inner.names.values():
         if isinstance(value, Function):
-            value.owner = found
+            value.owner = cls
             value.frame = frame  # methods do not see the names of their class
         elif isinstance(value, Bound) and isinstance(value.function, Function):
-            value.function.owner = found
+            value.function.owner = cls
             value.function.frame = frame
-    frame.names[node.name] = found
+    frame.names[node.name] = cls
     return NEXT
 
 

@@ -187,21 +187,21 @@ class Function:
         """Return the values of the parameters at the beginning of a call."""
         spec = self.node.args
         names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
-        found: dict[str, Value] = dict(self.keyword_defaults)
+        values: dict[str, Value] = dict(self.keyword_defaults)
         if self.defaults:
-            found.update(zip(names[-len(self.defaults) :], self.defaults, strict=True))
-        found.update(zip(names, arguments, strict=False))
+            values.update(zip(names[-len(self.defaults) :], self.defaults, strict=True))
+        values.update(zip(names, arguments, strict=False))
         known = {*names, *(argument.arg for argument in spec.kwonlyargs)}
-        found.update({name: value for name, value in keywords.items() if name in known})
+        values.update({name: value for name, value in keywords.items() if name in known})
         if spec.vararg is not None:
-            found[spec.vararg.arg] = tuple(arguments[len(names) :])
+            values[spec.vararg.arg] = tuple(arguments[len(names) :])
         if spec.kwarg is not None:
-            found[spec.kwarg.arg] = {name: value for name, value in keywords.items() if name not in known}
+            values[spec.kwarg.arg] = {name: value for name, value in keywords.items() if name not in known}
         for name in known:
-            found.setdefault(name, Unknown(f"the argument {name}"))
+            values.setdefault(name, Unknown(f"the argument {name}"))
         if self.owner is not None:
-            found.setdefault("__class__", self.owner)
-        return found
+            values.setdefault("__class__", self.owner)
+        return values
 
 
 class Bound:
@@ -238,31 +238,31 @@ class Class:
         """Annotated names, in order: the parameters of a dataclass."""
 
     def find(self, name: str) -> Value | None:
-        for one in self._line():
-            if isinstance(one, Class) and name in one.names:
-                return one.names[name]
+        for cls in self._line():
+            if isinstance(cls, Class) and name in cls.names:
+                return cls.names[name]
         return None
 
     def every_field(self) -> dict[str, None]:
         """Return the fields of the class and its base classes; those of base classes come first."""
-        line = [one for one in self._line() if isinstance(one, Class)]
-        return dict.fromkeys(name for one in reversed(line) for name in one.fields)
+        line = [cls for cls in self._line() if isinstance(cls, Class)]
+        return dict.fromkeys(name for cls in reversed(line) for name in cls.fields)
 
     def library_base(self) -> LibraryName | None:
         """Return the first base class that a library defines."""
-        return next((one for one in self._line() if isinstance(one, LibraryName)), None)
+        return next((cls for cls in self._line() if isinstance(cls, LibraryName)), None)
 
     def _line(self) -> Iterator[Value]:
         """Yield the class and its base classes, each once."""
         waiting: list[Value] = [self]
         seen: set[int] = set()
         while waiting:
-            one = waiting.pop()
-            if id(one) not in seen:
-                seen.add(id(one))
-                yield one
-                if isinstance(one, Class):
-                    waiting += reversed(one.bases)
+            cls = waiting.pop()
+            if id(cls) not in seen:
+                seen.add(id(cls))
+                yield cls
+                if isinstance(cls, Class):
+                    waiting += reversed(cls.bases)
 
 
 class Instance:
@@ -324,27 +324,27 @@ class BudgetExceeded(Exception):  # noqa: N818
 
 def union(values: Iterable[Value]) -> Value:
     """Return a value that is one of several; the value itself if all are the same."""
-    found: list[Guarded] = []
+    results: list[Guarded] = []
     for value in values:
-        for one in alternatives(value):
-            if len(one.conditions) > 1 and not are_consistent(one.conditions):
+        for alternative in alternatives(value):
+            if len(alternative.conditions) > 1 and not are_consistent(alternative.conditions):
                 continue
-            if not any(same(one.value, other.value) and one.conditions == other.conditions for other in found):
-                found.append(one)
-        if len(found) > MOST:
+            if not any(same(alternative.value, known.value) and alternative.conditions == known.conditions for known in results):
+                results.append(alternative)
+        if len(results) > MOST:
             return Unknown("one of too many values")
-    if not found:
+    if not results:
         return Unknown("no value")
-    if all(same(one.value, found[0].value) for one in found):
-        return found[0].value
-    return Union(tuple(found))
+    if all(same(alternative.value, results[0].value) for alternative in results):
+        return results[0].value
+    return Union(tuple(results))
 
 
 def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
     """Yield every alternative of a value with its conditions."""
     if isinstance(value, Union):
-        for one in value.values:
-            yield from alternatives(one, conditions)
+        for alternative in value.values:
+            yield from alternatives(alternative, conditions)
     elif isinstance(value, Guarded):
         yield from alternatives(value.value, (*conditions, *value.conditions))
     else:
