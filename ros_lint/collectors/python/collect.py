@@ -37,7 +37,6 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
       is computed.
     - Paths of files in the share folder of a package are ``look_ups``.
 
-
     With ``launch``, only imports are returned, because the collectors of launch files find the rest. If the source
     does not parse, the imports are found by line and marked optional.
     """

@@ -43,6 +43,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     """Return the imports of a source in order.
 
     These imports are optional:
+
     - Imports under TYPE_CHECKING, and imports for ROS 1.
     - Imports in a try statement that continues after an ImportError, or under a test of the platform, unless every
       branch imports from the same package.
