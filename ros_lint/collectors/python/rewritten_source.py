@@ -30,7 +30,7 @@ def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
         # Where brackets are in pairs, what nests too deeply ends the reading early.
         if (deep := too_deep(source.text, _kept(tokens(source.text), found) if paired else found)) is not None:
             raise _too_deep(source, *deep)
-        rewritten = rewrite(source.text, code_tokens)
+        rewritten = rewrite(source.text, found)
         tree = python_ast.module(rewritten.text)
         inner: list[NewerSyntax] = []
         restore(
@@ -45,11 +45,8 @@ def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
         raise NotPythonError from None
     except python_ast.TooDeepForPythonError:
         raise _too_deep(source, "nested too deeply", 0) from None
-    newer = [
-        NewerSyntax(construct.construct, construct.version, source.span(construct.start, construct.end))
-        for construct in rewritten.newer
-    ]
-    return Parsed(tree, tuple(sorted([*newer, *inner], key=lambda construct: construct.span)))
+    newer = [NewerSyntax(one.construct, one.version, source.span(one.start, one.end)) for one in rewritten.newer]
+    return Parsed(tree, tuple(sorted([*newer, *inner], key=lambda one: one.span)))
 
 
 def too_deep(text: str, found: Iterable[Token]) -> tuple[str, int] | None:
@@ -137,5 +134,5 @@ def _expression(parsed: Parsed, offset: int, source: Text, newer: list[NewerSynt
             node.end_col_offset = (node.end_col_offset or 0) + (column if node.end_lineno == 1 else 0)
             node.lineno += line - 1
             node.end_lineno = (node.end_lineno or 1) + line - 1
-    newer += [construct._replace(span=source.span(offset, offset)) for construct in parsed.newer]
+    newer += [one._replace(span=source.span(offset, offset)) for one in parsed.newer]
     return body[0].value

@@ -51,25 +51,24 @@ def reason(text: str, read_expression: Callable[[str], ast.expr]) -> Reason:
     found, reasons = list[Token](), list[Reason]()
     try:
         for token in tokens(text):
-            code_tokens.append(token)
+            found.append(token)
     except TokenError as error:
         reasons.append(Reason(error.offset, error.message, not isinstance(error, TemplateDepthError)))
     else:
-        if (unpaired := brackets(text, code_tokens)) is not None:
+        if (unpaired := brackets(text, found)) is not None:
             reasons.append(Reason(*unpaired[::-1]))
     if "\0" in text:
         reasons.append(Reason(text.index("\0"), "Python has no such character"))
     if conflict := _CONFLICT.search(text):
         reasons.append(Reason(conflict.start(), "this merge conflict is not resolved"))
-    if indentation := next(_indentation(text, code_tokens), None):
+    if indentation := next(_indentation(text, found), None):
         reasons.append(indentation)
     if reasons:
         return min(reasons)
-    if (deep := too_deep(text, code_tokens)) is not None:
+    if (deep := too_deep(text, found)) is not None:
         return Reason(deep[1], deep[0], known=False)
     return next(
-        _in_statements(text, code_tokens, read_expression),
-        Reason(0, "Python refuses it for a reason that is not known", known=False),
+        _in_statements(text, found, read_expression), Reason(0, "Python refuses it for a reason that is not known", known=False)
     )
 
 
