@@ -82,9 +82,9 @@ def test_constructs_by_distribution(distro: str, code: str, construct: str, vers
     syntax = read(Text("a.py", code + "\n")).newer
     runs = {"humble": "3.10", "jazzy": "3.12", "kilted": "3.12", "lyrical": "3.14", "rolling": "3.14"}[distro]
     said = f"{construct} need Python {version[0]}.{version[1]}; {distro} runs {runs}"
-    found = [problem.message for problem in too_new(syntax, TargetDistro(distro, "--distro"))]
+    found = [problem.message for problem in too_new(syntax, distro)]
     assert (said in found) == (tuple(map(int, runs.split("."))) < version)
-    assert not list(too_new(syntax, TargetDistro(distro, "newest", explicit=False)))
+    assert not list(too_new(syntax, TargetDistro(distro, "newest", explicit=False).chosen))
 
 
 @pytest.mark.parametrize(
@@ -250,7 +250,7 @@ error[ROS506 launch-invalid]: type statements need Python 3.12; humble runs 3.10
 8 |              executable=f'{d["b"]!r:>3}{'er'}'),
   |                         ---------------------- f-strings with their own quotes inside need Python 3.12; humble runs 3.10
 
-error[ROS506 launch-invalid]: undefined is not defined
+error[ROS506 launch-invalid]: 'undefined' is not defined
  --> launch/e.launch.py:4:5
   |
 4 | \U0001fae8\U0001e08f {undefined}'''])
@@ -262,7 +262,7 @@ error[ROS312 invalid-build-script]: f-strings with their own quotes inside need 
 6 |     name=f'{about['name']}', version='0.1.0', packages=['robot'],
   |          ^^^^^^^^^^^^^^^^^^
 
-Found 5 errors in 1 package for humble (--distro), with data of 2026-08-22.
+Found 5 errors in 1 package for humble (--distro); package index of 2026-08-22.
 """
 
 
@@ -274,6 +274,6 @@ def test_a_run_gives_the_same_bytes_under_every_python(tmp_path: Path) -> None:
     rules = "launch-invalid,invalid-build-script,launch-unknown-executable"
     environment = {**os.environ, "PYTHONUTF8": "1"}
     done = subprocess.run([*command, rules], capture_output=True, check=False, cwd=tmp_path, env=environment)
-    assert done.stdout.decode().partition("Not seen through")[0] == _EXPECTED
+    assert done.stdout.decode().partition("Not fully analysed")[0] == _EXPECTED
     done = subprocess.run([*command, rules, "--format", "json"], capture_output=True, check=False, cwd=tmp_path)
     assert [entry["what"] for entry in json.loads(done.stdout)["not_checked"]] == ["launch/d.launch.py"]
