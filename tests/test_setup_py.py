@@ -58,6 +58,35 @@ def test_what_is_not_known_is_opaque(body: str, hidden: Facet, reason: str) -> N
 
 
 @pytest.mark.parametrize(
+    "template",
+    [
+        "{0.at.__func__.__globals__[ast].sys.modules[os].environ[SECRET]}",
+        "{text.at.__func__.__globals__[ast].sys.modules[os].environ[SECRET]}",
+        "{0:{0.at.__func__.__globals__[ast].sys.modules[os].environ[SECRET]}}",
+    ],
+)
+def test_a_format_does_not_read_the_environment_of_the_machine(monkeypatch: pytest.MonkeyPatch, template: str) -> None:
+    """Attributes of a value lead to the modules of the evaluator."""
+    monkeypatch.setenv("SECRET", ">12")
+    found = script(f"setup(name='pkg', data_files=[('share/pkg', ['x{template}'.format('a', text='a')])])")
+    assert any(Facet.SHARE in opaque.hides for opaque in found.opaque), found
+    assert not any(item.path.startswith("share") for item in found.installs)
+
+
+@pytest.mark.parametrize(
+    ("expression", "reason"),
+    [
+        ("'{0.upper}'.format('a')", "reads an attribute or element in a format"),
+        ("'{0[0]}'.format('a')", "reads an attribute or element in a format"),
+        ("'{:{}}'.format('x', 20000000)", "is too large"),
+    ],
+)
+def test_a_format_that_reads_parts_or_widths_is_unknown(expression: str, reason: str) -> None:
+    found = script(f"setup(name='pkg', data_files=[('share/pkg', [{expression}])])")
+    assert any(Facet.SHARE in opaque.hides and reason in opaque.reason for opaque in found.opaque), found.opaque
+
+
+@pytest.mark.parametrize(
     "body",
     [
         "x = 'aa'\nwhile True: x = x + x",

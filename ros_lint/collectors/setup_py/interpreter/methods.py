@@ -8,7 +8,8 @@ from ros_lint.collectors.python.methods import TEXT_METHODS
 from ros_lint.collectors.setup_py.interpreter.expressions import Expressions
 from ros_lint.collectors.setup_py.interpreter.operators import LONGEST, TooLargeError, check_format, check_size
 from ros_lint.collectors.setup_py.interpreter.sequences import in_order
-from ros_lint.collectors.setup_py.interpreter.values import REST, Native, Value, certain, located, unknown_in
+from ros_lint.collectors.setup_py.interpreter.state import at
+from ros_lint.collectors.setup_py.interpreter.values import REST, Native, Unknown, Value, certain, located, unknown_in
 
 _METHODS: dict[type, frozenset[str]] = {
     str: TEXT_METHODS | {"format", "join", "replace"},
@@ -46,11 +47,29 @@ def _text_method(
         raise TooLargeError
     if name == "format":
         check_format(owner)
+        if _reads_parts(owner):
+            return Unknown(f"{at(node)} reads an attribute or element in a format", node)
     if name in ("format", "replace"):
         check_size(owner, [*arguments, *keywords.values()])
     found = getattr(str, name)(owner, *arguments, **keywords)
     program.weigh(found)
     return located(found, node)
+
+
+def _reads_parts(template: str) -> bool:
+    """Return whether a field of a template of str.format() reads an attribute or element of a value.
+
+    Attributes of a value lead to the modules of the evaluator. Raises ValueError for a template that is no format, and
+    TooLargeError for a format specification that contains fields, because a value decides on the width.
+    """
+    import string  # noqa: PLC0415  (few setup.py files format like this)
+
+    for _, field, spec, _ in string.Formatter().parse(template):
+        if spec and "{" in spec:
+            raise TooLargeError
+        if field and ("." in field or "[" in field):
+            return True
+    return False
 
 
 def _container_method(
