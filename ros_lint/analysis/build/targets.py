@@ -29,7 +29,10 @@ def is_optional_target(package: Package, target: BuildTarget) -> bool:
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
-    """Return whether a built program is installed into bin or not at all, so that launch cannot find it."""
+    """Return whether a program is built by CMake, or installed into bin by Python.
+
+    Call this for programs that are not in lib/<package>, where launch looks: other rules report these programs.
+    """
     script = package.script
     if script is None:
         return False

@@ -98,7 +98,7 @@ def has_programs(world: World, name: str) -> bool:
 def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
     """Return whether a use of the dependency has to be visible in the sources.
 
-    This holds for interfaces, and for Python modules if the package has no Python code.
+    This holds for interfaces. It also holds for Python modules without executables if the package has no Python code.
     """
     world = workspace.world
     released = world.released(name)

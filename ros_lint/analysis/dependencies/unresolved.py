@@ -62,7 +62,7 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield a name once for each package that declares it, unless all of its conditions are unknown."""
+    """Yield a name once for each package with a tag for it that does not depend on an unknown condition."""
     for package in packages:
         tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)

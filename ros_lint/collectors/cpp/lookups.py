@@ -60,7 +60,7 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
 
 
 def _tried(text: str) -> list[range]:
-    """Return the try blocks whose handler catches that a package does not exist."""
+    """Return the try blocks whose handler catches PackageNotFoundError and does not give up."""
     result = []
     for catch in _CATCH.finditer(text):
         handler = text[catch.end() : _closing(text, catch.end())]

@@ -94,7 +94,7 @@ def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form:
 
 
 def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
-    """Yield warnings about arguments that are not used. Raises UsageError if they are certainly not."""
+    """Yield warnings about arguments that are not used. Raises UsageError if an error is almost certain."""
     takes = look_up.takes(file)
     declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
     known = {*takes.known, *declared, *look_up.used(file)}
