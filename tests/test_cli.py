@@ -1,5 +1,6 @@
 """The command line: exit codes, formats, settings, fixes, hooks."""
 
+import gc
 import json
 import os
 import re
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint import __version__
+from ros_lint.cli.main import main
 from ros_lint.cli.options import COMMANDS
 from ros_lint.reporters import FORMATS
 from tests.packages import manifest_text
@@ -364,3 +366,10 @@ def test_what_a_fix_brings_to_light_is_mended_along_with_it(tmp_path: Path) -> N
     assert "install(DIRECTORY launch " in (package / "CMakeLists.txt").read_text()
     assert "<exec_depend>joy</exec_depend>" in (package / "package.xml").read_text()
     assert "nothing to fix" in run(tmp_path, *arguments).stderr
+
+
+def test_a_caller_of_main_keeps_the_garbage_collector(capsys: pytest.CaptureFixture[str]) -> None:
+    assert gc.isenabled()
+    assert main(["rules"]) == 0
+    assert capsys.readouterr().out
+    assert gc.isenabled()

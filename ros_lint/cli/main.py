@@ -6,6 +6,7 @@ Exit codes: 0 no findings, 1 findings, 2 the run failed. Each command imports it
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from typing import TYPE_CHECKING
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 def run() -> NoReturn:
     """Run the command of this process and exit."""
+    gc.disable()  # a run builds one model and exits: garbage collection would take a seventh of the time
     prepare()
     try:
         code = _flushed(main())
@@ -61,11 +63,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         print(f"ros-lint {__version__}")
         return 0
-    import gc  # noqa: PLC0415
 
     from ros_lint.cli.arguments import parse  # noqa: PLC0415
-
-    gc.disable()  # a run builds one model and exits: garbage collection would take a seventh of the time
 
     try:
         command, options = parse(arguments)
