@@ -1,6 +1,6 @@
 """Read the lines of a .msg, .srv or .action file as rosidl_adapter does, and say where it stops.
 
-The rules are those of rosidl_adapter/parser.py, which are the same from Humble to Rolling (reference, section C4.5).
+The rules are those of rosidl_adapter/parser.py, which are the same from Humble to Rolling.
 """
 
 from __future__ import annotations
