@@ -51,8 +51,9 @@ class LaunchAction(NamedTuple):
     kind: str
     """Kind of the action.
 
-    One of ``argument``, ``set``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
-    ``remap``, ``parameter``, ``environment``, ``later`` (actions of a timer or an event handler) or ``other``.
+    One of ``argument``, ``set``, ``unset``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
+    ``remap``, ``parameter``, ``environment``, ``unset_environment``, ``reset`` (of all launch configurations, except those
+    in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler) or ``other``.
     """
     span: Span
     package: LaunchValue | None = None

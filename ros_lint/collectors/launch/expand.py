@@ -218,6 +218,20 @@ class _Run:
             case "set":
                 for name in self._texts(action.target, scope):
                     self._set(scope, name, self._texts(action.value, scope), scope.certain)
+            case "unset":
+                for name in self._texts(action.target, scope):
+                    if scope.certain:
+                        scope.values.pop(name, None)
+                    elif name in scope.values:
+                        self._set(scope, name, (UNKNOWN,), certain=False)
+            case "unset_environment":
+                names = self._texts(action.target, scope)
+                pairs = tuple((name, () if scope.certain else (UNKNOWN,)) for name in names)
+                return outer._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
+            case "reset":
+                return outer.after(self._reset(action, scope))
+            case "reset_environment":
+                return outer._replace(environment=tuple((name, (UNKNOWN,)) for name, _ in scope.environment if not scope.certain))
             case "namespace" | "parameter" | "remap" | "environment":
                 return outer.after(self._pushed(action, scope))
             case "group":
@@ -259,6 +273,20 @@ class _Run:
             scope.values[name] = texts
         else:
             scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
+
+    def _reset(self, action: LaunchAction, scope: Scope) -> Scope:
+        """Clear the launch configurations, and return the scope after it.
+
+        Namespaces, parameters and remappings that hold for later nodes are launch configurations of launch_ros.
+        """
+        kept = {name: self._texts(value, scope) for name, value in action.arguments}
+        if scope.certain:
+            scope.values.clear()
+            scope.values.update(kept)
+            return scope._replace(namespace=("",), parameters=(), remappings=())
+        for name in scope.values:
+            self._set(scope, name, kept.get(name, (UNKNOWN,)), certain=False)
+        return scope._replace(namespace=(*scope.namespace, ""))
 
     def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
         """Return a scope with the setting that an action makes for all later actions."""
@@ -355,7 +383,7 @@ class _Run:
             self._depth,
             scope.container if action.kind == "component" else (),
             (
-                *(scope.environment if action.kind in ("node", "process") else ()),
+                *(pair for pair in scope.environment if pair[1] and action.kind in ("node", "process")),
                 *((name[1:], texts) for name, texts in named if name.startswith("$")),
             ),
             unknown=tuple(self._filling.unknown),

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ros_lint.base.text import Span
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.launch.expressions import means_true
+from ros_lint.collectors.launch.groups import group
 from ros_lint.collectors.launch.python import events as launch_py_events
 from ros_lint.collectors.launch.python import nodes as launch_py_nodes
 from ros_lint.collectors.launch.python.nodes import nested, started_node
@@ -19,7 +20,7 @@ from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.protocol import Interpreter
 from ros_lint.collectors.python.interpreter.values import Conditions, LaunchObject, Source, Value, alternatives, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 _MOST_TEXTS = 2_000
 
@@ -150,17 +151,36 @@ def _one_value(kind: str, *names: str) -> Rule:
 
 def _group(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     children = walker.actions(made.get(0, "actions"), (), place_of(made))
+    configurations = tuple(_configurations(walker, made, -1))
     scoped = plain(made.get(-1, "scoped")) is not False
-    passed = tuple(_group_configurations(walker, made))
-    name = None if scoped else LaunchValue((UNSCOPED,), place_of(made))
-    return [LaunchAction("group", place_of(made), name=name, arguments=passed, conditions=conditions, children=tuple(children))]
+    forwarding = plain(made.get(-1, "forwarding")) is not False
+    return [group(place_of(made), children, configurations, conditions, scoped=scoped, forwarding=forwarding)]
 
 
-def _group_configurations(walker: Walker, made: LaunchObject) -> Iterator[tuple[str, LaunchValue]]:
-    given = plain(made.get(-1, "launch_configurations"))
-    if isinstance(given, dict):
-        for name, value in given.items():
-            yield str(name), walker.text(value, made.written(-1, "launch_configurations"), made.source)
+def _configurations(walker: Walker, made: LaunchObject, position: int) -> Iterator[tuple[str, LaunchValue]]:
+    configurations = plain(made.get(position, "launch_configurations"))
+    if isinstance(configurations, dict):
+        for name, value in configurations.items():
+            yield str(name), walker.text(value, made.written(position, "launch_configurations"), made.source)
+
+
+def _reset(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    kept = tuple(_configurations(walker, made, 0))
+    return [LaunchAction("reset", place_of(made), arguments=kept, conditions=conditions)]
+
+
+def _unset(kind: str) -> Rule:
+    def rule(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        return [LaunchAction(kind, place_of(made), target=walker.value(made, 0, "name"), conditions=conditions)]
+
+    return rule
+
+
+def _bare(kind: str) -> Rule:
+    def rule(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+        return [LaunchAction(kind, place_of(made), conditions=conditions)]
+
+    return rule
 
 
 def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
@@ -232,8 +252,10 @@ _RULES: Mapping[str, Rule] = {
     "LogInfo": _silent,
     "Shutdown": _silent,
     "EmitEvent": _silent,
-    "UnsetEnvironmentVariable": _silent,
-    "UnsetLaunchConfiguration": _silent,
+    "UnsetEnvironmentVariable": _unset("unset_environment"),
+    "UnsetLaunchConfiguration": _unset("unset"),
+    "ResetEnvironment": _bare("reset_environment"),
+    "ResetLaunchConfigurations": _reset,
     "SetUseSimTime": _silent,
     "ReadyToTest": _silent,
 }
