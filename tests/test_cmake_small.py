@@ -561,7 +561,7 @@ find_package(pkg REQUIRED)
 def test_what_code_for_others_finds() -> None:
     """A condition that only asks whether something is there already is none; macros ask when they are called."""
     script = run("ament_package(CONFIG_EXTRAS cmake/x.cmake)\n", {"cmake/x.cmake": EXTRAS})
-    found = {mention.name: (certain, mention.optional) for mention, certain in script.exported_packages}
+    found = {mention.name: (certain, mention.optional) for mention, certain in script.exports.packages}
     assert found == {
         "a": (True, False),
         "b": (True, False),

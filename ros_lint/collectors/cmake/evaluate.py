@@ -34,7 +34,16 @@ from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, Bud
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import Command, is_template
-from ros_lint.facts.build import BuildScript, Exported, InstalledFile
+from ros_lint.facts.build import (
+    BuildExports,
+    BuildProducts,
+    BuildProject,
+    BuildScript,
+    CMakeBuild,
+    CMakeCommands,
+    ExportedTarget,
+    InstalledFile,
+)
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque, Problem
 
@@ -109,42 +118,38 @@ def _result(run: Run, path: str) -> BuildScript:
     calls = tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")]))
     return BuildScript(
         path,
-        run.name,
-        run.name_span,
-        run.version,
-        run.version_span,
+        BuildProject(run.name, run.name_span, run.version, run.version_span),
         _mentions(run, taken),
-        cmake_targets.targets(run),
-        tuple(provides),
-        tuple(run.components),
-        (),
-        tuple(sorted(run.python_packages)),
-        tuple(sorted(run.interfaces)),
-        calls,
-        tuple(opaques),
-        tuple(problems),
-        run.end,
-        tuple(run.extras),
-        insertion_after=run.behind,
-        makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
-        subdirectories=tuple(run.entered),
-        test_subdirectories=tuple([folder for folder in run.entered_for_tests if folder]),
-        exported_packages=tuple(_handed_on(run)),
-        unused_optional_finds=tuple(_untaken(run, taken)),
-        bundled_projects=tuple(run.bundled),
-        includes_outside_package=run.reaches_out,
-        cmake_errors=tuple(_refused(run)),
-        interpreted_tests=_runs(run),
-        runs_tests=any(map(_RUNS_TESTS.search, calls)),
-        exported=tuple(_exported(run)),
-        commented_interfaces=tuple([name for parsed in run.sources.scripts.values() for name in parsed.set_aside]),
+        BuildProducts(
+            targets=cmake_targets.targets(run),
+            installs=tuple(provides),
+            components=tuple(run.components),
+            python_packages=tuple(sorted(run.python_packages)),
+            interfaces=tuple(sorted(run.interfaces)),
+        ),
+        exports=BuildExports(tuple(run.extras), tuple(_handed_on(run)), tuple(_exported(run))),
+        commands=CMakeCommands(calls, insertion=run.end, insertion_after=run.behind),
+        cmake=CMakeBuild(
+            subdirectories=tuple(run.entered),
+            test_subdirectories=tuple([folder for folder in run.entered_for_tests if folder]),
+            bundled_projects=tuple(run.bundled),
+            unused_optional_finds=tuple(_untaken(run, taken)),
+            commented_interfaces=tuple([name for parsed in run.sources.scripts.values() for name in parsed.set_aside]),
+            errors=tuple(_refused(run)),
+            interpreted_tests=_runs(run),
+            runs_tests=any(map(_RUNS_TESTS.search, calls)),
+            includes_outside_package=run.reaches_out,
+            makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
+        ),
+        opaque=tuple(opaques),
+        problems=tuple(problems),
     )
 
 
-def _exported(run: Run) -> Iterator[Exported]:
+def _exported(run: Run) -> Iterator[ExportedTarget]:
     for made in run.installed_targets:
         if made.exported_in and is_known(made.exported_in):
-            yield Exported(made.target, made.exported_in, not made.conditional and made.exported_in in run.exported_sets)
+            yield ExportedTarget(made.target, made.exported_in, not made.conditional and made.exported_in in run.exported_sets)
 
 
 _MAKES_NOTHING: Final = frozenset(

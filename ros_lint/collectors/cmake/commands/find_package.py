@@ -97,7 +97,7 @@ def found(run: Run, name: str, *, required: bool) -> None:
     if name in run.included:
         return
     run.put(run.included, name, "1")
-    for source in helper.script.config_extras:
+    for source in helper.script.exports.config_extras:
         if source in helper.sources.scripts:
             include_foreign(run, name, source)
         else:

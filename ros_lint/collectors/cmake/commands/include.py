@@ -88,7 +88,7 @@ def _include_foreign(run: Run, name: str) -> int | None:
     package, _, installed = name[len(FOREIGN) :].partition("/")
     helper = run.helpers.get(package)
     if helper is not None:
-        source = next((file.source for file in helper.script.installs if file.path == installed), None)
+        source = next((file.source for file in helper.script.products.installs if file.path == installed), None)
         if source is not None and source in helper.sources.scripts:
             return include_foreign(run, package, source)
     return _skip(run, f"{installed} of {package}")
@@ -118,11 +118,11 @@ def include_foreign(run: Run, package: str, source: str) -> int | None:
     """Run a script of another package of the workspace in the current scope."""
     helper = run.helpers[package]
     installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
-    installed = next((file.path for file in helper.script.installs if file.source == source), installed)
+    installed = next((file.path for file in helper.script.products.installs if file.source == source), installed)
     frame = Frame(False, join_path(helper.sources.path, source), f"{FOREIGN}{package}/{installed}", provider=package)
     commands = helper.sources.scripts[source].commands
     if source.endswith(".in"):
-        commands = tuple([_configured(command, helper.script.name or package) for command in commands])
+        commands = tuple([_configured(command, helper.script.project.name or package) for command in commands])
     return run_file(run, commands, frame)
 
 
