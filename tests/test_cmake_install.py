@@ -171,9 +171,9 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
 
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
     executables = frozenset(path for path, executable in FILES.items() if executable)
-    around = Surroundings(DiskTree(str(tmp_path / "tree"))).of("p")
+    outside = Surroundings(DiskTree(str(tmp_path / "tree"))).of("p")
     own = sorted(path for path in FILES if not path.startswith("../"))
-    result = evaluate(Sources("p", "p", own, parsed, executables, around=around))
+    result = evaluate(Sources("p", "p", own, parsed, executables, outside=outside))
     found = {provided.path: provided.program for provided in result.products.installs}
     assert not result.opaque
     assert not any(provided.conditional for provided in result.products.installs)

@@ -31,13 +31,13 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     """Return the evaluated script of each package in the given order, None if it has no script."""
     result: list[BuildScript | None] = [None] * len(packages)
     helpers: dict[str, Helper] = {}
-    around = Surroundings(tree)
+    surroundings = Surroundings(tree)
     in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
     for number in in_order:
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, around))
+                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, surroundings))
             elif script := _python(tree, parts.found):
                 result[number] = with_files(tree, parts.found, parts.commands, script)
         except Exception as error:  # a bug in ros-lint for one script must not cost the user the others
@@ -45,12 +45,12 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     return result
 
 
-def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], around: Surroundings) -> BuildScript:
+def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], surroundings: Surroundings) -> BuildScript:
     from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
     from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
 
-    seen = sources(tree, parts, around)
+    seen = sources(tree, parts, surroundings)
     script = cmake.evaluate(seen, distro, helpers)
     if script.exports.config_extras and parts.found.name not in opaque_packages():
         helpers[parts.found.name] = Helper(seen, script)
