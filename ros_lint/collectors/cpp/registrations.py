@@ -47,7 +47,7 @@ def wrapped(source: Text) -> tuple[Opaque, ...]:
     """Return where a C++ file defines a macro that registers components: its calls determine which ones.
 
     Plugins are searched by the names in their descriptions, see
-    :func:`ros_lint.workspace.usage.textual_mentions.unwritten`.
+    :func:`ros_lint.workspace.usage.textual_mentions.find_unwritten_classes`.
     """
     text = source.text
     if "define" not in text or _OF_COMPONENTS not in text:
