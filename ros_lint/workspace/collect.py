@@ -88,9 +88,9 @@ def collect(text: Text, kind: Kind) -> Collected:
 
         facts = python.collect(text, launch=launch is not None)
         if launch is not None and "moveit_controller_manager" in text.text:
-            from ros_lint.collectors.resources.collect import loaded  # noqa: PLC0415
+            from ros_lint.collectors.resources.collect import controller_managers  # noqa: PLC0415
 
-            facts = facts._replace(mentions=(*facts.mentions, *loaded(text)))
+            facts = facts._replace(mentions=(*facts.mentions, *controller_managers(text)))
     elif kind == "cmake":
         from ros_lint.collectors.cmake import syntax as cmake_syntax  # noqa: PLC0415
 

@@ -59,7 +59,7 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _ASKED = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
 
 
-def asks(text: str) -> tuple[str, ...]:
+def configurations_read(text: str) -> tuple[str, ...]:
     """Return the launch configurations that a text reads, sorted, with UNKNOWN for computed names."""
     if "$(var" not in text:
         return ()

@@ -39,7 +39,7 @@ def collect(source: Text) -> LaunchFile:
         problem = Problem("root", "the file must be a mapping with the one key launch", start)
         return LaunchFile(source.path, "yaml", problems=(problem,))
     facts = launch_markup.read(source, root)
-    asks = launch_markup.asks(source.text)
+    configurations_read = launch_markup.configurations_read(source.text)
     return LaunchFile(
         source.path,
         "yaml",
@@ -47,7 +47,7 @@ def collect(source: Text) -> LaunchFile:
         facts.opaque,
         facts.problems,
         actions=facts.actions,
-        configurations_read=asks,
+        configurations_read=configurations_read,
         version_problems=facts.newer,
     )
 
