@@ -2,12 +2,12 @@
 
 The value of a launch configuration, the install place of a package and the output of a command are known only when
 the launch file runs. Characters of the private use area represent them, so that such texts can be joined, split and
-formatted like any others, and filled in later:
+formatted like other texts, and the marks can be replaced later:
 
 - ``UNKNOWN`` for any text at all;
 - ``OWN_FOLDER`` for the folder of the launch file;
 - an absolute path that no file system has, for the install prefix of a package;
-- marks around the name of a launch configuration, a Python expression, a command.
+- marks around the name of a launch configuration, a Python expression or a command.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class Installed(NamedTuple):
 
     @property
     def known(self) -> bool:
-        """Return whether the package is known."""
+        """True if the name of the package is known."""
         return bool(self.package) and is_plain(self.package)
 
     @property
@@ -148,17 +148,17 @@ def command(text: str) -> str:
 
 
 def presence(package: str) -> str:
-    """Return the symbolic truth of a package being installed."""
+    """Return the symbolic truth of "the package is installed"."""
     return f"{_PRESENT}{package}"
 
 
 def package_of_presence(text: str) -> str:
-    """Return the package whose presence a text represents, or ""."""
+    """Return the package if a text is the symbolic truth of :func:`presence`, "" otherwise."""
     return text[1:] if text.startswith(_PRESENT) else ""
 
 
 def certain_part(text: str) -> str:
-    """Return the characters of a text that are certain, whatever the value of the rest is."""
+    """Return a text without its unknown parts."""
     while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
         text = text[: match.start()] + text[match.end() :]
     return _ANY_MARK.sub("", text)
@@ -234,9 +234,9 @@ def _readable_root(match: re.Match[str]) -> str:
 
 
 def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
-    """Return whether a text may contain an install place, or a command of xacro.
+    """Return whether the value of a text may contain an install place, or a command of xacro.
 
-    ``carriers`` are the launch configurations whose values may.
+    ``configurations`` are the launch configurations whose values may contain one.
     """
     if _ROOT in text or "xacro" in text:
         return True
@@ -317,7 +317,10 @@ def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
 
 
 def distinct(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return each text once for each set of its conditions; unconditionally if that is too many."""
+    """Return the distinct pairs of text and conditions.
+
+    If there are more than ``MOST``, the conditions of texts that occur repeatedly are dropped.
+    """
     by_conditions = {(text, conditions_of(text)): text for text in texts}
     if len(by_conditions) <= MOST:
         return tuple(
@@ -330,7 +333,10 @@ def distinct(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
-    """Return the results of a function for every consistent choice of one alternative from each row."""
+    """Return the results of a function for every consistent choice of one alternative from each row.
+
+    ``(UNKNOWN,)`` if there are too many results.
+    """
     rows = tuple(rows)
     if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
         choice = tuple([row[0] for row in rows])
@@ -349,7 +355,7 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
     """Return the alternatives of a text if launch configurations have values.
 
     ``values`` returns the alternatives of a configuration, None if it is not set; ``evaluate`` the value of a fully
-    known expression, UNKNOWN if it has none.
+    known expression, or UNKNOWN.
     """
     filled = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
     if len(filled) == 1:
@@ -358,7 +364,7 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
 
 
 class _Filling:
-    """Replaces configurations in a text by values. A limit applies, as values can double at each step."""
+    """Replaces configurations in a text by values, up to a limit, because each step can double the text."""
 
     __slots__ = ("_remaining", "_values")
 
@@ -389,7 +395,7 @@ class _Filling:
         values = None if not mark else self._values(name)
         if values is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in values:
             return (default,)  # the argument has this default, whichever alternative applies
-        # A default that uses its own argument is evaluated before that argument has a value.
+        # A default that reads its own argument is evaluated before the argument has a value.
         values = None if name in busy or len(busy) > _MAX_DEPTH else self._values(name)
         if values is None:
             return (default,) if mark else (UNKNOWN,)

@@ -10,12 +10,12 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition
 
 
 class DefaultConfigurations(NamedTuple):
-    """The launch configurations of one file by name."""
+    """The values of the launch configurations of one file."""
 
     values: Mapping[str, tuple[str, ...]]
     """The alternative values of each configuration, by its name."""
     own: frozenset[str]
-    """Configurations whose values the file determines itself.
+    """Names of the configurations whose values the file determines itself.
 
     A caller can only change which alternative applies.
     """
@@ -28,8 +28,8 @@ class DefaultConfigurations(NamedTuple):
 def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurations:
     """Return the values that the arguments and assignments of a file give to its configurations.
 
-    A value that is set under a condition is one of several alternatives. The default is no alternative if another
-    value is set under the opposite condition.
+    A value that is set under a condition is one of several alternatives. The default is not an
+    alternative if values are set under a condition and under its opposite.
     """
     values: dict[str, tuple[str, ...]] = {}
     settable: set[str] = set()
@@ -66,7 +66,7 @@ _UNKNOWN_CONDITION = LaunchCondition((UNKNOWN,), None)
 
 
 def _is_exhaustive(condition_sets: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Return whether one of the single conditions is the opposite of another, so that one holds."""
+    """Return whether a single condition and its opposite are both in the list, so that one of them holds."""
     single = {conditions[0] for conditions in condition_sets if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
 

@@ -121,11 +121,11 @@ def expand(
     *,
     brief: bool = False,
 ) -> Expansion:
-    """Return what a launch file starts with the arguments ``given``.
+    """Return what a launch file starts with the arguments ``passed``.
 
     ``files`` returns an included file by its path, which may begin with the mark of an install prefix. The path of
     ``file`` itself contains its location, too. ``brief`` omits parameters (except parameter files), remappings and
-    the arguments of included files, because they are most of the work.
+    the arguments of included files, which take most of the time.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in passed.items()})

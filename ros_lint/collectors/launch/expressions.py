@@ -28,7 +28,7 @@ class _Unknown(Exception):  # noqa: N818
 
 @lru_cache(maxsize=1_024)
 def evaluate(text: str) -> str:
-    """Return str() of the value of an expression, UNKNOWN if it has none or needs more than constants."""
+    """Return str() of the value of a constant expression, UNKNOWN for any other text."""
     if len(text) > _MAX_LENGTH:
         return UNKNOWN
     try:
@@ -55,7 +55,7 @@ _RESOLVED_NAMES = BUILTINS | MATH | {"math"}
 
 
 def means_true(text: str) -> bool | None:
-    """Return the truth of a condition, None if it has none (``evaluate_condition_expression``)."""
+    """Return the truth of a condition, None if launch rejects it (``evaluate_condition_expression``)."""
     word = text.strip().lower()
     if word in ("true", "1"):
         return True
@@ -136,7 +136,7 @@ def _truth(text: Any) -> bool:
 
 
 def _equals(left: Any, right: Any) -> bool:
-    """Return whether EqualsSubstitution takes two values for equal: booleans and numbers by their value."""
+    """Return whether EqualsSubstitution considers two values equal; "true" equals "1"."""
     left_truth, right_truth = means_true(str(left)), means_true(str(right))
     return left_truth == right_truth if left_truth is not None and right_truth is not None else str(left) == str(right)
 
@@ -167,7 +167,7 @@ def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
 
 
 def _small(value: Any) -> Any:
-    """Return the value. Raises _Unknown if it is too large."""
+    """Return the value unchanged. Raises _Unknown if it is too large."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
     if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MAX_SIZE:

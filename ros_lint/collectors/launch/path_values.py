@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 FilePart = Callable[[str], str]
-"""A function that returns the part of a text that names a file which is read."""
+"""Returns the part of a text that names a file to read, "" if there is none."""
 _DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
 """The option of rviz2 for its display configuration file."""
 
@@ -23,7 +23,7 @@ def _display_file(text: str) -> str:
 
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | None]]:
-    """Return the values of an action, except its target, that can contain a path, each with its ``Reads``."""
+    """Return the values of an action, except its target, that can contain a path, each with its ``FilePart``."""
     values: list[tuple[LaunchValue, FilePart | None]] = []
     if action.value is not None:
         values.append((action.value, None))

@@ -10,15 +10,15 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions test if something is installed: the actions under them are optional."""
+    """Return whether conditions check if something is installed, so that actions under them are optional."""
     return any(condition.wanted and package_of_presence(text) for condition in conditions for text in condition.texts)
 
 
 DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
 """The maintained distributions.
 
-Conditions on older ones are ignored. A test compares the list with the distributions of the package index: it is
-constant here, because facts of a file must not depend on data that the user may have updated.
+Conditions on older ones are ignored. The list is constant, because the facts of a file must not depend on data that
+the user can update. A test compares it with the package index.
 """
 _ROS_DISTRO = "$ROS_DISTRO"
 

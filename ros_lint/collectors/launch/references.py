@@ -35,7 +35,7 @@ _COMMANDS: Mapping[tuple[str, ...], str] = {
     ("ros2", "control"): "ros2controlcli",
     ("ros2", "trace"): "ros2trace",
 }
-"""The packages that provide the ros2 commands which ros2cli_common_extensions does not include."""
+"""The packages of the ros2 commands that are not in ros2cli_common_extensions."""
 
 
 _PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmux", "valgrind", "xterm"})
@@ -43,10 +43,10 @@ _PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmu
 
 
 class References:
-    """The references of the actions of a launch file in the order of the file, and the opaque places."""
+    """The references, opaque places and problems in the actions of a launch file, in the order of the file."""
 
     def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
-        """Read actions. ``places`` are the package look-ups, by package or by the text that computes it."""
+        """Collect the references of actions; ``places`` are the look-ups of packages, by (symbolic) package name."""
         self.references: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
@@ -75,7 +75,10 @@ class References:
 
     @contextmanager
     def _under(self, conditions: Sequence[LaunchCondition], *, builtin_model: bool = False) -> Iterator[bool]:
-        """Apply conditions, or mark actions of a model, for a block. Yields whether any distribution remains."""
+        """Apply conditions in a block. Yields whether they can hold in any distribution.
+
+        ``builtin_model`` marks references that a model of a released helper makes.
+        """
         previous = self._presence_checked, self._distros, self._narrowed, self._filled_texts, self._builtin_model
         self._builtin_model = builtin_model
         self._presence_checked = self._presence_checked or is_guarded_by_presence(conditions)
@@ -151,10 +154,10 @@ class References:
                 else:
                     self._add("package", place.package, "", package, package, conditional, default, is_computed)
             if not places and not is_settled(text):
-                self.hide("which launch file is included is computed", target.span)
+                self.hide("the included launch file is computed", target.span)
 
     def _note_process(self, action: LaunchAction, conditional: bool) -> None:
-        """Note the packages of ``ros2 run``, ``ros2 launch`` and of the other commands in ``_COMMANDS``."""
+        """Note the packages that a command line uses: ``ros2 run``, ``ros2 launch``, xacro, and ``_COMMANDS``."""
         words: list[tuple[str, LaunchValue, bool]] = []
         for name, value in action.arguments:
             if not name:
@@ -169,7 +172,7 @@ class References:
             return
         parameters = [argument for argument in words[2:] if not argument[0].startswith("-")][:2]
         if not parameters or not is_plain(parameters[0][0]):
-            self.hide(f"what ros2 {words[1][0]} starts is computed", action.span)
+            self.hide(f"the target of 'ros2 {words[1][0]}' is computed", action.span)
             return
         package, value, default = parameters[0]
         if words[1][0] == "run" and len(parameters) == 2 and is_plain(parameters[1][0]):
@@ -188,7 +191,7 @@ class References:
     ) -> None:
         """Note the install places that a value contains."""
         texts, default = self._filled(value)
-        # A literal place stays the same whatever the defaults are: a command has more words than the file.
+        # A literal place in a command does not depend on defaults in other words of the command.
         fixed = {place for text in value.texts for place in installed(text) if place.share is not None} if default else set()
         for text in texts:
             if text.isascii() and not runs_xacro(text):
@@ -244,7 +247,7 @@ class References:
         return package_span if package_span is not None and is_inside else value.span
 
     def _is_computed(self, package: str, value: LaunchValue) -> bool:
-        """Return whether a package name is assembled from configurations and occurs in no text as a whole."""
+        """Return whether a package name is composed of configurations, so that no text contains it as a whole."""
         prefix = f"{symbolic_text.prefix(package)}/"
         texts = [value.texts, *self._defaults.values.values()]
         return not any(prefix in f"{text}/" for alternatives in texts for text in alternatives)
@@ -254,7 +257,7 @@ class References:
         self._add("command", command, command, place, place, conditional, by_default=False)
 
     def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
-        """Return the values of ``value`` with defaults of launch arguments, and whether it needed them."""
+        """Return the texts of a value under default arguments, and whether they depend on the defaults."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
         by_default = not all(map(self._defaults.is_own, value.texts))
@@ -336,7 +339,7 @@ class References:
         self.references[reference] = None
 
     def mark_optional(self, packages: Container[str]) -> None:
-        """Mark look-ups of packages as optional, unless a node is started from the package."""
+        """Mark references to packages as optional, unless a node is started from the package."""
         self.references = {
             reference._replace(optional=True)
             if reference.package in packages and reference.package not in self._named
@@ -345,7 +348,7 @@ class References:
         }
 
     def mark_guarded(self, paths: Iterable[str]) -> None:
-        """Mark references to files whose existence the launch file checks first."""
+        """Mark references to the files among ``paths``, whose existence the launch file checks first."""
         checked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
         if checked:
             self.references = {
@@ -367,12 +370,12 @@ class References:
         return tuple(sorted(references, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
-        """Note that an unknown value hides which packages are used."""
+        """Note a place where an unknown value hides which packages are used."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
 
 
 def _has_no_place(texts: Iterable[str], configurations: Container[str]) -> bool:
-    """Return whether texts name neither an install place nor xacro, directly or by a configuration."""
+    """Return whether no text contains an install place or xacro, directly or through a configuration."""
     for text in texts:
         if text.isascii():
             if runs_xacro(text):

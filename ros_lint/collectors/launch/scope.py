@@ -95,13 +95,13 @@ class Filling:
             value = self._value(name, scope)
             if name.startswith("$"):
                 if value is None and not has_default:
-                    yield f"the environment variable {name[1:]} is not known here"
+                    yield f"the environment variable '{name[1:]}' is not known"
             elif value == (UNKNOWN,):
-                yield f"the argument {name} is not known"
+                yield f"the argument '{name}' is not known"
             elif value is None and not has_default:
-                yield f"nothing sets the launch configuration {name}"
+                yield f"the launch configuration '{name}' is not set"
         if UNKNOWN in text:
-            yield "it is computed in a way that cannot be followed"
+            yield "it is computed in a way that ros-lint cannot follow"
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
         """Return whether all conditions hold (None if unknown), and the unknown conditions."""

@@ -1,4 +1,4 @@
-"""Readers of the tags of XML and YAML launch files that start no program."""
+"""Readers of the tags of XML and YAML launch files, except for nodes and processes."""
 
 from __future__ import annotations
 

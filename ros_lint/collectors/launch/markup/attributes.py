@@ -20,11 +20,11 @@ from ros_lint.collectors.symbolic_text import joined
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
 from ros_lint.facts.visibility import Problem
 
-_make = tuple.__new__  # half of what the constructor takes
+_make = tuple.__new__  # half the time of the constructor
 
 
 class Reader:
-    """Reads entities by the function for their tag, and notes the errors of the front end."""
+    """Reads entities by the reader of their tag, and notes the errors of the front end."""
 
     def __init__(self, source: Text, readers: Mapping[str, TagReader]) -> None:
         self._source = source
@@ -55,7 +55,7 @@ class Reader:
         reader = self._readers.get(entity.tag)
         if reader is None:
             if entity.tag in EXTENSIONS:
-                return []  # the package that defines the tag also defines its attributes
+                return []  # its attributes are defined by another package
             raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span, ROS_1.get(f"<{entity.tag}>", ""))
         if entity.tag in _NEWER_TAGS:
             self.note_newer(f"<{entity.tag}>", entity.span)
@@ -234,7 +234,7 @@ def _as_yaml(row: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4_096)
 def read_value(value: str) -> tuple[str, ...] | Mistake:
-    """Return the alternatives of a value, or its error. Cached, because most values occur repeatedly."""
+    """Return the alternative texts of a value, or its error. Cached, because values occur repeatedly."""
     simple = simple_text(value)
     if simple is not None:
         return (simple,)
@@ -274,7 +274,7 @@ _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 
 def _argument_error(piece: Substitution) -> tuple[str, str] | None:
-    """Return kind and message of a wrong number of arguments of a substitution, None if it is right."""
+    """Return kind and message of the error in the arguments of a substitution, None if they are valid."""
     limits = SUBSTITUTIONS.get(piece.name)
     if limits is None:
         return "unknown-substitution", f"there is no substitution $({piece.name})"
@@ -289,7 +289,7 @@ def _argument_error(piece: Substitution) -> tuple[str, str] | None:
         and len(piece.arguments) == 2
         and any(isinstance(part, Substitution) for part in piece.arguments[1][:1])
     ):
-        return "substitution-arguments", "the modules of $(eval) must be written out"
+        return "substitution-arguments", "the modules of $(eval) must be literal"
     return None
 
 

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
 """The requested type of an attribute; ``any`` is the type that YAML gives to the text."""
 
-_make = tuple.__new__  # half of what the constructor takes
+_make = tuple.__new__  # half the time of the constructor
 
 _SCALARS: Mapping[str, type] = {"str": str, "int": int, "float": float, "bool": bool}
 _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools": bool}
 
 
 class Rejected(Exception):  # noqa: N818
-    """The real front end rejects the file here, see :class:`Problem`."""
+    """The launch front end rejects the file; ``problem`` is the error."""
 
     def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
         super().__init__(message)
@@ -70,7 +70,7 @@ class Entity:
         spots: dict[str, tuple[int, int]] | None,
         simple: bool,
     ) -> None:
-        """Create an entity. ``spots`` are the offsets of the attribute values, None to compute them lazily."""
+        """Create an entity. ``spots`` are the offsets of the attribute values, None to find them on demand."""
         self._source = source
         self.tag = tag
         self.attributes = attributes
@@ -156,7 +156,7 @@ class Entity:
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
         if name not in attributes:
             if self.form == "mapping" and any(child.tag == name for child in self.children):
-                raise Rejected("wrong-type", f"{name} of <{self.tag}> is a list", self.span)
+                raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is a list", self.span)
             return None
         self.read.add(name)
         if not _is_instance(attributes[name], kind):
@@ -242,10 +242,10 @@ CHILDREN: Final = "\0children"
 
 
 def _single_entity(item: Entity) -> Entity:
-    """Return the entity of a list item, which has exactly one key."""
+    """Return the entity of a list item. Raises Rejected if the item does not have exactly one key."""
     if item.tag != CHILDREN:
         return item
-    raise Rejected("wrong-type", "each item must have one key, the tag", item.span)
+    raise Rejected("wrong-type", "each list item must have exactly one key, the tag", item.span)
 
 
 _NAMES: Mapping[Type, str] = {

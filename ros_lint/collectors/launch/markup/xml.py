@@ -19,7 +19,7 @@ def collect(source: Text) -> LaunchFile:
         return LaunchFile(
             source.path,
             "xml",
-            opaque=(Opaque(Facet.USES, "the file is no XML that can be read", span),),
+            opaque=(Opaque(Facet.USES, "the file is not valid XML", span),),
             problems=(Problem("syntax", error.message, span),),
         )
     facts = launch_markup.read(source, root)

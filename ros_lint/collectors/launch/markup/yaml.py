@@ -30,13 +30,13 @@ def collect(source: Text) -> LaunchFile:
         return LaunchFile(
             source.path,
             "yaml",
-            opaque=(Opaque(Facet.USES, "the file is no YAML that can be read", span),),
+            opaque=(Opaque(Facet.USES, "the file is not valid YAML", span),),
             problems=(Problem("syntax", f"not valid YAML: {error.message}", span),),
         )
     root = _Reader(source).root(node)
     if root is None:
         start = source.span(0, 0)
-        problem = Problem("root", "the file must be a mapping with the one key launch", start)
+        problem = Problem("root", "the file must be a mapping with 'launch' as its only key", start)
         return LaunchFile(source.path, "yaml", problems=(problem,))
     facts = launch_markup.read(source, root)
     configurations_read = launch_markup.configurations_read(source.text)

@@ -55,7 +55,7 @@ def _include(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 
 
 def _with_arguments(include: LaunchAction, arguments: Sequence[_PassedArgument]) -> LaunchAction:
-    """Return an include with its arguments. Those of a branch that excludes the include are omitted."""
+    """Return an include with its arguments, except for those of branches that exclude the include."""
     consistent = [argument for argument in arguments if symbolic_text.are_consistent((*include.conditions, *argument.conditions))]
     return include._replace(
         arguments=tuple([(argument.name, argument.value) for argument in consistent]),
@@ -74,7 +74,7 @@ class _PassedArgument(NamedTuple):
     conditions: Conditions
     """The conditions under which it is passed; () if there are several alternatives."""
     uncertain: bool
-    """True if it is unknown whether the argument is passed."""
+    """True if the argument may not be passed."""
 
 
 def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: LaunchObject) -> Iterator[_PassedArgument]:
@@ -100,7 +100,7 @@ def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: La
 
 
 def _uncertain_names(arguments: Sequence[_PassedArgument]) -> tuple[str, ...]:
-    """Return the arguments that may not be passed. Those that both sides of a branch pass are certain."""
+    """Return the names of arguments that may not be passed; those passed in both branches are certain."""
     counts = Counter([argument.name for argument in arguments])
     return tuple([argument.name for argument in arguments if argument.uncertain and counts[argument.name] == 1])
 
@@ -188,7 +188,7 @@ def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
         walker.unknown_launches.append((f"{launch_object.name}() cannot be followed", place_of(launch_object)))
     if _DECLARES.match(launch_object.name):
         (action,) = _declare(walker, launch_object, conditions)
-        unknown = LaunchValue((UNKNOWN,), place_of(launch_object))  # it may have a default in its own class, which is not read
+        unknown = LaunchValue((UNKNOWN,), place_of(launch_object))  # its class, which is not read, may have a default
         return [action._replace(value=action.value or unknown)] if action.target else []
     arguments: list[tuple[str, LaunchValue]] = []
     for position, value in enumerate(launch_object.arguments):

@@ -103,7 +103,7 @@ def _rejected_arguments_of(launch_object: LaunchObject) -> Iterator[tuple[ast.Ca
                 yield node, _unknown_keyword(keyword, keyword.arg, keywords, launch_object)
     if len(node.args) > max_positional and not any(isinstance(argument, ast.Starred) for argument in node.args):
         accepted = (
-            "keyword arguments only"
+            "only keyword arguments"
             if not max_positional
             else f"at most {max_positional} positional argument{'s' if max_positional > 1 else ''}"
         )
@@ -137,7 +137,7 @@ def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], 
 
 
 def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield the absolute paths that are joined to a path: the path before them is dropped."""
+    """Yield absolute paths that are joined to another path: Python drops the path before them."""
     if not _SLASH.search(source.text.text):
         return  # because walking the whole tree takes longer
     for node in ast.walk(tree):

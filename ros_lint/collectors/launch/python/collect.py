@@ -44,7 +44,7 @@ def collect(
     """
     defined = entries(source.text)
     if len(source.text) > _MAX_LENGTH:
-        opaque = Opaque(Facet.USES, "the file is too long to be followed", source.span(0, 0))
+        opaque = Opaque(Facet.USES, "the file is too long to be interpreted", source.span(0, 0))
         return LaunchFile(source.path, "python", opaque=(opaque,), test="launch" not in defined, helper=not defined)
     test, helper = "launch" not in defined and "test" in defined, not defined
     try:
@@ -58,7 +58,7 @@ def collect(
     try:
         interpretation.read(tree, helper)
     except (BudgetExceeded, RecursionError, MemoryError):
-        interpretation.stop("following the file takes too many steps")
+        interpretation.stop("interpreting the file takes too many steps")
     interpretation.problems.extend(interpretation.runtime_problems(tree))
     references = References(interpretation.actions, interpretation.places())
     interpretation.add_to(references)
@@ -79,7 +79,7 @@ def collect(
 
 
 def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield what the compiler of Python refuses, such as a keyword that is given twice."""
+    """Yield the errors of the Python compiler, such as a repeated keyword argument."""
     if (error := compiled(tree)) is not None:
         from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
 
@@ -144,7 +144,7 @@ class _Interpretation:
                 self.actions += [*self._walker.actions(self._machine.variables), *started]
                 if function.changed:
                     place = span_of(self._source.text, function.node)
-                    self._opaque.append(Opaque(Facet.USES, f"what a decorator makes of {name}() is not followed", place))
+                    self._opaque.append(Opaque(Facet.USES, f"the decorator of {name}() cannot be followed", place))
         if helper:
             for name, function in list(frame.names.items()):
                 if isinstance(function, Function) and function.frame is frame:
@@ -166,7 +166,7 @@ class _Interpretation:
         names = {
             str(name)
             for launch_object in self._machine.made
-            if launch_object.name.startswith("LaunchConfig")  # also LaunchConfigAsBool of nav2_common
+            if launch_object.name.startswith("LaunchConfig")  # includes LaunchConfigAsBool of nav2_common
             for name in texts(launch_object.get(0, "variable_name", "launch_configuration_name"), evaluation)
         }
         if self._machine.borrows or ".launch_configurations" in self._source.text.text:
@@ -174,7 +174,7 @@ class _Interpretation:
         return tuple(sorted(names))
 
     def _mark_optional(self, references: References) -> None:
-        """Mark packages as optional whose look-ups all tolerate that the package is missing.
+        """Mark a package as optional if none of its look-ups requires that it is installed.
 
         A look-up while the file is read stops the file if the package is missing, unless the exception is caught or a
         condition tests for the package.
@@ -186,18 +186,18 @@ class _Interpretation:
         references.mark_optional(optional)
 
     def places(self) -> dict[str, Span]:
-        """Return the look-ups of packages that have a path in the file or a command that it runs."""
+        """Return the place of the first look-up of each package."""
         return {package: self._walker.look_up_span(package) for package in self._machine.named}
 
     def stop(self, reason: str) -> None:
-        """Note that the interpretation stopped early: every object that was created may be launched."""
+        """Note that the interpretation stopped early. Every object that was created may be launched."""
         self._opaque.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
         self._machine.grant()
         with suppress(BudgetExceeded, RecursionError, MemoryError):
             self._add_escaped(all_objects=True)
 
     def _add_escaped(self, all_objects: bool) -> None:
-        """Add objects as perhaps launched that escaped to code which cannot be followed."""
+        """Add the objects that may be launched by code that cannot be followed, or all objects."""
         for launch_object in self._machine.made:
             if not launch_object.seen and (launch_object.escaped or all_objects) and launch_object.name in LAUNCHED:
                 self.actions += self._walker.actions(launch_object, (PERHAPS,))
@@ -214,6 +214,6 @@ class _Interpretation:
             if value.texts == (package,):
                 references.note_look_up(package, value, conditions)
         for reason, span in self._walker.unknown_launches:
-            references.hide(f"what is launched is not known: {reason}", span)
+            references.hide(f"the launched actions are not known: {reason}", span)
         for opaque in self._opaque:
             references.opaque[opaque] = None

@@ -1,4 +1,4 @@
-"""Actions that Python launch files run at events, and actions that their functions return."""
+"""Actions that Python launch files run at events, and actions that functions return during the launch."""
 
 from __future__ import annotations
 

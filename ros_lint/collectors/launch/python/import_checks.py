@@ -1,4 +1,4 @@
-"""Names that a Python launch file takes from the wrong module of the launch libraries, an error."""
+"""Names that a Python launch file imports from the wrong module of the launch libraries."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ _QUALIFIED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
 
 
 def misplaced_imports(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield the names that are taken from a launch module without them, while another one has them."""
+    """Yield names that are imported from a launch module that lacks them, if another launch module has them."""
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
             for alias in node.names:
@@ -78,7 +78,9 @@ def misplaced_imports(tree: ast.Module, source: Source) -> Iterator[Problem]:
 def _misplaced_import(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
     if _is_misplaced(module, name):
         yield Problem(
-            "stray-name", f"'{module}' has no {name}; import it from {' or '.join(_MODULES_BY_NAME[name])}", span_of(node, source)
+            "stray-name",
+            f"'{module}' has no '{name}'; import it from {' or '.join(map(repr, _MODULES_BY_NAME[name]))}",
+            span_of(node, source),
         )
 
 

@@ -60,7 +60,7 @@ def call_library(
         return _create(call, last)
     machine.escape([arguments, keywords])
     if "package" in keywords and "executable" in keywords:
-        _create(call, "Node").escaped = True  # judging by the name, a function that creates one
+        _create(call, "Node").escaped = True  # judging by the keywords, a function that creates a node
     return Unknown("" if callee.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 
@@ -84,7 +84,7 @@ def _create(call: Call, name: str) -> LaunchObject:
 
 
 def _note_command(call: Call, launch_object: LaunchObject) -> None:
-    """Note the first place that runs a command of a package."""
+    """Note the package of a command, xacro, at the first place that runs it."""
     command, expression = launch_object.get(0, "command"), launch_object.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(command)):
         first = expression.elts[0] if isinstance(expression, (ast.List, ast.Tuple)) and expression.elts else expression
@@ -108,7 +108,7 @@ def _note_builder(call: Call, launch_object: LaunchObject) -> None:
 
 
 def package_of_builder(builder: LaunchObject) -> str:
-    """Return the package of a builder of MoveIt, "" if unknown. The default contains the robot's name."""
+    """Return the package of a MoveIt builder, "" if unknown; the default is composed of the robot's name."""
     of_robots = builder.name == "MoveItConfigsBuilder"
     package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
     if package is None and of_robots and isinstance(robot, str):
@@ -142,7 +142,7 @@ _FILE_POSITIONS: Mapping[str, int] = {
 }
 """The position of the argument with the file that a method of MoveIt's builders reads.
 
-``sensors_3d`` is omitted, because it checks first if the file exists.
+``sensors_3d`` is omitted, because it checks whether the file exists.
 """
 
 
@@ -282,7 +282,7 @@ def _xacro_output(call: Call) -> Value:
 
 
 def _writes_file(position: int) -> Rule:
-    """Return the model of a function that writes a file, which need not exist before."""
+    """Return the model of a function that writes a file. The file need not exist when the launch starts."""
 
     def model(call: Call) -> Value:
         call.machine.ask(call.texts(position))
@@ -295,7 +295,7 @@ _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 
 
 def _runs_command(call: Call) -> Value:
-    """Note the output file of a command (``>`` of the shell, or ``-o``): it need not exist before."""
+    """Note the output file of a command (after ``>`` or ``-o``), which need not exist when the launch starts."""
     words = call.items(0)
     if words is None:
         call.machine.ask(tuple([path for command in call.texts(0) for path in _OUTPUT.findall(command)]))
@@ -315,9 +315,9 @@ def subscript_library(machine: Interpreter, owner: Value, key: Value) -> Value:
         if owner.name == "context.launch_configurations":
             return union(symbolic_text.configuration(name) for name in text_of(key))
     if isinstance(owner, (Unknown, LibraryName)):
-        return Unknown("element of what is not known")
+        return Unknown("an element of an unknown value")
     machine.escape(owner)
-    return Unknown("element of what is not known")
+    return Unknown("an element of an unknown value")
 
 
 _STANDARD = frozenset(

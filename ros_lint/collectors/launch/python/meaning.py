@@ -26,7 +26,7 @@ _DESCRIBED = LAUNCH_RUNTIME | {
 }
 """Libraries with models.
 
-Their sources are not interpreted in a workspace that builds ROS itself, because they need a running launch system.
+Their sources are not interpreted, even if the workspace contains them, because they need a running launch system.
 """
 
 

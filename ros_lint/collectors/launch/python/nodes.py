@@ -157,7 +157,7 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 
 
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
-    """Return the texts of some arguments, each a list or dictionary, and of ``prefix`` and ``cwd``."""
+    """Return the texts in the named arguments (lists or dictionaries), and those of ``prefix`` and ``cwd``."""
     result: list[tuple[str, LaunchValue]] = []
     for name in names:
         if name not in launch_object.keywords:
@@ -210,7 +210,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, launch_object: Laun
         elif name:
             result.append((name, walker.text(_list(item), place, launch_object.source)))
         else:
-            # An unknown value is mostly a dictionary of parameters, and not a file.
+            # An unknown value is usually a dictionary of parameters, not a file.
             is_file = isinstance(item, (list, tuple)) or _names_file(item)
             name = "" if is_file else UNKNOWN
             result += [(name, value) for value in walker.each_text(item, place, launch_object.source)]
@@ -218,7 +218,7 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, launch_object: Laun
 
 
 def _elements(node: ast.expr, count: int) -> list[ast.expr]:
-    """Return the expression of each item of a list or dictionary, ``node`` for each if not literal."""
+    """Return the expression of each item of a list or dictionary; ``node`` for each item if it is not literal."""
     expressions: list[ast.expr] = []
     if isinstance(node, (ast.List, ast.Tuple)):
         expressions = [element if not isinstance(element, ast.Starred) else node for element in node.elts]

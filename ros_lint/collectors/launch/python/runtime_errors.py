@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 def undefined(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
-    """Yield those of the unbound names that certainly raise NameError."""
+    """Yield the names that certainly raise NameError; ``names`` were unbound in the interpretation."""
     for node in unbound(tree, [node for node, module in names if module is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 
@@ -46,7 +46,7 @@ _MESSAGES: Mapping[How, tuple[str, str]] = {
 _JOINED_MESSAGE = "Python uses only one of the two substitutions here; write {joined}Substitution(a, b)"
 _DECIDED_MESSAGE = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
 _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
-"""Calls whose texts only humans read."""
+"""Functions that print or log their arguments."""
 
 
 def misused(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
@@ -87,7 +87,7 @@ def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:
 
 
 def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
-    """Return the nodes where an error is caught, or where it only changes a message for humans."""
+    """Return the nodes in a try statement that catches errors, or in the arguments of a logging call."""
     result: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
@@ -98,7 +98,7 @@ def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all nodes in comparisons: a text that is compared is not launched."""
+    """Return all nodes in comparisons; a text that is formatted there is only compared."""
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 
@@ -147,7 +147,7 @@ def not_text(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchOb
             if name == "launch_arguments" and not launch_object.seen:
                 continue  # the arguments are evaluated only if the include is launched
             if name == "launch_arguments" and isinstance(value, dict):
-                errors.append(("launch_arguments must be pairs; write .items()", launch_object.written(position, name)))
+                errors.append(("'launch_arguments' must be pairs; write .items()", launch_object.written(position, name)))
             elif (wrong_item := _first_wrong_item(value)) is not None:
                 hint = _replacement_hint(wrong_item, launch_object)
                 message = f"'{name}' of {launch_object.name} must consist of strings and substitutions{hint}"
@@ -185,7 +185,7 @@ def not_condition(tree: ast.Module, source: Source, launch_objects: Iterable[Lau
 
 
 def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return the first number or action that is the value or is in its lists."""
+    """Return the first number or action in a value (the value itself, or in nested lists), else None."""
     pending = [value]
     for _ in range(_MAX_ITEMS):
         if not pending:
@@ -199,7 +199,7 @@ def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
 
 
 def _replacement_hint(wrong_item: bool | int | float | LaunchObject, receiver: LaunchObject) -> str:
-    """Return the end of the message about a value that is not a text."""
+    """Return the end of the message about a value that is not a text: what to write instead."""
     if not isinstance(wrong_item, LaunchObject):
         return f"; write '{wrong_item}' instead of {wrong_item}"
     name = wrong_item.get(0, "name") if wrong_item.name == "DeclareLaunchArgument" else None

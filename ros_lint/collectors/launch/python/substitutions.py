@@ -29,15 +29,15 @@ _MAX_STEPS = 2_000
 
 
 class TextEvaluation:
-    """The state of one computation of texts.
+    """The state of one evaluation of a value to its texts.
 
-    Its depth and steps are limited, because objects can contain each other or occur in one many times.
+    Depth and steps are limited, because objects can contain each other or occur many times.
     """
 
     __slots__ = ("depth", "remaining", "results", "spend")
 
     def __init__(self, spend: Callable[[int], None] = lambda steps: None) -> None:
-        """Start an evaluation. ``spend`` is called with the number of steps, and may raise."""
+        """Start an evaluation. ``spend`` is called with numbers of steps, and may raise an exception."""
         self.depth = 0
         self.remaining = _MAX_STEPS
         self.results: dict[int, tuple[Value, tuple[str, ...]]] = {}
@@ -160,7 +160,7 @@ def _join(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str,
 
 
 def _logic(name: str) -> Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]:
-    """Return the reader of a substitution that compares, as an expression for ``launch/expressions.py``."""
+    """Return the reader of a logical substitution; its text is a call of a function in ``expressions.py``."""
 
     def read(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
         parts: list[Any] = [*launch_object.arguments, *launch_object.keywords.values()]

@@ -53,12 +53,12 @@ def place_of(launch_object: LaunchObject) -> Span:
 
 
 class Walker:
-    """Turns values into actions."""
+    """Converts the values that a launch file launches to actions."""
 
     def __init__(
         self, machine: Interpreter, source: Source, builders: Mapping[str, ActionBuilder], otherwise: ActionBuilder
     ) -> None:
-        """Create a walker. ``rules`` convert objects by the name of their class, ``otherwise`` all others."""
+        """Create a walker. ``builders`` convert objects by the name of their class, ``otherwise`` all others."""
         self.machine = machine
         self._builders = builders
         self._otherwise = otherwise
@@ -75,7 +75,7 @@ class Walker:
         """Return the actions of a value when it is launched."""
         actions: list[LaunchAction] = []
         if self._depth > _MAX_DEPTH or self._remaining <= 0:
-            self._stop("there is too much of it" if self._remaining <= 0 else "it is nested too deeply", at)
+            self._stop("there are too many actions" if self._remaining <= 0 else "the actions are nested too deeply", at)
             return actions
         self._remaining -= 1
         self._depth += 1
@@ -118,7 +118,7 @@ class Walker:
         return self._builders.get(launch_object.name, self._otherwise)(self, launch_object, conditions)
 
     def split_by_conditions(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
-        """Return one action for each target if the conditions of all targets are known, else the action itself."""
+        """Return one action for each alternative target if all their conditions are known, else the action itself."""
         if action.target is None or len(action.target.texts) == 1:
             return [action]
         targets = self._alternatives(target)
@@ -152,7 +152,7 @@ class Walker:
             actions += self.actions(launch_object.entities[index], conditions, at)
             index += 1
         if index < len(launch_object.entities):
-            self._stop("there is too much of it", at)
+            self._stop("there are too many actions", at)
         return actions
 
     def _stop(self, reason: str, at: Span | None) -> None:
@@ -167,7 +167,7 @@ class Walker:
         return None if argument is None else self.text(argument, launch_object.written(position, *names), launch_object.source)
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
-        """Return a value as a text with the place of its literal."""
+        """Return the texts of a value, with the place of the literal that it comes from."""
         choices = (str(value),) if isinstance(value, str) else _plain(texts(value, TextEvaluation(self.machine.spend)))
         origin = plain(value)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
@@ -188,7 +188,10 @@ class Walker:
         return LaunchValue(choices, source.text.span(at, at + len(choices[0])), exact=True)
 
     def each_text(self, value: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
-        """Return the alternatives of a value with their conditions, one value for all if any has no condition."""
+        """Return the alternatives of a value, each with its conditions.
+
+        A single value with all alternatives is returned if one of them has no conditions.
+        """
         combined = self.text(value, node, source)
         if len(combined.texts) == 1:
             return [combined]
@@ -220,7 +223,7 @@ class Walker:
         try:
             return self.machine.call(plain(function), list(arguments), dict(keywords), launch_object.node, frame)
         except ProgramRaised:
-            return Unknown("a function that raises")
+            return Unknown("the result of a function that raises an exception")
 
 
 def _plain(texts: Iterable[str]) -> tuple[str, ...]:
@@ -232,7 +235,7 @@ def _merged(left: Conditions, right: Conditions) -> Conditions:
 
 
 def _depends(text: str) -> bool:
-    """Return whether a text has conditions, and all of them can be evaluated once arguments have values."""
+    """Return whether a text has conditions, all of which can be evaluated once the arguments have values."""
     conditions = symbolic_text.conditions_of(text)
     return bool(conditions) and not any(UNKNOWN in part for condition in conditions for part in condition.texts)
 
