@@ -67,7 +67,7 @@ class _InputFinder:
         for package in packages:
             self._by_name.setdefault(package.name, []).append(package)
             script = package.script
-            for top in dict.fromkeys(name.partition(".")[0] for name in script.python_packages) if script else ():
+            for top in dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages) if script else ():
                 self._modules.setdefault(top, []).append(package)
 
     def with_inputs(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
@@ -177,7 +177,7 @@ class _InputFinder:
         """Return the sources of the installed files of a package, by install path."""
         sources = self._installed.get(package.path)
         if sources is None:
-            provides = package.script.installs if package.script else ()
+            provides = package.script.products.installs if package.script else ()
             sources = {file.path: resolve(package.path, file.source) for file in provides if file.source}
             self._installed[package.path] = sources
         return sources

@@ -119,7 +119,7 @@ class Loader:
             *ignores.not_checked,
             *_unreadable(collected),
         )
-        not_checked = tuple(dict.fromkeys((*unread_files, *_failed(read_packages))))
+        not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
         return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
 
     def pin(self, paths: Iterable[str]) -> None:
@@ -264,7 +264,7 @@ class Loader:
                 uninstalled_imports=tuple(own_files.uninstalled_imports(discovered.files, source.built, read_package.facts)),
                 renamed=discovered.colcon_name if discovered.colcon_name != discovered.name else "",
             )
-            if package.registrations and read_package.script and read_package.script.plugin_files:
+            if package.registrations and read_package.script and read_package.script.files.plugin_files:
                 package = package._replace(unwritten_classes=textual_mentions.find_unwritten_classes(tree, package))
             if search:
                 package = package._replace(
@@ -338,14 +338,12 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
             yield from _unchecked(fact.opaque if fact is not None else ())
 
 
-def _failed(read_packages: Sequence[_ReadPackage]) -> Iterator[UnreadFile]:
+def _unchecked_scripts(read_packages: Sequence[_ReadPackage]) -> Iterator[UnreadFile]:
     for read_package in read_packages:
-        if read_package.script is not None and read_package.script.failed:
-            yield from (UnreadFile(opaque.span.path, opaque.reason, opaque.span) for opaque in read_package.script.opaque)
-        elif read_package.script is not None:
+        if read_package.script is not None:
             yield from _unchecked(read_package.script.opaque)
 
 
 def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
-    """Yield the places that exceed a limit of ros-lint."""
+    """Yield the places that ros-lint does not check because of a limit or a bug of its own."""
     yield from (UnreadFile(place.span.path, place.reason, place.span) for place in opaque if place.unchecked)

@@ -81,7 +81,7 @@ class Resolver:
         self.names = names
         self._headers = include_index(sources)
         self._sources = frozenset([source.name for source in sources])
-        self._empty = frozenset([source.name for source in sources if source.built.makes_nothing])
+        self._empty = frozenset([source.name for source in sources if source.built.cmake.makes_nothing])
         self._matchers: Mapping[Via, Callable[[str], ProviderMatch]] = {
             "include": self._include,
             "import": self._import,
@@ -212,7 +212,7 @@ def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> t
 def _add_script(source: PackageSource, uses: _Uses) -> None:
     """Add the names in the build script, and the packages that it finds on behalf of dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
-    unused_finds = frozenset(source.built.unused_optional_finds)
+    unused_finds = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:
         if mention.purpose == "plugins":
             continue  # the loader of the plugins is optional, and headers name the package of the base class
@@ -222,7 +222,7 @@ def _add_script(source: PackageSource, uses: _Uses) -> None:
         of_role.append(mention._replace(optional=True) if only_named else mention)
     for (path, role), mentions in by_role.items():
         uses.add(strip_folder(source.path, path), mentions, role, role, in_use=True)
-    for mention, always in source.built.exported_packages:
+    for mention, always in source.built.exports.packages:
         uses.add(strip_folder(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
     _add_implicit_uses(source, uses)
 
@@ -244,8 +244,8 @@ class _Uses:
         )
         self._path_additions = frozenset([span for facts in source.facts.values() for span in facts.path_additions])
         script = source.built
-        self._includes_outside = script.includes_outside_package
-        self._bundled = frozenset([name.lower() for name in script.bundled_projects])
+        self._includes_outside = script.cmake.includes_outside_package
+        self._bundled = frozenset([name.lower() for name in script.cmake.bundled_projects])
         self._found_always = frozenset(
             [mention.name for mention in script.mentions if mention.via == "cmake" and not (mention.optional or mention.test)]
         )
@@ -339,7 +339,7 @@ def _files_with_optional_imports(source: PackageSource, roles: FileRoles) -> lis
 
 def _add_implicit_uses(source: PackageSource, uses: _Uses) -> None:
     """Add the implicit use of action_msgs: rosidl generates actions with its types."""
-    if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.interfaces):
+    if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.products.interfaces):
         return
     for mention in source.built.mentions:
         if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):

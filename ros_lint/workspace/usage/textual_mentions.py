@@ -114,7 +114,7 @@ def find_unwritten_classes(tree: Tree, package: Package) -> frozenset[str]:
     Empty if a macro may compose names, because the full name then need not occur.
     """
     registered = {registration.name for registration in package.registrations}
-    plugins = package.built.plugin_files
+    plugins = package.built.files.plugin_files
     described = [entry.type for plugin in plugins for library in plugin.libraries for entry in library.classes]
     unregistered = [name for name in dict.fromkeys(described) if name not in registered]
     if not unregistered:

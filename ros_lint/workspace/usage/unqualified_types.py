@@ -84,7 +84,7 @@ class Types:
 
     def _type_names(self, source: PackageSource, name: str) -> _TypeNames:
         workspace_source = self._by_name.get(name)
-        if workspace_source is not None and not (workspace_source.script and workspace_source.script.interfaces):
+        if workspace_source is not None and not (workspace_source.script and workspace_source.script.products.interfaces):
             return self._declared_types(workspace_source)
         provided = self._transitive(source.name)
         types = [
