@@ -1,4 +1,4 @@
-"""Kinds of files by the endings of their names."""
+"""Suffixes of C++ headers, C++ sources and interface definitions."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint.base import gitignore as ignored
+from ros_lint.base import gitignore
 from ros_lint.base.paths import join, strip_folder
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
@@ -82,7 +82,7 @@ class Package(NamedTuple):
     registrations: tuple[Registration, ...] = ()
     """Classes that the C++ sources make loadable."""
     unwritten_classes: frozenset[str] = frozenset()
-    """Classes that plugin descriptions name and no source does."""
+    """Classes in plugin descriptions whose name does not occur in the sources."""
     lookups: tuple[LookUp, ...] = ()
     """Files that models, RViz configurations and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()
@@ -138,7 +138,7 @@ class Package(NamedTuple):
     def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:
         """Return the places that hide ``facet`` of the package; empty if everything is visible.
 
-        ``place``, a path in the install prefix, limits the answer to what may hide that path.
+        ``place``, a path in the install prefix, limits the result to places that may hide that path.
         """
         return tuple(opaque for opaque in self.opaque if opaque.hides & facet and (not place or opaque.reaches(place)))
 
@@ -195,7 +195,7 @@ class Workspace:
         target: TargetDistro,
         not_checked: tuple[UnreadFile, ...],
         source_lists: tuple[str, ...] = (),
-        ignores: tuple[ignored.Pattern, ...] = (),
+        ignores: tuple[gitignore.Pattern, ...] = (),
     ) -> None:
         self.packages = packages
         self.unusable = unusable
@@ -205,27 +205,27 @@ class Workspace:
         self.source_lists = source_lists
         self._ignores = ignores
         self.memo: dict[object, Any] = {}
-        """Results of functions with a cache: :func:`per_workspace`, :func:`per_package`."""
+        """Results of functions with a cache (:mod:`ros_lint.analysis.memo`)."""
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
-        found: dict[str, tuple[Package, ...]] = {}
+        packages: dict[str, tuple[Package, ...]] = {}
         for package in self.packages:
-            found[package.name] = (*found.get(package.name, ()), package)
-        return found
+            packages[package.name] = (*packages.get(package.name, ()), package)
+        return packages
 
     def called(self, name: str) -> tuple[Package, ...]:
         """Return the packages with a name: the name in ``package.xml``, else the name that colcon uses."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
-    def surely_lacks(self, owner: str, offer: Offer, wanted: str) -> bool:
-        """Return whether a package certainly does not provide what was not found in it.
+    def surely_lacks(self, owner: str, offer: Offer, name: str) -> bool:
+        """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 
         Packages of the workspace have been searched. A released package must be known to lack it: in every
         distribution, unless the user chose one.
         """
-        return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.explicit)
+        return owner in self.by_name or self.world.lacks(owner, offer, name, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
         """Return whether a file of the package, or of the workspace if None, could not be read.
@@ -237,15 +237,15 @@ class Workspace:
 
     def is_made(self, package: Package, path: str) -> bool:
         """Return whether git ignores a path in a package: such a path is generated or downloaded."""
-        return bool(self._ignores) and ignored.is_ignored(self._ignores, join(package.path, path))
+        return bool(self._ignores) and gitignore.is_ignored(self._ignores, join(package.path, path))
 
     @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:
         """Component classes that launch files load, by package."""
-        found: dict[str, frozenset[str]] = {}
+        classes: dict[str, frozenset[str]] = {}
         for package in self.packages:
             for launch in package.launch:
                 for reference in launch.references:
                     if reference.kind == "component":
-                        found[reference.package] = found.get(reference.package, frozenset()) | {reference.name}
-        return found
+                        classes[reference.package] = classes.get(reference.package, frozenset()) | {reference.name}
+        return classes

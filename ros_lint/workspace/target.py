@@ -18,7 +18,7 @@ class TargetDistro(NamedTuple):
 
     distro: str
     source: str
-    """Origin of the choice, such as "--distro" or "newest long-term release known"."""
+    """Origin of the choice, such as ``--distro``, for messages."""
     explicit: bool = True
     """False if the distribution is assumed: then names of other active distributions count as existing."""
 
@@ -34,7 +34,7 @@ class TargetDistro(NamedTuple):
 
 
 class UnreadFile(NamedTuple):
-    """An input that the run could not check: a file, or a whole class of questions."""
+    """An input that could not be checked. ``what`` is the path of a file, or another description."""
 
     what: str
     reason: str

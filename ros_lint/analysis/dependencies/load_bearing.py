@@ -8,7 +8,7 @@ from ros_lint.analysis.dependencies.needs import needs
 from ros_lint.analysis.dependencies.traceless import is_mostly_runtime, may_be_used_without_trace
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.facts.manifest import Role
-from ros_lint.workspace.usage.unused_find_package import unused_in_sight
+from ros_lint.workspace.usage.unused_find_package import unused_finds
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -122,7 +122,7 @@ def unused_find_packages(package: Package, workspace: Workspace) -> tuple[Mentio
     return tuple(
         [
             mention
-            for mention in unused_in_sight(package)
+            for mention in unused_finds(package)
             if mention.name not in package.possibly_used
             and not may_be_used_without_trace(package, workspace, mention.name)
             and not is_mostly_runtime(workspace, mention.name)

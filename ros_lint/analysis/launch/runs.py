@@ -130,18 +130,18 @@ def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield the argument, the expression and the unknown name of each failing expression in a text."""
-    from ros_lint.collectors.launch.expressions import evaluate, refused  # noqa: PLC0415  (imports the Python parser)
+    from ros_lint.collectors.launch.expressions import evaluate, unresolved_names  # noqa: PLC0415  (imports the Python parser)
 
     known = {
         name: texts for name, _, candidate in configurations(text) if len(texts := fill(candidate, defaults.get, evaluate)) == 1
     }
     whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
     for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
-        own, strange = refused(itself), refused(expression)
+        own, strange = unresolved_names(itself), unresolved_names(expression)
         if own is None or strange == () or (evaluate(expression) != UNKNOWN and not _TRUTHS.intersection(strange or ())):
             continue
         for name, (value,) in known.items():
-            inside = refused(value)
+            inside = unresolved_names(value)
             missing = (
                 ""
                 if strange is None

@@ -6,7 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch.expressions import evaluate, means_true
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, asked_for, configurations, fill, is_settled, named_in
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, configurations, fill, is_settled, named_in, package_of_presence
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -70,7 +70,7 @@ class Filling:
             if is_settled(text) and OWN_FOLDER not in text:
                 results[text] = None
                 continue
-            for filled in self._put(text, scope):
+            for filled in self._fill(text, scope):
                 if OWN_FOLDER in filled:
                     results.update(dict.fromkeys([filled.replace(OWN_FOLDER, folder) for folder in scope.folder]))
                 else:
@@ -79,7 +79,7 @@ class Filling:
                     self.unknown.update(dict.fromkeys(self._reasons(text, scope)))
         return tuple(results)
 
-    def _put(self, text: str, scope: Scope) -> Texts:
+    def _fill(self, text: str, scope: Scope) -> Texts:
         names = named_in(text)
         if names is None:
             return fill(text, lambda name: self._value(name, scope), evaluate)
@@ -97,29 +97,29 @@ class Filling:
             value = self._value(name, scope)
             if name.startswith("$"):
                 if value is None and not has_default:
-                    yield f"the environment variable {name[1:]} is not known here"
+                    yield f"the environment variable '{name[1:]}' is not known"
             elif value == (UNKNOWN,):
-                yield f"the argument {name} is not known"
+                yield f"the argument '{name}' is not known"
             elif value is None and not has_default:
-                yield f"nothing sets the launch configuration {name}"
+                yield f"the launch configuration '{name}' is not set"
         if UNKNOWN in text:
-            yield "it is computed in a way that cannot be followed"
+            yield "it is computed in a way that ros-lint cannot follow"
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
         """Return whether all conditions hold (None if unknown), and the unknown conditions."""
-        open_: list[LaunchCondition] = []
+        unknown: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
             if truth is False:
                 return False, ()
             if truth is None:
-                open_.append(condition)
-        return (None if open_ else True), tuple(open_)
+                unknown.append(condition)
+        return (None if unknown else True), tuple(unknown)
 
     def _holds(self, condition: LaunchCondition, scope: Scope) -> bool | None:
         answers: set[bool | None] = set()
         for text in self._filled(condition.texts, scope):
-            if asked_for(text):
+            if package_of_presence(text):
                 answers.add(True)  # the expansion assumes that everything is installed
             elif not is_settled(text):
                 answers.add(None)

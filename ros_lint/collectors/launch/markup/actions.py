@@ -1,4 +1,4 @@
-"""Readers of the tags of XML and YAML launch files that start no program."""
+"""Readers of the tags of XML and YAML launch files, except for nodes and processes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 
 from ros_lint.collectors.launch.groups import group
-from ros_lint.collectors.launch.markup.attributes import Reader, Rule
+from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchCondition, LaunchValue
@@ -40,33 +40,33 @@ def _unescaped(value: str) -> str:
     return re.sub(r"\\(.)", r"\1", value) if "\\" in value else value
 
 
-def _assignment(kind: str, name: str = "name", value: str = "value") -> Rule:
-    def rule(reader: Reader, entity: Entity) -> LaunchAction:
+def _assignment(kind: str, name: str = "name", value: str = "value") -> TagReader:
+    def read(reader: Reader, entity: Entity) -> LaunchAction:
         conditions = reader.conditions(entity)
-        target, given = reader.text(entity, name), reader.text(entity, value)
+        target, assigned = reader.text(entity, name), reader.text(entity, value)
         span = reader.package_span(entity, value)
-        return LaunchAction(kind, entity.span, target=target, value=given, package_span=span, conditions=conditions)
+        return LaunchAction(kind, entity.span, target=target, value=assigned, package_span=span, conditions=conditions)
 
-    return rule
+    return read
 
 
-def _single(kind: str, name: str) -> Rule:
-    def rule(reader: Reader, entity: Entity) -> LaunchAction:
+def _single(kind: str, name: str) -> TagReader:
+    def read(reader: Reader, entity: Entity) -> LaunchAction:
         conditions = reader.conditions(entity)
         value = reader.text(entity, name)
         span = reader.package_span(entity, name)
         return LaunchAction(kind, entity.span, value=value, package_span=span, conditions=conditions)
 
-    return rule
+    return read
 
 
 def _append_environment(reader: Reader, entity: Entity) -> LaunchAction:
     action = _assignment("environment")(reader, entity)
     reader.need_truth(entity, "prepend")
-    before = reader.typed(entity, "prepend", "bool") is True
+    prepends = reader.typed(entity, "prepend", "bool") is True
     separator = reader.optional(entity, "separator")
     return action._replace(
-        name=LaunchValue(("prepend" if before else "append",), entity.span),
+        name=LaunchValue(("prepend" if prepends else "append",), entity.span),
         arguments=(("separator", separator),) if separator else (),
     )
 
@@ -105,9 +105,9 @@ def _group(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     scoped = entity.get("scoped", "bool") is not False
     forwarding = entity.get("forwarding", "bool") is not False
-    kept = reader.named(entity, "keep")
+    configurations = reader.named(entity, "keep")
     children = reader.actions(child for child in entity.actions() if child.tag != "keep")
-    return group(entity.span, children, kept, conditions, scoped=scoped, forwarding=forwarding)
+    return group(entity.span, children, configurations, conditions, scoped=scoped, forwarding=forwarding)
 
 
 def _timer(reader: Reader, entity: Entity) -> LaunchAction:
@@ -131,9 +131,9 @@ def _loop(reader: Reader, entity: Entity) -> LaunchAction:
     for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
         reader.text(entity, attribute)
     children = reader.actions(entity.actions())
-    perhaps = LaunchCondition((UNKNOWN,), None)
+    unknown = LaunchCondition((UNKNOWN,), None)
     unscoped = LaunchValue((UNSCOPED,), entity.span)
-    return LaunchAction("group", entity.span, name=unscoped, conditions=(*conditions, perhaps), children=tuple(children))
+    return LaunchAction("group", entity.span, name=unscoped, conditions=(*conditions, unknown), children=tuple(children))
 
 
 def _include(reader: Reader, entity: Entity) -> LaunchAction:
@@ -155,7 +155,7 @@ def _include(reader: Reader, entity: Entity) -> LaunchAction:
     )
 
 
-RULES: Mapping[str, Rule] = {
+TAG_READERS: Mapping[str, TagReader] = {
     "arg": _argument,
     "let": _assignment("set"),
     "set_env": _assignment("environment"),
