@@ -24,6 +24,7 @@ class LaunchValue(NamedTuple):
     Parts that are not known yet are marks of :mod:`ros_lint.collectors.symbolic_text`.
     """
     span: Span
+    """Place of the text."""
     exact: bool = False
     """True if ``span`` covers exactly the only text, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
@@ -55,7 +56,9 @@ class LaunchAction(NamedTuple):
     ``remap``, ``parameter``, ``environment``, ``later`` (actions of a timer or an event handler) or ``other``.
     """
     span: Span
+    """Place of the action: the call in Python, else the element."""
     package: LaunchValue | None = None
+    """Package of a node or component."""
     package_span: Span | None = None
     """Place of the package that ``target`` looks up."""
     target: LaunchValue | None = None
@@ -67,7 +70,9 @@ class LaunchAction(NamedTuple):
     value: LaunchValue | None = None
     """Default of an argument (None if the argument is required), or the value that is set or pushed."""
     name: LaunchValue | None = None
+    """Name of a node or component; None if the launch file does not set it."""
     namespace: LaunchValue | None = None
+    """Namespace of a node or component; None if the action does not set it."""
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
     """Values passed by name.
 
@@ -77,15 +82,18 @@ class LaunchAction(NamedTuple):
     argument_spans: tuple[Span, ...] = ()
     """Places of the names of the arguments of an include: one for each of ``arguments``, or none."""
     choices: tuple[str, ...] = ()
+    """Values that an argument accepts; () if it accepts any."""
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """Parameters by name.
 
     A parameter file has the name "", any number of unknown parameters the name UNKNOWN.
     """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
+    """Remappings of a node or component: old name and new name."""
     conditions: tuple[LaunchCondition, ...] = ()
     """Conditions that must all hold; an unknown condition has the text UNKNOWN."""
     children: tuple[LaunchAction, ...] = ()
+    """Actions inside: of a group, a container, an event handler or a timer."""
     conditional_arguments: tuple[str, ...] = ()
     """Names of arguments that an include gets only under a condition of unknown value."""
     builtin_model: bool = False
@@ -108,7 +116,9 @@ class LaunchReference(NamedTuple):
     """A place in a launch file that names a package, and mostly something in it."""
 
     kind: ReferenceKind
+    """Kind of the thing that the file names."""
     package: str
+    """Name of the package."""
     name: str
     """Name of the thing in the package, "" for a plain look-up of the package.
 
@@ -117,6 +127,7 @@ class LaunchReference(NamedTuple):
     span: Span
     """Span of the name, or of the package if there is no name."""
     package_span: Span
+    """Place of the name of the package."""
     conditional: bool = False
     """True if the action is under a condition that may be false."""
     exact: bool = True
@@ -150,10 +161,15 @@ class LaunchFile(NamedTuple):
     """A launch file, as far as it is known without running it."""
 
     path: str
+    """Path of the file, relative to the base of the run."""
     language: Literal["python", "xml", "yaml"]
+    """Front end of launch that reads the file."""
     references: tuple[LaunchReference, ...] = ()
+    """Packages, executables and files that the file names."""
     opaque: tuple[Opaque, ...] = ()
+    """Places that could not be evaluated."""
     problems: tuple[Problem, ...] = ()
+    """Errors for which launch rejects the file."""
     test: bool = False
     """True if the file serves tests only: it has generate_test_description() (launch_testing)."""
     helper: bool = False
@@ -163,6 +179,7 @@ class LaunchFile(NamedTuple):
     without arguments.
     """
     actions: tuple[LaunchAction, ...] = ()
+    """Actions at the top level of the file, in order. ``launch.walk_actions`` also yields those in groups."""
     imports: tuple[tuple[str, Span], ...] = ()
     """Dotted names of modules that a Python launch file imports whenever it is loaded.
 

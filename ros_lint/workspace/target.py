@@ -17,6 +17,7 @@ class TargetDistro(NamedTuple):
     """The ROS distribution that the workspace is checked for."""
 
     distro: str
+    """Name of the distribution, such as "jazzy"."""
     source: str
     """Origin of the choice, such as "--distro" or "newest long-term release known"."""
     explicit: bool = True
@@ -37,8 +38,11 @@ class UnreadFile(NamedTuple):
     """An input that the run could not check: a file, or a whole class of questions."""
 
     what: str
+    """Path of the file, or name of the missing data."""
     reason: str
+    """Reason, for messages."""
     span: Span | None
+    """Place of the file; None for missing data."""
 
     @classmethod
     def of(cls, path: str, error: OSError) -> UnreadFile:

@@ -63,6 +63,7 @@ REGISTERING = ("rclcpp_components_register_node", "rclcpp_components_register_no
 """Commands that register components; the first argument is the library that contains them."""
 
 EXPORTING_PLUGINS = "pluginlib_export_plugin_description_file"
+"""The command that installs and exports a plugin description (pluginlib)."""
 
 
 _OWN_TARGET = re.compile(r"[^:\s]+")

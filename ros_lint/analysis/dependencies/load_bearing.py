@@ -25,6 +25,7 @@ class LostProvision(NamedTuple):
     """An undeclared package that only one dependency provides."""
 
     name: str
+    """The undeclared package."""
     package: str
     """The package that uses it and does not declare it."""
 

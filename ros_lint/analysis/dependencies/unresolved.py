@@ -17,6 +17,7 @@ class UnresolvedDependency(NamedTuple):
     """A declared name that does not resolve."""
 
     package: Package
+    """The package that declares the name."""
     declared: Declared
     """The first tag with the name."""
     tags: tuple[Depend, ...]
@@ -26,6 +27,7 @@ class UnresolvedDependency(NamedTuple):
 
     @property
     def name(self) -> str:
+        """The name."""
         return self.declared.depend.name
 
     @property

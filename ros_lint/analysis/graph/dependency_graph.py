@@ -38,6 +38,7 @@ class Reason(NamedTuple):
     categories: tuple[str, ...]
     """Values are "build", "run", "test" and "group"."""
     span: Span
+    """Place of the tag."""
     certain: bool = True
     """False under a condition with a variable whose value is unknown."""
 
@@ -46,6 +47,7 @@ class Order(NamedTuple):
     """A build order, as complete as the cycles allow."""
 
     names: tuple[str, ...]
+    """Packages in an order in which dependencies come first."""
     stuck: tuple[str, ...]
     """Packages that lie on a cycle or depend on one, sorted."""
 
@@ -55,18 +57,22 @@ class Graph:
 
     def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
         self.places = {name: tuple(places[name]) for name in sorted(places)}
+        """Packages by name; several if packages have the same name."""
         self.needs = {
             name: {dependency: tuple(needs[name][dependency]) for dependency in sorted(needs.get(name, ()))}
             for name in self.places
         }
+        """For each package, its dependencies with the reasons."""
         self._closures: dict[str, frozenset[str]] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
+        """Names of the packages, sorted."""
         return tuple(self.places)
 
     @property
     def edges(self) -> Iterator[Edge]:
+        """Each package with each of its dependencies."""
         return ((name, dependency) for name, dependencies in self.needs.items() for dependency in dependencies)
 
     def reasons(self, edge: Edge) -> tuple[Reason, ...]:

@@ -23,9 +23,11 @@ class PackageLaunchFile(NamedTuple):
     """A launch file with its path in the package."""
 
     file: LaunchFile
+    """The launch file."""
     path: str
     """The path relative to the package."""
     installed: bool
+    """True if the package installs it."""
     run: bool = True
     """True if users launch it, or the package's tests; false for other tests, examples and templates."""
 

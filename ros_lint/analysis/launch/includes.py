@@ -20,7 +20,9 @@ class InstalledLaunchFile(NamedTuple):
     """A launch file of the workspace at its install path."""
 
     package: Package
+    """The package that installs it."""
     file: LaunchFile
+    """The launch file."""
     path: str
     """The path below share/<package>."""
 

@@ -18,9 +18,11 @@ class NodeParameterFile(NamedTuple):
     """A parameter file of the workspace that a launch file passes to a node or component."""
 
     action: LaunchAction
+    """The node or component."""
     value: LaunchValue
     """The value that names the file."""
     file: ParameterFile
+    """The parameter file."""
     names: tuple[str, ...]
     """The possible names of the node; () if the launch file does not set one."""
     namespaces: tuple[str, ...]

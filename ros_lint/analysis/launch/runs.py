@@ -33,6 +33,7 @@ class PassedFile(NamedTuple):
     """A file that an included launch file refers to, resolved with the arguments of the including file."""
 
     package: str
+    """Package whose share folder contains the file."""
     path: str
     """The path below share/<package>."""
     kind: Literal["include", "file"]
@@ -99,6 +100,7 @@ class FailingExpression(NamedTuple):
     name: str
     """The name that Python does not know; "" if the text is no Python expression."""
     span: Span
+    """Place of the expression."""
     conditional: bool
     """True if its action runs only under a condition."""
 

@@ -14,6 +14,7 @@ class PlacedInclude(NamedTuple):
     """An include and its position in the launch file."""
 
     action: LaunchAction
+    """The include."""
     later: list[LaunchAction]
     """The later actions of the file that see the configurations that the include leaves set."""
     leaves: bool
