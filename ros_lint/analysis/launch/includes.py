@@ -87,8 +87,8 @@ class IncludeResolver:
         """Return the configurations that a file sets and that are no arguments that callers can change."""
         done = self._sets.get(file.path)
         if done is None:
-            asked = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
-            arguments = {name for target in asked for name in target.texts}
+            targets = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
+            arguments = {name for target in targets for name in target.texts}
             done = {name: texts for name, texts in assigned_configurations(file).items() if name not in arguments}
             self._sets[file.path] = done
         return done
