@@ -19,9 +19,10 @@ class LaunchValue(NamedTuple):
     """The possible values of a text in a launch file."""
 
     texts: tuple[str, ...]
-    """Each alternative, never empty.
+    """The alternatives, at least one.
 
-    Parts that are not known yet are marks of :mod:`ros_lint.collectors.symbolic_text`.
+    Parts that are known only at launch, such as the value of a launch configuration, are marks: characters of the
+    private use area. ``launch.is_plain`` returns True for a text without marks.
     """
     span: Span
     """Place of the text."""
@@ -86,18 +87,18 @@ class LaunchAction(NamedTuple):
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """Parameters by name.
 
-    A parameter file has the name "", any number of unknown parameters the name UNKNOWN.
+    A parameter file has the name "". Unknown parameters together have a name that is not plain (``launch.is_plain``).
     """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
     """Remappings of a node or component: old name and new name."""
     conditions: tuple[LaunchCondition, ...] = ()
-    """Conditions that must all hold; an unknown condition has the text UNKNOWN."""
+    """Conditions that must all hold."""
     children: tuple[LaunchAction, ...] = ()
     """Actions inside: of a group, a container, an event handler or a timer."""
     conditional_arguments: tuple[str, ...] = ()
     """Names of arguments that an include gets only under a condition of unknown value."""
     builtin_model: bool = False
-    """True if a helper of a released package names the executable, which is thus its dependency."""
+    """True if a launch helper of a released package names the executable, so that the helper depends on it."""
 
     @property
     def has_scope(self) -> bool:
@@ -186,9 +187,9 @@ class LaunchFile(NamedTuple):
     Empty if the file changes ``sys.path``.
     """
     configurations_read: tuple[str, ...] = ()
-    """Launch configurations that the file reads for any purpose, sorted; UNKNOWN for any other."""
+    """Launch configurations that the file reads, sorted. A name that is not plain means: any other, too."""
     missing_inputs: tuple[str, ...] = ()
-    """Inputs of a Python launch file that were not available when it was interpreted, sorted.
+    """Inputs of a Python launch file that were not available when ros-lint interpreted it, sorted.
 
     Modules are dotted names, files are install paths.
     """

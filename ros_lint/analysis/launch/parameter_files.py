@@ -30,7 +30,7 @@ class NodeParameterFile(NamedTuple):
 
 
 class ParameterFiles:
-    """All parameter files of a workspace by their install paths."""
+    """Finds the parameter files of the workspace that launch files pass to nodes."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = include_resolver(workspace)

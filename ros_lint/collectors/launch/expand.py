@@ -29,7 +29,7 @@ class Started(NamedTuple):
     kind: str
     """``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Alternatives, () if there is no package. A text contains UNKNOWN where a part of it is unknown."""
+    """Alternatives, () if there is no package. A text with an unknown part is not plain (``launch.is_plain``)."""
     target: Texts
     """The executable, the component class, the command line or the path of the included file."""
     name: Texts
