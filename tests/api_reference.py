@@ -334,7 +334,7 @@ def member_text(name: str, definition: Definition, links: dict[str, str]) -> str
     node = definition.node
     parts = [f"### {name}"]
     if isinstance(node, ast.FunctionDef):
-        parts += [f"```python\n{signature(node, name)}\n```", markdown(definition.doc)]
+        parts += [f"```text\n{signature(node, name)}\n```", markdown(definition.doc)]
     elif isinstance(node, ast.ClassDef):
         items = [attribute_text(attribute, links) for attribute in public_attributes(node)]
         items += [method_text(method, definition.name) for method in methods(node)]

@@ -39,7 +39,7 @@ class Confidence(Sealed, IntEnum):
 
 
 class Fix(NamedTuple):
-    """A way to fix a finding. ``ros-lint check --fix`` applies it and reads the changed files again."""
+    """A way to fix a finding. ``ros-lint --fix`` applies it, unless the fix causes another finding."""
 
     title: str
     """Verb phrase: "declare 'std_msgs' as <depend>"."""

@@ -33,9 +33,10 @@ class Rule(NamedTuple):
     since: str
     """Version of ros-lint, or of the plugin, that introduced the rule: "0.2"."""
     doc: str
-    """Documentation in Markdown, printed by ``ros-lint rule NAME``: usually the docstring of the module.
+    """Documentation in Markdown: ``__doc__``, the docstring of the module.
 
-    Its headings are: What it finds, Why it matters, How to fix it, Limitations.
+    Its headings are: What it finds, Why it matters, How to fix it, Limitations. SARIF reports contain it; for rules of
+    ros-lint, ``ros-lint rule NAME`` prints it.
     """
     default: bool = True
     """True if the rule runs unless it is deselected; false if it must be selected."""
