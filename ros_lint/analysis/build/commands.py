@@ -39,7 +39,7 @@ def config_names(name: str) -> tuple[str, str]:
 
 def has_extras(package: Package) -> bool:
     """Return whether find_package() of the package runs CMake code of the package (CONFIG_EXTRAS)."""
-    if package.built.config_extras:
+    if package.built.exports.config_extras:
         return True
     return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
 
@@ -77,7 +77,7 @@ _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")
 
 def evaluated_name(package: Package, text: str) -> str | None:
     """Return the value of an argument, in which ${PROJECT_NAME} is evaluated; None if it has other variables."""
-    name = _PROJECT_NAME.sub(package.script.name if package.script and package.script.name else package.name, text)
+    name = _PROJECT_NAME.sub(package.built.project.name or package.name, text)
     return None if "$" in name or not name else name
 
 
