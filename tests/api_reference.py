@@ -27,7 +27,11 @@ VOCABULARY = {
     "Uses": ("Use", "Mention", "MachinePath", "PluginLoader", "Registration", "Suggestion"),
     "Limits of the analysis": ("Facet", "ALL_FACETS", "Opaque", "Problem", "SuppressionUse"),
     "Launch files": ("LaunchFile", "LaunchAction", "LaunchReference", "LaunchValue", "LaunchCondition"),
-    "Build scripts": (),
+    "Build scripts": (
+        "BuildScript", "BuildProject", "BuildProducts", "BuildTarget", "InstalledFile", "Component", "BuildFiles", "ScriptFile",
+        "BuildExports", "ExportedTarget", "CMakeCommands", "Call", "CMakeBuild", "SetupScript",
+    ),
+    "Plugins and Python": (),
 }  # fmt: skip
 """The sections of the vocabulary in the order of the page. Names without a place are in the last section."""
 
