@@ -9,13 +9,21 @@ from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
 from ros_lint.facts.build import (
+    BuildExports,
+    BuildFiles,
+    BuildProducts,
+    BuildProject,
     BuildScript,
+    CMakeBuild,
+    CMakeCommands,
     Component,
+    ExportedTarget,
     InstalledFile,
     PluginClass,
     PluginFile,
     PluginLibrary,
     ScriptFile,
+    SetupScript,
     UninstalledImport,
 )
 from ros_lint.facts.cmake import BuildTarget, Call
@@ -32,8 +40,14 @@ from ros_lint.workspace.target import TargetDistro
 __all__ = [
     "ALL_FACETS",
     "STANDARD_LIBRARY",
+    "BuildExports",
+    "BuildFiles",
+    "BuildProducts",
+    "BuildProject",
     "BuildScript",
     "BuildTarget",
+    "CMakeBuild",
+    "CMakeCommands",
     "Call",
     "Component",
     "Confidence",
@@ -43,6 +57,7 @@ __all__ = [
     "EditableList",
     "Element",
     "EntryPoint",
+    "ExportedTarget",
     "Facet",
     "Finding",
     "Fix",
@@ -68,6 +83,7 @@ __all__ = [
     "Role",
     "Rule",
     "ScriptFile",
+    "SetupScript",
     "Severity",
     "Span",
     "Suggestion",

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchCondition, LaunchValue
 
 Texts = tuple[str, ...]
+"""Alternative texts."""
 
 
 class Scope(NamedTuple):
