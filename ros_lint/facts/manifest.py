@@ -119,6 +119,10 @@ class Manifest(NamedTuple):
     indent: str = "  "
     """White space before a child of ``<package>``."""
     newline: str = "\n"
+    text: str = ""
+    """The file, for its validation by the XML schema; "" if it has no ``<package>``."""
+    codec: str = "utf-8"
+    """Codec that encodes the text to the bytes of the file."""
 
 
 class ColconDepend(NamedTuple):
