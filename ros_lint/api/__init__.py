@@ -1,10 +1,10 @@
-"""Everything a rule may import: types of rules, findings and the model, and seven namespaces."""
+"""Everything a rule may import: types of rules, findings and the model, and eight namespaces."""
 
 from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import first_related
-from ros_lint.api import build, dependencies, edits, files, graph, launch, names
+from ros_lint.api import build, dependencies, edits, files, graph, launch, manifests, names
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
@@ -101,6 +101,7 @@ __all__ = [
     "first_related",
     "graph",
     "launch",
+    "manifests",
     "names",
     "too_new",
 ]

@@ -142,6 +142,10 @@ class Manifest(NamedTuple):
     """White space before a child of ``<package>``."""
     newline: str = "\n"
     """Line end of the file."""
+    text: str = ""
+    """The file, for its validation by the XML schema; "" if it has no ``<package>``."""
+    codec: str = "utf-8"
+    """Codec that encodes the text to the bytes of the file."""
 
 
 class ColconDepend(NamedTuple):
