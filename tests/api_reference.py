@@ -201,7 +201,7 @@ def parameter(argument: ast.arg, default: ast.expr | None) -> str:
 
 def quotes(code: str) -> str:
     """Return code with double quotes, as in the sources; `ast.unparse` writes single quotes."""
-    return code.replace("'", '"')
+    return re.sub(r"""'([^'"]*)'""", r'"\1"', code)
 
 
 # Which types the page shows.
@@ -381,6 +381,6 @@ def indented(text: str) -> str:
 
 def markdown(doc: str) -> str:
     """Return a docstring as Markdown: roles and double backquotes become code, other angle brackets are escaped."""
-    text = re.sub(r":\w+:`~?(?:[\w.]*\.)?(\w+)`", r"`\1`", doc)
+    text = re.sub(r":\w+:`(?:~?ros_lint\.(?:\w+\.)*)?([\w.]+)`", r"`\1`", doc)
     text = re.sub(r"``(.+?)``", r"`\1`", text, flags=re.DOTALL)
     return "".join(part if part.startswith("`") else part.replace("<", "\\<") for part in re.split(r"(`[^`]*`)", text))

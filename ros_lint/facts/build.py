@@ -61,7 +61,7 @@ class PluginClass(NamedTuple):
     name: str
     """Name by which a loader looks the class up."""
     type: str
-    """C++ type of the class, without blanks and without a leading ``::``, as in the facts of sources."""
+    """C++ type of the class, without blanks and without a leading ``::``, like ``Registration.name``."""
     base: str
     """C++ type of the base class, written like ``type``."""
     span: Span

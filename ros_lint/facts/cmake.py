@@ -46,7 +46,7 @@ class Call(NamedTuple):
     path: str
     """Path of the file, relative to the base of the run."""
     args: tuple[tuple[str, int, int, int], ...]
-    """Arguments as :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, start and end offset."""
+    """Arguments: text, kind, start and end offset. Rules use :attr:`texts` and :meth:`span`."""
     start: int
     """Offset of the name in the file."""
     end: int

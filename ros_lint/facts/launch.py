@@ -27,7 +27,7 @@ class LaunchValue(NamedTuple):
     span: Span
     """Place of the text."""
     exact: bool = False
-    """True if ``span`` covers exactly the only text, so that a fix can replace it."""
+    """True if ``span`` covers exactly the only text, without its quotes, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
     """Conditions of a parameter or parameter file; it is passed only if all of them hold."""
 
@@ -58,7 +58,7 @@ class LaunchAction(NamedTuple):
     in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler) or ``other``.
     """
     span: Span
-    """Place of the action: the call in Python, else the element."""
+    """Place of the action: in Python the whole call, in XML and YAML the name of the element."""
     package: LaunchValue | None = None
     """Package of a node or component."""
     package_span: Span | None = None
