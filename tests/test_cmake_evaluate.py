@@ -116,7 +116,7 @@ def test_programs() -> None:
     ],
 )
 def test_problems(text: str, kinds: list[str]) -> None:
-    assert [problem.kind for problem in run(text, ("src/a.cpp",), unseen=("out",)).problems] == kinds
+    assert [problem.kind for problem in run(text, ("src/a.cpp",), unlisted_folders=("out",)).problems] == kinds
 
 
 @pytest.mark.parametrize(
@@ -296,18 +296,18 @@ def test_modules_for_a_python_that_is_not_known() -> None:
 def test_folders_that_are_not_looked_into_are_installed_all_the_same() -> None:
     text = HEAD + "install(DIRECTORY share/ DESTINATION share/pkg)\n"
     listed = {"share/build": ["share/build/a.txt", "share/build/b/c.txt"], "gone": []}
-    given = sources(text, ("share/a",), unseen=("share/build", "gone"), look=lambda folder: listed[folder])
+    given = sources(text, ("share/a",), unlisted_folders=("share/build", "gone"), list_unlisted=lambda folder: listed[folder])
     script = evaluate(given)
     assert paths(script) == {"share/pkg/a": False, "share/pkg/build/a.txt": False, "share/pkg/build/b/c.txt": False}
     assert not hidden(script)
-    script = evaluate(given._replace(look=lambda folder: ()))
+    script = evaluate(given._replace(list_unlisted=lambda folder: ()))
     assert hidden(script) & Facet.SHARE
 
 
 def test_words_of_install_targets_elsewhere() -> None:
     text = "install(DIRECTORY launch ARCHIVE DESTINATION lib LIBRARY DESTINATION lib)\n"
     (problem,) = run(text, ("launch/a.launch.py",)).problems
-    assert problem.message == "install(DIRECTORY) knows no ARCHIVE, that belongs to install(TARGETS)"
+    assert problem.message == "install(DIRECTORY) does not accept 'ARCHIVE', which belongs to install(TARGETS)"
     assert problem.span.column == len("install(DIRECTORY launch ") + 1
 
 
@@ -361,7 +361,7 @@ def test_a_long_list_joined_by_a_long_text_becomes_unknown() -> None:
 )
 def test_commands_on_long_lists_count_for_what_they_cost(body: str, longer: bool) -> None:
     script = run(f"foreach(i RANGE 20000)\n{body}\nendforeach()")
-    assert [opaque.reason for opaque in script.opaque] == ["the script runs longer than can be followed"] * longer
+    assert [opaque.reason for opaque in script.opaque] == ["the script is too large to be evaluated"] * longer
 
 
 @pytest.mark.parametrize(

@@ -88,7 +88,7 @@ def test_nobody_knows_where_a_project_lies_that_is_fetched() -> None:
     script = load(lines).script
     assert script is not None
     assert script.problems == ()
-    assert "add_subdirectory() of a folder that is not in sight" in {opaque.reason for opaque in script.opaque}
+    assert "the folder of add_subdirectory() was not found" in {opaque.reason for opaque in script.opaque}
 
 
 def test_what_is_built_while_cmake_configures_is_no_need() -> None:

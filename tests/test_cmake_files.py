@@ -97,7 +97,7 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
     for number, line in enumerate(lines):
         run = Run(Sources("p", "package", sorted(FILES), {}, outside=outside), "", {}, lambda *_: None)
         run.policy_version = (3, 20)
-        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.named("CMakeLists.txt")))
+        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.absolute("CMakeLists.txt")))
         value = run.get("V") or ""
         unknown += HOLE in value
         if is_fixed(value) and value.replace(TREE, str(tree)) != real[str(number)]:
@@ -117,5 +117,5 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
 )
 def test_a_backslash_parts_folders_where_a_path_is_made_a_whole_one(line: str, expected: str) -> None:
     run = Run(Sources("p", "", (), {}), "", {}, lambda *_: None)
-    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.named("CMakeLists.txt")))
+    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.absolute("CMakeLists.txt")))
     assert run.get("V") == expected

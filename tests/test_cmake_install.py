@@ -235,4 +235,4 @@ def test_headers_of_a_set_that_nobody_knows_hide_what_there_is() -> None:
     script += "install(TARGETS one FILE_SET HEADERS)\n"
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", f"project(p)\nfile(READ a.txt GENERATED)\n{script}"))}
     result = evaluate(Sources("p", "p", ["a.txt"], parsed, frozenset()))
-    assert any("headers of the target one" in opaque.reason for opaque in result.opaque)
+    assert any("headers of the target 'one'" in opaque.reason for opaque in result.opaque)

@@ -1,7 +1,7 @@
 """The evaluator against CMake itself: where it gives a value, it is CMake's value.
 
 Scripts are made at random. CMake runs them with concrete values for the variables U0, U1 and U2, which the evaluator does
-not know; so every way through a script has to agree with what the evaluator says of all of them.
+not know; so every path through a script has to agree with what the evaluator says of all of them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Sources
 from ros_lint.collectors.cmake.evaluator.state import BudgetError, Frame, Variables
-from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, sure
+from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, strip_mark
 from ros_lint.collectors.cmake.syntax import parse
 from tests.cmake_writer import UNKNOWN, VARIABLES, Script, generate
 
@@ -148,7 +148,7 @@ def disagreements(mine: Outcome, real: Outcome) -> list[str]:
 def _may_be(marked: list[str], actual: list[str]) -> bool:
     """Whether a list with elements that may be missing can be the actual one: nothing certain is missing, nothing is new."""
     certain = [element for element in marked if element and not element.startswith(MAYBE)]
-    possible = {sure(element)[0] for element in marked} | {""}
+    possible = {strip_mark(element)[0] for element in marked} | {""}
     return not Counter(certain) - Counter(actual) and set(actual) <= possible
 
 

@@ -501,7 +501,7 @@ def test_projects_have_the_values_that_they_have_for_cmake(text: str, tmp_path: 
     parsed = {path: parse(Text(path, content)) for path, content in files.items() if not path.startswith(("sub", "x"))}
     mine = Run(Sources("p", "", sorted(files), parsed), "", {}, lambda run, name, args: None)
     cmake_flow.run_file(
-        mine, parsed["CMakeLists.txt"].commands, Frame(True, "CMakeLists.txt", mine.paths.named("CMakeLists.txt"))
+        mine, parsed["CMakeLists.txt"].commands, Frame(True, "CMakeLists.txt", mine.paths.absolute("CMakeLists.txt"))
     )
     known = {name: value or "" for name in "ABC" if (value := mine.get(name)) is None or is_known(value)}
     real = _configured(text, tmp_path)

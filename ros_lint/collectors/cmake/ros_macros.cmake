@@ -82,7 +82,7 @@ endfunction()
 # The extensions of released packages are included in the macros of this file. Other extensions write to the ament index.
 function(ament_register_extension point package file)
   if(point STREQUAL ament_package)
-    ros_lint_hide(COMPONENTS "what ${file} of ${package} registers is not known")
+    ros_lint_hide(COMPONENTS "the components that ${file} of ${package} registers are unknown")
   endif()
 endfunction()
 
@@ -672,7 +672,7 @@ endfunction()
 
 package(pal_module_cmake)
 macro(pal_register_modules)
-  ros_lint_hide(SHARE "what pal_register_modules() installs is not known")
+  ros_lint_hide(SHARE "the files that pal_register_modules() installs are unknown")
 endmacro()
 
 package(ros_industrial_cmake_boilerplate)

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.state import Properties
-from ros_lint.collectors.cmake.evaluator.values import kept
+from ros_lint.collectors.cmake.evaluator.values import cached_short
 
 
-@kept(4096)
+@cached_short(4096)
 def folded(name: str) -> str:
     """Return a name without ``_``, ``-`` and upper case, to compare spellings of a package's name."""
     return name.replace("_", "").replace("-", "").lower()
@@ -43,7 +43,7 @@ class FoundPackages:
             self._folded_prefixes = tuple(map(folded, self.prefixes))
         return folded(variable).startswith(self._folded_prefixes)
 
-    def named(self, prefix: str) -> str:
+    def with_prefix(self, prefix: str) -> str:
         """Return the found package whose variables have a prefix, ignoring case; "" if there is none."""
         if self.prefixes.get(prefix):
             return prefix

@@ -47,11 +47,11 @@ class Sources(NamedTuple):
     build_depends: tuple[str, ...] = ()
     """Packages that package.xml declares for the build. ament_auto_find_build_dependencies() finds them."""
     test_depends: tuple[str, ...] = ()
-    unseen: tuple[str, ...] = ()
+    unlisted_folders: tuple[str, ...] = ()
     """Existing folders below the package, relative to it, whose files are not in ``files``."""
     texts: Mapping[str, str] = {}
     """Contents of files that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
-    look: Callable[[str], Sequence[str]] = lambda folder: ()
+    list_unlisted: Callable[[str], Sequence[str]] = lambda folder: ()
     """Lists the files below one of the ``unseen`` folders, relative to the package.
 
     Empty if that is not possible."""
