@@ -221,7 +221,7 @@ def test_branches_for_other_distributions_are_optional(assignment: str) -> None:
 def test_components_registered_in_a_function_are_lost_to_ament_package(block: str, lost: bool) -> None:
     """The variables in which rclcpp_components stores its components end with the function that sets them."""
     script = run(block.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
-    assert [component.lost for component in script.products.components] == [lost]
+    assert [component.unregistered for component in script.products.components] == [lost]
     assert any("/rclcpp_components/" in path for path in paths(script)) is not lost
 
 

@@ -47,8 +47,8 @@ class Component(NamedTuple):
     name: str
     conditional: bool
     span: Span
-    lost: bool = False
-    """True if ament_package() does not see the registration: it is in a function or in a subdirectory."""
+    unregistered: bool = False
+    """True if ament_package() does not register the class, because the call is in a function or a subdirectory."""
 
 
 class PluginClass(NamedTuple):

@@ -52,7 +52,7 @@ class Call(NamedTuple):
     blocks: tuple[str, ...]
     """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro"."""
     test: bool
-    """True if an enclosing condition asks whether tests are built."""
+    """True if an enclosing condition depends on whether tests are built."""
 
     @property
     def texts(self) -> tuple[str, ...]:

@@ -27,13 +27,13 @@ def collect(path: str, parsed: Parsed) -> Iterator[Call]:
     for command in parsed.commands:
         name = command.name
         if name in _OPEN:
-            blocks.append((name, name == "if" and _tests_test_option(command)))
+            blocks.append((name, name == "if" and _depends_on_tests(command)))
             enclosing, for_tests = _enclosing(blocks)
         elif name[:3] == "end" and blocks and name[3:] in _OPEN:
             blocks.pop()
             enclosing, for_tests = _enclosing(blocks)
         elif name in ("else", "elseif") and blocks:
-            blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _tests_test_option(command)))
+            blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _depends_on_tests(command)))
             enclosing, for_tests = _enclosing(blocks)
         elif name == "return":
             test = test or for_tests  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
@@ -43,9 +43,9 @@ def collect(path: str, parsed: Parsed) -> Iterator[Call]:
 
 
 def _enclosing(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
-    """Return the names of the enclosing blocks, and whether one of them depends on tests being enabled."""
+    """Return the names of the enclosing blocks, and whether one of their conditions depends on tests."""
     return tuple([block for block, _ in blocks]), any(for_tests for _, for_tests in blocks)
 
 
-def _tests_test_option(command: Command) -> bool:
+def _depends_on_tests(command: Command) -> bool:
     return any("TEST" in text.upper() or "BENCHMARK" in text.upper() for text, *_ in command.args)

@@ -73,8 +73,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
     ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
-    workspace whose CMake code runs in packages that find them: their own BuildScript has ``extras``. Evaluate the helpers
-    first, each after the helpers that it finds, then the other packages.
+    workspace whose CMake code runs in packages that find them (``exports.config_extras`` of their build script). Evaluate
+    the helpers first, each after the helpers that it finds, then the other packages.
 
     - A condition that cannot be decided: both branches are run. Their products are ``conditional``, their mentions ``optional``.
     - An option has its default value. The effects of the other branch are reported as conditional.
@@ -91,14 +91,14 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
         return BuildScript(path, opaque=(Opaque(ALL_FACETS, "CMakeLists.txt cannot be read", file_start(path)),))
     frame = Frame(True, path, run.paths.absolute(_TOP))
     try:
-        ended = cmake_flow.run_file(run, parsed.commands, frame)
+        exits = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
         run.frames[:] = [frame]
         run.characters = MOST_CHARACTERS  # _result() evaluates texts once more
         run.hide(ALL_FACETS, "the script is too large to be evaluated", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]
-        if ended & STOP:
+        if exits & STOP:
             run.hide(ALL_FACETS, "the script stops with an error before its end", frame.command and frame.command.place(path))
     return _result(run, path)
 
@@ -283,11 +283,11 @@ def _unused_finds(run: Run, used: Mapping[str, bool]) -> Iterator[Span]:
         return
     macro_packages = {macro.package for macro in macros().values()}
     for name in _unmentioned(run, [name for name in run.packages.optional_finds if folded(name) not in used]):
-        if not name.startswith("ament_") and (name in macro_packages or not _WORKS_BY_BEING_FOUND.search(name)):
+        if not name.startswith("ament_") and (name in macro_packages or not _USED_WITHOUT_NAME.search(name)):
             yield from run.packages.optional_finds[name]
 
 
-_WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
+_USED_WITHOUT_NAME: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
 """Names of packages that a script uses without naming them again.
 
 They provide commands, find modules or settings."""

@@ -67,8 +67,8 @@ VARIABLES: Final[Mapping[str, str]] = {
 """Variables with the same value in every colcon build on Linux.
 
 - GNUInstallDirs: ``lib``, as on Debian and Ubuntu.
-- PYTHON_INSTALL_DIR: really ``lib/pythonX.Y/site-packages``.
-- PYTHON_MODULE_EXTENSION: really ``.cpython-XY-<machine>.so``.
+- PYTHON_INSTALL_DIR: the real value is ``lib/pythonX.Y/site-packages``.
+- PYTHON_MODULE_EXTENSION: the real value is ``.cpython-XY-<machine>.so``.
 - Folders with a mark: see :mod:`ros_lint.collectors.cmake.evaluator.values`."""
 
 CONFIGURABLE_VARIABLES: Final = frozenset({

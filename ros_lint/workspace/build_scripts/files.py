@@ -283,7 +283,7 @@ def text_in(tree: Tree, package: DiscoveredPackage, file: str) -> Text | None:
 
 
 class Executables(Set[str]):
-    """Files of a package, and around it, with the executable bit. Each look-up asks the file system."""
+    """Files with the executable bit in a package and outside of it. Each look-up reads the file system."""
 
     def __init__(self, tree: Tree, package: DiscoveredPackage) -> None:
         self._tree = tree

@@ -1,7 +1,4 @@
-"""The view of the tree for the evaluation of CMake scripts.
-
-It contains the files of a package, and the files around it that a script names.
-"""
+"""The input for the evaluation of CMake scripts: files of a package, and files outside of it that a script names."""
 
 from __future__ import annotations
 
@@ -35,10 +32,10 @@ class Parts(NamedTuple):
 
 
 class Surroundings:
-    """A tree as the scripts of its packages see it; :class:`OutsideTree` documents the methods.
+    """The files that scripts of a package can read outside of the package; :class:`OutsideTree` documents the methods.
 
-    Targets of links that lead out of the tree are not visible. For a package that is reached by a link nothing
-    around it is visible, because ``..`` then depends on the path.
+    Targets of links that lead out of the tree are not visible. For a package behind a link, no file outside
+    of it is visible, because ``..`` then depends on the path.
     """
 
     def __init__(self, tree: Tree) -> None:

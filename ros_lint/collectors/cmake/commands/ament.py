@@ -222,8 +222,8 @@ def _package(run: Run, args: list[str]) -> None:
     if run.component_scopes and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
         for number, scope in enumerate(run.component_scopes):
             if not any(scope is visible for visible in run.scopes):
-                run.results.components[number] = run.results.components[number]._replace(lost=True)
-        if all(component.lost for component in run.results.components):
+                run.results.components[number] = run.results.components[number]._replace(unregistered=True)
+        if all(component.unregistered for component in run.results.components):
             run.results.installed[:] = [
                 provided for provided in run.results.installed if not provided.path.startswith(_COMPONENT_INDEX)
             ]

@@ -73,9 +73,9 @@ def released(name: str) -> Released | None:
 def _direct(body: Body, parameters: Sequence[str]) -> tuple[str, list[str]] | None:
     if len(body) == 1 and isinstance(only := body[0], Command) and only.name.startswith("ros_lint_"):
         words = [argument[0] for argument in only.args]
-        handed = [f"${{{parameter}}}" for parameter in (*parameters, "ARGN")]
-        first = len(words) - len(handed)
-        if words[first:] == handed and not any("$" in word for word in words[:first]):
+        forwarded = [f"${{{parameter}}}" for parameter in (*parameters, "ARGN")]
+        first = len(words) - len(forwarded)
+        if words[first:] == forwarded and not any("$" in word for word in words[:first]):
             return only.name, words[:first]
     return None
 
@@ -155,21 +155,21 @@ def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], 
         try:
             handler = HANDLERS.get(name)
             if handler is None or name in run.procedures:
-                ended = run_named(run, name, args)
+                exits = run_named(run, name, args)
             else:
                 run.command_names.add(name)
-                ended = handler(run, args) or NEXT
+                exits = handler(run, args) or NEXT
         finally:
             if tests:
                 run.testing = False
-        if ended == NEXT or ended == NEXT | STOP:
+        if exits == NEXT or exits == NEXT | STOP:
             continue
-        if not ended & NEXT:
-            return ended
+        if not exits & NEXT:
+            return exits
         run.steps -= len(steps) - index - 1  # _run_steps() counts the rest again
-        rest, changes = run_conditionally(run, partial(_run_steps, run, steps, values, index + 1), ended)
-        run.join([{}, changes], 1 if ended & BY_DEFAULT else None)
-        return (ended & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
+        rest, changes = run_conditionally(run, partial(_run_steps, run, steps, values, index + 1), exits)
+        run.join([{}, changes], 1 if exits & BY_DEFAULT else None)
+        return (exits & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
     return NEXT
 
 

@@ -68,7 +68,7 @@ def _add_external_projects(run: Run, names: list[str], args: list[str]) -> None:
     hidden = Facet.USES | Facet.LIBRARIES
     if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
         hidden |= Facet.EXECUTABLES | Facet.SHARE
-    # The project has its own sources, unless SOURCE_DIR says that they are in the package.
+    # The project has its own sources, unless SOURCE_DIR is a folder of the package.
     inside = "" if "SOURCE_DIR" in args else _FETCHED
     run.hide(hidden, "the targets and files of an external project are unknown", inside=inside)
 

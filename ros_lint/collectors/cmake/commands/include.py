@@ -63,8 +63,8 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         run.add_problem("missing-script", f"include({path}): the file does not exist", run.place_of(name), path)
         return None
     run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-    shown = run.paths.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
-    run.hide(ALL_FACETS, f"include() of {shown} cannot be evaluated")
+    readable_name = run.paths.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
+    run.hide(ALL_FACETS, f"include() of {readable_name} cannot be evaluated")
     return None
 
 

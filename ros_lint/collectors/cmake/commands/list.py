@@ -71,7 +71,7 @@ def _prepend(run: Run, name: str, args: list[str]) -> None:
 
 def _remove_item(run: Run, name: str, args: list[str]) -> None:
     value = run.get(name)
-    if not value or not args:  # CMake then does not split the list, so its escapes are kept
+    if not value or not args:  # CMake then does not split the list, so it keeps its escapes
         return
     if not all(is_known(arg) for arg in args) and not all(is_fixed(arg) for arg in args):
         run.set(name, HOLE)

@@ -28,9 +28,9 @@ def _run_if(run: Run, node: If) -> Exit:
     if len(node.branches) == 1:
         return _run_single(run, node)
     branches: list[_Branch] = []
-    open_end = True  # whether all conditions so far may be false with default options
+    is_default = True  # whether all conditions so far are false with default options
     testing = run.testing
-    certain = True
+    may_skip_all = True
     for command, body in node.branches:
         if command is None:
             truth = Truth(TRUE, False, False)
@@ -43,14 +43,14 @@ def _run_if(run: Run, node: If) -> Exit:
             testing = testing or truth.test_if_false
             continue
         if truth.value == TRUE:
-            branches.append(_Branch(body, open_end, testing or truth.test_if_true))
-            certain = False
+            branches.append(_Branch(body, is_default, testing or truth.test_if_true))
+            may_skip_all = False
             break
-        branches.append(_Branch(body, truth.value == LIKELY and open_end, testing or truth.test_if_true))
-        open_end = open_end and truth.value == UNLIKELY
+        branches.append(_Branch(body, truth.value == LIKELY and is_default, testing or truth.test_if_true))
+        is_default = is_default and truth.value == UNLIKELY
         testing = testing or truth.test_if_false
-    if certain:
-        branches.append(_Branch((), open_end, testing))
+    if may_skip_all:
+        branches.append(_Branch((), is_default, testing))
     if len(branches) == 1:
         return _run_branch(run, branches[0])
     if len(branches) == 2 and branches[0].by_default and not branches[1].body:
@@ -88,9 +88,9 @@ def _run_branch(run: Run, branch: _Branch) -> Exit:
 
 
 def _run_branches(run: Run, branches: Sequence[_Branch]) -> Exit:
-    ended: Exit = 0
-    alive: list[tuple[Changes, bool]] = []
-    onward: list[tuple[_Branch, Exit]] = []
+    exits: Exit = 0
+    completed: list[tuple[Changes, bool]] = []
+    continuing: list[tuple[_Branch, Exit]] = []
     some_by_default = any(branch.by_default for branch in branches)
     for branch in branches:
         run.uncertain_conditions += not branch.by_default
@@ -103,20 +103,20 @@ def _run_branches(run: Run, branches: Sequence[_Branch]) -> Exit:
         if outcome == STOP:
             continue
         if outcome & NEXT:
-            onward.append((branch, outcome))
-        ended |= outcome & ~STOP
-        alive.append((changes, branch.by_default))
-    if not alive:
+            continuing.append((branch, outcome))
+        exits |= outcome & ~STOP
+        completed.append((changes, branch.by_default))
+    if not completed:
         return STOP
-    default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
-    run.join([changes for changes, _ in alive], default)
-    if ended != NEXT and onward:
+    default = next((index for index, (_, usual) in enumerate(completed) if usual), None)
+    run.join([changes for changes, _ in completed], default)
+    if exits != NEXT and continuing:
         # The default branch usually continues if no command in it can leave, or if leaving is the exception there.
-        ended &= ~BY_DEFAULT
-        if any(branch.by_default and (outcome & ~STOP == NEXT or outcome & BY_DEFAULT) for branch, outcome in onward):
-            ended |= BY_DEFAULT
-        ended |= IF_TESTING if all(branch.testing for branch, _ in onward) and not run.testing else 0
-    return ended
+        exits &= ~BY_DEFAULT
+        if any(branch.by_default and (outcome & ~STOP == NEXT or outcome & BY_DEFAULT) for branch, outcome in continuing):
+            exits |= BY_DEFAULT
+        exits |= IF_TESTING if all(branch.testing for branch, _ in continuing) and not run.testing else 0
+    return exits
 
 
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {If: _run_if}

@@ -43,7 +43,7 @@ _TEST_VARIABLE = re.compile(
 _REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
 
 
-_ASKED = re.compile(r"\$\{(\w+_FOUND)\}")
+_FOUND_VARIABLE = re.compile(r"\$\{(\w+_FOUND)\}")
 
 
 def condition(run: Run, command: Command) -> Truth:
@@ -64,7 +64,7 @@ def condition(run: Run, command: Command) -> Truth:
         else:
             tokens.append(Token(text, kind in (LITERAL, BRACKET), False))
         if "_FOUND}" in text:
-            run.tested_variables.update(_ASKED.findall(text))
+            run.tested_variables.update(_FOUND_VARIABLE.findall(text))
     if len(tokens) > 1:
         truth = _Parser(run, tokens).whole()
         if sum(token.text == "MATCHES" for token in tokens) > 1:

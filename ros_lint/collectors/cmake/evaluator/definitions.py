@@ -81,13 +81,13 @@ def _run_scope(run: Run, node: Scope) -> Exit:
     names = args[args.index("PROPAGATE") + 1 :] if "PROPAGATE" in args else []
     run.scopes.append(BlockVariables())
     try:
-        ended = run_body(run, node.body)
+        exits = run_body(run, node.body)
         propagated = {name: run.scopes[-1][name] for name in names if name in run.scopes[-1]}
     finally:
         run.scopes.pop()
     for name, value in propagated.items():
         run.set(name, value)
-    return ended
+    return exits
 
 
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Definition: _define, Scope: _run_scope}

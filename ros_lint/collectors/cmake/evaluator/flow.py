@@ -45,32 +45,32 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
             frame.command = node
             name = node.name
             if name in procedures:
-                ended = run_named(run, name, run.arguments(node))
+                exits = run_named(run, name, run.arguments(node))
             else:
                 run.command_names.add(name)
                 handler = HANDLERS.get(name)
                 args = run.arguments(node)
-                ended = (handler(run, args) if handler is not None else run.run_external_command(run, name, args)) or NEXT
+                exits = (handler(run, args) if handler is not None else run.run_external_command(run, name, args)) or NEXT
         else:
-            ended = BLOCKS[type(node)](run, node)
-        if ended == NEXT:
+            exits = BLOCKS[type(node)](run, node)
+        if exits == NEXT:
             continue
-        if not ended & NEXT:
-            return ended
-        if ended == NEXT | STOP:
+        if not exits & NEXT:
+            return exits
+        if exits == NEXT | STOP:
             continue  # a branch that stops with an error has no effects
         run.steps -= len(body) - index - 1  # run_body() counts the rest again
-        rest, changes = run_conditionally(run, partial(run_body, run, body, index + 1), ended)
-        run.join([{}, changes], 1 if ended & BY_DEFAULT else None)
-        return (ended & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
+        rest, changes = run_conditionally(run, partial(run_body, run, body, index + 1), exits)
+        run.join([{}, changes], 1 if exits & BY_DEFAULT else None)
+        return (exits & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
     return NEXT
 
 
-def run_conditionally(run: Run, piece: Callable[[], Exit], reached: Exit = NEXT) -> tuple[Exit, Changes]:
-    """Run ``piece`` as code that may not run. The bits BY_DEFAULT and IF_TESTING of ``reached`` say when it runs."""
+def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -> tuple[Exit, Changes]:
+    """Run ``piece`` as code that may not run. The bits BY_DEFAULT and IF_TESTING of ``exits`` give the condition."""
     uncertain, testing = run.uncertain_conditions, run.testing
-    run.uncertain_conditions += not reached & BY_DEFAULT
-    run.testing = testing or bool(reached & IF_TESTING)
+    run.uncertain_conditions += not exits & BY_DEFAULT
+    run.testing = testing or bool(exits & IF_TESTING)
     try:
         return run.branch(piece)
     finally:
@@ -140,24 +140,24 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     values["CMAKE_CURRENT_FUNCTION_LIST_FILE"] = f"{folder}/{procedure.path.rpartition('/')[2]}"
     run.scopes.append(Variables(values))
     try:
-        ended = run_body(run, body)
+        exits = run_body(run, body)
     finally:
         frames.pop()
         run.scopes.pop()
-    return NEXT | ended & STOP if ended & (NEXT | RETURN) else ended
+    return NEXT | exits & STOP if exits & (NEXT | RETURN) else exits
 
 
 def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
     name = next(option.name for option in choice.procedures if option is not None).lower()
-    ended: Exit = 0
+    exits: Exit = 0
     branches: list[Changes] = []
     for number, option in enumerate(choice.procedures):
         piece = partial(call, run, option, args) if option is not None else partial(_without, run, name, args)
         outcome, changes = run_conditionally(run, piece, BY_DEFAULT if number == choice.by_default else NEXT)
-        ended |= outcome
+        exits |= outcome
         branches.append(changes)
     run.join(branches, choice.by_default)
-    return ended
+    return exits
 
 
 def _call_values(procedure: Procedure, args: list[str], first_uncertain: int, possibly_empty: Container[str]) -> dict[str, str]:
@@ -195,7 +195,7 @@ def _possibly_empty(run: Run, command: Command) -> set[str]:
 
 
 def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
-    """Return arguments as a list. An argument of ``possibly_empty`` that is not alone may add an empty element."""
+    """Return arguments as a list. One of several arguments may add an empty element if it is in ``possibly_empty``."""
     value = join(args)
     return f"{value};{MAYBE}" if possibly_empty and len(args) > 1 and any(arg in possibly_empty for arg in args) else value
 
@@ -213,8 +213,8 @@ def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
             if frame.own:
                 run.add_problem("cmake-syntax", str(error), error.command.place(frame.path))
             run.hide(ALL_FACETS, str(error), error.command.place(frame.path) if frame.own else None)
-        ended = run_body(run, body)
+        exits = run_body(run, body)
     finally:
         run.frames.pop()
         run.place_file()
-    return NEXT | ended & STOP if ended & (NEXT | RETURN) else ended
+    return NEXT | exits & STOP if exits & (NEXT | RETURN) else exits

@@ -30,7 +30,7 @@ class FoundPackages:
         self.prefixes: dict[str, bool] = {}
         """Prefixes of variables that found packages may have set, each with whether it is a package name.
 
-        It is none for pkg_check_modules(), whose first argument chooses the prefix."""
+        It is not for pkg_check_modules(), whose first argument is the prefix."""
         self.included: Properties = Properties()
         """Packages of the workspace whose CMake code has run."""
         self.optional_finds: dict[str, list[Span]] = {}

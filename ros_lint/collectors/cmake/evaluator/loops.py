@@ -41,7 +41,7 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     names = _loop_names(args)
     values_before = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
     visible_before = {name: run.get(name) or "" for name in names}
-    ended = _run_rounds(run, node.body, names, rounds)
+    exits = _run_rounds(run, node.body, names, rounds)
     for name, value in values_before:
         if value in (_ABSENT, None) and run.policy_version < (3, 21):  # policy CMP0124
             run.set(name, visible_before[name])
@@ -49,7 +49,7 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
             run.remove(run.scopes[-1], name)
         else:
             run.put(run.scopes[-1], name, value)
-    return ended
+    return exits
 
 
 _ABSENT: Final = object()
@@ -134,22 +134,22 @@ def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, 
     for index in range(start, len(rounds)):
         items = rounds[index]
         if items[0] in (HOLE, UNPAIRED_HOLE):
-            ended = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
+            exits = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
         else:
             plain = tuple(strip_mark(item)[0] for item in items)
             if plain == items:
-                ended = _run_round(run, body, names, items)
+                exits = _run_round(run, body, names, items)
             else:
-                ended, changes = run_conditionally(run, partial(_run_round, run, body, names, plain))
+                exits, changes = run_conditionally(run, partial(_run_round, run, body, names, plain))
                 run.join([{}, changes])
-                ended |= NEXT
-        if ended & (RETURN | BREAK | STOP) and not ended & (NEXT | CONTINUE):
-            return NEXT if ended & BREAK and not ended & RETURN else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
-        leaves = ended & (RETURN | BREAK)
-        if leaves:
+                exits |= NEXT
+        if exits & (RETURN | BREAK | STOP) and not exits & (NEXT | CONTINUE):
+            return NEXT if exits & BREAK and not exits & RETURN else (exits & ~BREAK) | (NEXT if exits & BREAK else 0)
+        may_leave = exits & (RETURN | BREAK)
+        if may_leave:
             rest, changes = run_conditionally(run, partial(_run_rounds, run, body, names, rounds, index + 1))
             run.join([{}, changes])
-            return (ended & RETURN) | (NEXT if ended & BREAK else 0) | rest
+            return (exits & RETURN) | (NEXT if exits & BREAK else 0) | rest
     return NEXT
 
 
@@ -170,9 +170,9 @@ def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
     finally:
         run.muted -= 1
     run.forget(changes)
-    ended, changes = run_conditionally(run, round_)
+    exits, changes = run_conditionally(run, round_)
     run.join([{}, changes])
-    return ended | NEXT
+    return exits | NEXT
 
 
 def _run_while(run: Run, node: Loop) -> Exit:
@@ -183,15 +183,15 @@ def _run_while(run: Run, node: Loop) -> Exit:
         if truth.value in (FALSE, UNLIKELY):
             return NEXT
         if truth.value in (LIKELY, UNKNOWN):
-            ended = _run_any_number(run, partial(run_body, run, node.body))
-            return (ended & RETURN) | NEXT
-        ended = run_body(run, node.body)
-        if not ended & (NEXT | CONTINUE):
-            return NEXT if ended == BREAK else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
-        if ended & (BREAK | RETURN):
+            exits = _run_any_number(run, partial(run_body, run, node.body))
+            return (exits & RETURN) | NEXT
+        exits = run_body(run, node.body)
+        if not exits & (NEXT | CONTINUE):
+            return NEXT if exits == BREAK else (exits & ~BREAK) | (NEXT if exits & BREAK else 0)
+        if exits & (BREAK | RETURN):
             rest, changes = run_conditionally(run, partial(_run_while, run, node))
             run.join([{}, changes])
-            return (ended & RETURN) | NEXT | rest
+            return (exits & RETURN) | NEXT | rest
 
 
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Loop: _run_loop}

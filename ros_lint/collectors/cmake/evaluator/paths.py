@@ -72,7 +72,7 @@ class Paths:
         return path if path is not None and is_outside(path) and self.sources.outside.kind(self.tree_path(path)) else None
 
     def source_or_outside(self, value: str) -> str | None:
-        """Return the result of :meth:`source`, or of :meth:`beside` if that is None."""
+        """Return the result of :meth:`source`, or of :meth:`outside` if that is None."""
         path = self.source(value)
         return self.outside(value) if path is None else path
 

@@ -1,4 +1,4 @@
-"""A run of a package's CMake scripts: evaluation of arguments, places, and the collected results."""
+"""The state of a run of CMake scripts: evaluation of arguments, places of values, and recording of results."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class Run(State):
         self.index_variables: set[str] = set()
         """Variables whose value was read from the ament index, where any package may register it."""
         self.literal_places: dict[str, tuple[str, Command, Argument]] = {}
-        """The first place at which each list element is written."""
+        """The first place of each list element in the scripts."""
         self.policy_version: tuple[int, int] = (3, 0)
         """The CMake version up to which policies have their NEW behaviour."""
         self.fetched_projects: dict[str, list[str]] = {}
@@ -234,7 +234,7 @@ class Run(State):
     # --- files
 
     def runs_own_code(self) -> bool:
-        """Return whether the current command is in a file of the package, or in a script around it (OUTSIDE)."""
+        """Return whether the current command is in a file of the package, or in a script outside of it (OUTSIDE)."""
         frame = self.frames[-1]
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == OUTSIDE
 
@@ -338,7 +338,7 @@ class Run(State):
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def runs_helper_code(self) -> bool:
-        """Return whether the running code is in another package of the workspace, or in a script around it."""
+        """Return whether the running code is in another package of the workspace, or in a script outside of the package."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False

@@ -155,7 +155,7 @@ class State:
         mapping[key] = value
 
     def note_brackets(self, value: str) -> None:
-        """Update ``unpaired`` for a value that scripts can now read."""
+        """Update ``has_unpaired_brackets`` for a value that scripts can now read."""
         if ("[" in value or "]" in value or "\3" in value) and not self.has_unpaired_brackets:
             self.charge(SLOW * len(value))
             self.has_unpaired_brackets = is_unpaired(value)
@@ -238,7 +238,7 @@ class State:
         self._nested += 1
         outer_log, self.log = self.log, []
         try:
-            ended = run()
+            exits = run()
         finally:
             self._nested -= 1
             log, self.log = self.log, outer_log
@@ -252,7 +252,7 @@ class State:
                     mapping.pop(key, None)
                 else:
                     mapping[key] = value
-        return ended, changes
+        return exits, changes
 
     def join(self, alternatives: Sequence[Changes], default: int | None = None) -> None:
         """Write the state after one of several branches ran, given the changes of each branch.
