@@ -260,7 +260,7 @@ def _link_all(run: Run, args: list[str]) -> None:
 
 
 def _is_target_of(run: Run, space: str, target_name: str) -> bool:
-    """Return whether a target ``space::inner`` is of a bundled project, or of a found package ``target_name``."""
+    """Return whether a target ``space::target_name`` is of a bundled project, or of a found package ``target_name``."""
     return run.is_bundled(space) or (space not in run.packages.prefixes and target_name in run.packages.prefixes)
 
 
