@@ -103,12 +103,12 @@ class LaunchAction(NamedTuple):
 
     @property
     def has_scope(self) -> bool:
-        """True if settings made inside are restored at the end: a group, unless it is unscoped."""
+        """True if settings inside end with the action: a group, unless it is unscoped."""
         return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 
 ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]
-"""Kind of the thing that a launch file names and starts or reads; "package" is a package alone.
+"""Kind of the thing that a launch file names and starts or reads; "package" is a package without anything in it.
 
 For "program", the package is a rosdep key.
 """
