@@ -153,7 +153,7 @@ def presence(package: str) -> str:
 
 
 def package_of_presence(text: str) -> str:
-    """Return the package if a text is the symbolic truth of :func:`presence`, "" otherwise."""
+    """Return the package of a text made by :func:`presence`, "" for any other text."""
     return text[1:] if text.startswith(_PRESENT) else ""
 
 

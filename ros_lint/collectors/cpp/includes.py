@@ -66,7 +66,7 @@ _STANDARD = (
     "string.h tgmath.h threads.h time.h uchar.h wchar.h wctype.h"
 )
 STANDARD = frozenset(_STANDARD.split())
-"""Headers of the C and C++ standard libraries, which half of all includes name."""
+"""Headers of the C and C++ standard libraries; about half of all includes name one of them."""
 
 
 _NONE: frozenset[int] = frozenset()
@@ -382,7 +382,7 @@ def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
     """Return the value of a condition, or None if it depends on the build.
 
-    ``first``: no directive precedes it.
+    ``first`` is True if no other directive precedes it.
     """
     word, condition = match[5], _without_comments(match[6])
     if word in ("if", "elif"):

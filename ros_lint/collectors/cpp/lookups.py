@@ -97,7 +97,7 @@ def _try_start(text: str, end: int) -> int:
 
 
 def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
-    """Yield the place of the first literal, the package and the path of files that are looked up."""
+    """Yield each looked-up file: the place of its first literal, its package and its path."""
     variables: dict[str, set[str]] = {}
     for call in calls:
         if call[1] == "get_package_prefix":

@@ -49,7 +49,7 @@ def introduced(text: bytes) -> Mapping[str, set[bytes]]:
 
 
 def namespaces(text: bytes) -> frozenset[bytes]:
-    """Return the parts of the names of the namespaces that C++ code opens."""
+    """Return the namespaces that C++ code opens; ``namespace a::b`` opens ``a`` and ``b``."""
     return frozenset(part for name in _NAMESPACE.findall(text) for part in name.split(b"::"))
 
 

@@ -288,7 +288,7 @@ class _Layout:
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
-        """Return the span from the first of the comments directly above an item to the item."""
+        """Return the first of the comments directly above an item, or the item itself."""
         at = self.items.index(span)
         while at and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:

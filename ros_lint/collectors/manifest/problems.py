@@ -280,7 +280,7 @@ def _self_dependencies(depends: _Depends, own_name: str) -> Iterator[Fault]:
 
 
 def _duplicates(depends: _Depends) -> Iterator[Fault]:
-    """Yield dependencies that repeat a <depend> with equal name, versions and condition, letter by letter."""
+    """Yield dependencies that repeat a <depend> with the same name, versions and condition text."""
     first_depends = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
     if not first_depends:
         return

@@ -226,7 +226,7 @@ class _Walk:
 
 
 class _PackageFiles:
-    """The files of one package."""
+    """Collects the files of one package, and the manifests and folders that are not part of it."""
 
     def __init__(self, tree: Tree, package: str, roots: tuple[str, ...]) -> None:
         self._tree = tree

@@ -1,6 +1,6 @@
 """Find types of other packages that C++ code uses by unqualified names.
 
-Neither an include nor the name of the package is in the code. Examples:
+The code contains neither an include of the package nor its name. Examples:
 
 * `route_handler::RouteHandler` inside the outer namespace of both packages,
 * a class, through a using-declaration of a third package,

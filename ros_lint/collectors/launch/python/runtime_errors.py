@@ -2,8 +2,8 @@
 
 - A name that is not defined.
 - A substitution used as a text.
-- A number where launch takes texts.
-- A function where launch takes a condition.
+- A number where launch accepts only texts.
+- A function where launch expects a condition.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all nodes in comparisons; a text that is formatted there is only compared."""
+    """Return all nodes in comparisons. A substitution formatted there is only compared, not launched."""
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 
