@@ -165,7 +165,7 @@ def certain_part(text: str) -> str:
 
 
 def is_plain(text: str) -> bool:
-    """Return whether a text is fully known."""
+    """Return whether a text is fully known: it contains no marks for values that are known only at launch."""
     return text.isascii() or not _ANY_MARK.search(text)
 
 
@@ -175,7 +175,7 @@ def is_settled(text: str) -> bool:
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Yield the launch configurations of a text: name, whether it has a default, and its symbolic text."""
+    """Yield the launch configurations in a text: name, True if it has a default, and the text of its marks."""
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark), match[0]
@@ -187,7 +187,7 @@ def runs_xacro(text: str) -> bool:
 
 
 def is_node_renaming(word: str) -> bool:
-    """Return whether an argument may rename a node or change its namespace (``-r __ns:=/front``)."""
+    """Return whether an argument of a node may change its name or namespace (``-r __ns:=/front``)."""
     return any(mark in word for mark in _RENAMES)
 
 

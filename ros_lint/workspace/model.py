@@ -29,12 +29,15 @@ class Declared(NamedTuple):
     """A dependency tag whose condition is not false for the target."""
 
     depend: Depend
+    """The tag."""
     role: Role
+    """Purposes that the tag declares."""
     certain: bool
     """False if the condition reads a variable whose value is unknown."""
 
     @property
     def name(self) -> str:
+        """Name of the package or rosdep key."""
         return self.depend.name
 
     @property
@@ -61,10 +64,13 @@ class Package(NamedTuple):
     manifest: Manifest | None
     """The package.xml, with its problems, even if colcon cannot use it."""
     declared: tuple[Declared, ...]
+    """Dependency tags, without those whose condition (REP 149) is false."""
     groups: tuple[str, ...]
     """Dependency groups that the package is a member of."""
     group_depends: tuple[Declared, ...]
+    """``<group_depend>`` tags, without those whose condition is false."""
     colcon_depends: tuple[ColconDepend, ...]
+    """Dependencies from ``colcon.pkg``, ``colcon.meta`` or a build script without a manifest."""
     files: tuple[str, ...]
     """Files below the folder, sorted and relative to it, without nested packages and skipped folders."""
     unvisited_folders: tuple[str, ...]
@@ -72,11 +78,15 @@ class Package(NamedTuple):
     nested: tuple[Manifest, ...]
     """Manifests in subfolders, which colcon does not find."""
     script: BuildScript | None
+    """The evaluated CMakeLists.txt or setup.py; None if there is none."""
     launch: tuple[LaunchFile, ...]
+    """Launch files of the package, also those that are not installed."""
     uses: tuple[Use, ...]
+    """Places in the sources, launch files and build script that need another package."""
     textual_mentions: Mapping[str, Span]
     """For declared names without a use: a place where a text of the package contains the name."""
     opaque: tuple[Opaque, ...]
+    """Places that could not be evaluated. Ask :meth:`hidden` for those that matter to a rule."""
     possibly_used: frozenset[str] = frozenset()
     """Names that CMake finds and no code certainly uses, although other evidence suggests a use."""
     registrations: tuple[Registration, ...] = ()
@@ -179,13 +189,7 @@ class Package(NamedTuple):
 
 
 class Workspace:
-    """All packages of a run, with the knowledge and the target distribution.
-
-    ``packages`` are the packages that colcon finds, sorted by path; two may have the same name. ``unusable`` are
-    folders with a ``package.xml`` in which colcon finds no package, named as in the manifest. ``source_lists`` are
-    files that list repositories of the workspace, which need not be cloned: ``*.repos``, ``*.rosinstall``,
-    ``.gitmodules``. ``ignores`` are the patterns of ``.gitignore`` files.
-    """
+    """All packages of a run, with look-ups of released packages and the target distribution."""
 
     def __init__(
         self,
@@ -198,17 +202,27 @@ class Workspace:
         ignores: tuple[gitignore.Pattern, ...] = (),
     ) -> None:
         self.packages = packages
+        """The packages that colcon finds, sorted by path; two may have the same name."""
         self.unusable = unusable
+        """Folders with a ``package.xml`` in which colcon finds no package, named as in the manifest."""
         self.world = world
+        """Look-ups of names in the workspace, in underlays and among released packages."""
         self.target = target
+        """The ROS distribution of the run."""
         self.not_checked = not_checked
+        """Files that could not be read, and data that is missing."""
         self.source_lists = source_lists
+        """Files that list repositories of the workspace: ``*.repos``, ``*.rosinstall``, ``.gitmodules``.
+
+        The repositories need not be cloned.
+        """
         self._ignores = ignores
         self.memo: dict[object, Any] = {}
-        """Results of functions with a cache (:mod:`ros_lint.analysis.memo`)."""
+        """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
+        """The packages by the name in ``package.xml``."""
         packages: dict[str, tuple[Package, ...]] = {}
         for package in self.packages:
             packages[package.name] = (*packages.get(package.name, ()), package)

@@ -17,6 +17,7 @@ class TargetDistro(NamedTuple):
     """The ROS distribution that the workspace is checked for."""
 
     distro: str
+    """Name of the distribution, such as "jazzy"."""
     source: str
     """Origin of the choice, such as ``--distro``, for messages."""
     explicit: bool = True
@@ -37,8 +38,11 @@ class UnreadFile(NamedTuple):
     """An input that could not be checked. ``what`` is the path of a file, or another description."""
 
     what: str
+    """Path of the file, or name of the missing data."""
     reason: str
+    """Reason, for messages."""
     span: Span | None
+    """Place of the file; None for missing data."""
 
     @classmethod
     def of(cls, path: str, error: OSError) -> UnreadFile:

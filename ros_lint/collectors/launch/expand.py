@@ -29,17 +29,23 @@ class Started(NamedTuple):
     kind: str
     """``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Alternatives, () if there is no package. A text contains UNKNOWN where a part of it is unknown."""
+    """Alternatives, () if there is no package. A text with an unknown part is not plain (``launch.is_plain``)."""
     target: Texts
     """The executable, the component class, the command line or the path of the included file."""
     name: Texts
+    """Name that the launch file gives to the node, () if it sets none."""
     namespace: Texts
+    """Full namespace of the node."""
     parameters: tuple[tuple[str, Texts], ...]
+    """Parameters by name; a parameter file has the name ""."""
     remappings: tuple[tuple[Texts, Texts], ...]
+    """Old name and new name."""
     arguments: tuple[tuple[str, Texts], ...]
+    """Arguments of an include by name."""
     certain: bool
     """False if it is started under a condition that is unknown."""
     span: Span
+    """Place of the action."""
     depth: int
     """The number of includes between the launched file and this action."""
     container: Texts = ()
@@ -64,9 +70,13 @@ class Argument(NamedTuple):
     """A declared launch argument and its value in this run."""
 
     name: str
+    """Name of the argument."""
     texts: Texts
+    """Possible values."""
     span: Span
+    """Place of the declaration."""
     depth: int
+    """Number of includes between the launched file and the declaration."""
     given: bool
     """True if the caller or the including file passes the value, False if it is the default."""
 
@@ -75,6 +85,7 @@ class Missing(NamedTuple):
     """A required launch argument that no caller passes."""
 
     name: str
+    """Name of the argument."""
     span: Span
     """The place of the declaration."""
     include: Span | None = None
@@ -85,8 +96,11 @@ class Refused(NamedTuple):
     """A value that is not among the choices of its launch argument."""
 
     name: str
+    """Name of the argument."""
     value: str
+    """The value."""
     choices: tuple[str, ...]
+    """The values that the argument accepts."""
     span: Span
     """The place of the declaration."""
 
@@ -104,13 +118,17 @@ class Expansion(NamedTuple):
     """Everything that a launch file starts, in order."""
 
     started: tuple[Started, ...]
+    """Nodes, components, processes and includes."""
     missing: tuple[Missing, ...]
+    """Required arguments without a value."""
     complete: bool
     """False if the expansion stopped early, because includes are cyclic or a limit was exceeded."""
     arguments: tuple[Argument, ...] = ()
     """The arguments in the order of their declarations."""
     refused: tuple[Refused, ...] = ()
+    """Values that are not among the choices of their arguments."""
     circles: tuple[Circle, ...] = ()
+    """Includes that never end."""
 
 
 def expand(
@@ -218,6 +236,20 @@ class _Run:
             case "set":
                 for name in self._texts(action.target, scope):
                     self._set(scope, name, self._texts(action.value, scope), scope.certain)
+            case "unset":
+                for name in self._texts(action.target, scope):
+                    if scope.certain:
+                        scope.values.pop(name, None)
+                    elif name in scope.values:
+                        self._set(scope, name, (UNKNOWN,), certain=False)
+            case "unset_environment":
+                names = self._texts(action.target, scope)
+                pairs = tuple((name, () if scope.certain else (UNKNOWN,)) for name in names)
+                return outer._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
+            case "reset":
+                return outer.after(self._reset(action, scope))
+            case "reset_environment":
+                return outer._replace(environment=tuple((name, (UNKNOWN,)) for name, _ in scope.environment if not scope.certain))
             case "namespace" | "parameter" | "remap" | "environment":
                 return outer.after(self._pushed(action, scope))
             case "group":
@@ -259,6 +291,20 @@ class _Run:
             scope.values[name] = texts
         else:
             scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
+
+    def _reset(self, action: LaunchAction, scope: Scope) -> Scope:
+        """Clear the launch configurations, and return the scope after it.
+
+        Namespaces, parameters and remappings that hold for later nodes are launch configurations of launch_ros.
+        """
+        kept = {name: self._texts(value, scope) for name, value in action.arguments}
+        if scope.certain:
+            scope.values.clear()
+            scope.values.update(kept)
+            return scope._replace(namespace=("",), parameters=(), remappings=())
+        for name in scope.values:
+            self._set(scope, name, kept.get(name, (UNKNOWN,)), certain=False)
+        return scope._replace(namespace=(*scope.namespace, ""))
 
     def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
         """Return a scope with the setting that an action makes for all later actions."""
@@ -355,7 +401,7 @@ class _Run:
             self._depth,
             scope.container if action.kind == "component" else (),
             (
-                *(scope.environment if action.kind in ("node", "process") else ()),
+                *(pair for pair in scope.environment if pair[1] and action.kind in ("node", "process")),
                 *((name[1:], texts) for name, texts in named if name.startswith("$")),
             ),
             unknown=tuple(self._filling.unknown),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchCondition, LaunchValue
 
 Texts = tuple[str, ...]
+"""Alternative texts."""
 
 
 class Scope(NamedTuple):
@@ -30,6 +31,7 @@ class Scope(NamedTuple):
     parameters: tuple[tuple[str, Texts], ...] = ()
     remappings: tuple[tuple[Texts, Texts], ...] = ()
     environment: tuple[tuple[str, Texts], ...] = ()
+    """Variables by name; one that is unset has no texts."""
     container: Texts = ()
     when: tuple[LaunchCondition, ...] = ()
     later: bool = False
@@ -87,7 +89,8 @@ class Filling:
     def _value(self, name: str, scope: Scope) -> Texts | None:
         if not name.startswith("$"):
             return scope.values.get(name)
-        return dict(scope.environment).get(name[1:]) or self._environment.get(name)
+        changed = dict(scope.environment)
+        return changed[name[1:]] or None if name[1:] in changed else self._environment.get(name)
 
     def _reasons(self, text: str, scope: Scope) -> Iterator[str]:
         """Yield the reasons why a text is unknown."""

@@ -71,6 +71,8 @@ def collect(source: Text) -> Manifest:
         tuple(content.strays),
         _indent(text.text, document),
         text.newline,
+        source.text,
+        source.codec,
     )
 
 

@@ -21,40 +21,47 @@ MOST_DEPTH = 20
 
 
 class ConditionError(ValueError):
-    """A condition that cannot be parsed.
-
-    ``offset`` counts code points, from 0 to the length of the condition.
-    """
+    """A condition that cannot be parsed."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
         self.message: Final = message
+        """Reason, without the condition."""
         self.offset: Final = offset
+        """Place in the condition: 0 to its length, in code points."""
 
 
 class Operand(NamedTuple):
     """An operand of a comparison: the value of a variable, or a text."""
 
     text: str
+    """Name of the variable, or the text."""
     variable: bool
+    """True for the value of a variable."""
 
 
 class Comparison(NamedTuple):
     """A comparison of two strings as strings: "10" is less than "9"."""
 
     left: Operand
+    """Left operand."""
     operator: str
+    """``==``, ``!=``, ``<``, ``<=``, ``>`` or ``>=``."""
     right: Operand
+    """Right operand."""
 
 
 class Junction(NamedTuple):
     """Conditions joined by ``and`` (all have to hold) or by ``or``."""
 
     every: bool
+    """True for ``and``, false for ``or``."""
     parts: tuple[Condition, ...]
+    """The joined conditions, at least two."""
 
 
 Condition = Comparison | Junction
+"""A parsed condition."""
 
 _OPERATORS: dict[str, Callable[[str, str], bool]] = {
     "==": operator.eq,

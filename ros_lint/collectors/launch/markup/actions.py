@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from ros_lint.collectors.launch.groups import group
 from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected
 from ros_lint.collectors.symbolic_text import UNKNOWN
@@ -72,8 +73,11 @@ def _append_environment(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _unset_environment(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    reader.text(entity, "name")
-    return LaunchAction("other", entity.span, conditions=conditions)
+    return LaunchAction("unset_environment", entity.span, target=reader.text(entity, "name"), conditions=conditions)
+
+
+def _reset_environment(reader: Reader, entity: Entity) -> LaunchAction:
+    return LaunchAction("reset_environment", entity.span, conditions=reader.conditions(entity))
 
 
 def _bare(reader: Reader, entity: Entity) -> LaunchAction:
@@ -82,7 +86,7 @@ def _bare(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _reset(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    return LaunchAction("other", entity.span, arguments=reader.named(entity, "keep"), conditions=conditions)
+    return LaunchAction("reset", entity.span, arguments=reader.named(entity, "keep"), conditions=conditions)
 
 
 def _log(reader: Reader, entity: Entity) -> LaunchAction:
@@ -99,14 +103,11 @@ def _shutdown(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _group(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    scoped = entity.get("scoped", "bool")
-    entity.get("forwarding", "bool")
+    scoped = entity.get("scoped", "bool") is not False
+    forwarding = entity.get("forwarding", "bool") is not False
     configurations = reader.named(entity, "keep")
     children = reader.actions(child for child in entity.actions() if child.tag != "keep")
-    name = LaunchValue((UNSCOPED,), entity.span) if scoped is False else None
-    return LaunchAction(
-        "group", entity.span, name=name, arguments=configurations, conditions=conditions, children=tuple(children)
-    )
+    return group(entity.span, children, configurations, conditions, scoped=scoped, forwarding=forwarding)
 
 
 def _timer(reader: Reader, entity: Entity) -> LaunchAction:
@@ -160,7 +161,7 @@ TAG_READERS: Mapping[str, TagReader] = {
     "set_env": _assignment("environment"),
     "append_env": _append_environment,
     "unset_env": _unset_environment,
-    "reset_env": _bare,
+    "reset_env": _reset_environment,
     "reset": _reset,
     "for": _loop,
     "for_each": _loop,

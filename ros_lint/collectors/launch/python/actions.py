@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ros_lint.base.text import Span
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.expressions import means_true
+from ros_lint.collectors.launch.groups import group
 from ros_lint.collectors.launch.python import events, nodes
 from ros_lint.collectors.launch.python.nodes import nested, started_node
 from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_text, texts
@@ -18,7 +19,7 @@ from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.protocol import Interpreter
 from ros_lint.collectors.python.interpreter.values import Conditions, LaunchObject, Source, Value, alternatives, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 _MAX_TEXTS = 2_000
 
@@ -160,21 +161,36 @@ def _single_value(kind: str, *names: str) -> ActionBuilder:
 
 def _group(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     children = walker.actions(launch_object.get(0, "actions"), (), place_of(launch_object))
+    configurations = tuple(_configurations(walker, launch_object, -1))
     scoped = plain(launch_object.get(-1, "scoped")) is not False
-    configurations = tuple(_group_configurations(walker, launch_object))
-    name = None if scoped else LaunchValue((UNSCOPED,), place_of(launch_object))
-    return [
-        LaunchAction(
-            "group", place_of(launch_object), name=name, arguments=configurations, conditions=conditions, children=tuple(children)
-        )
-    ]
+    forwarding = plain(launch_object.get(-1, "forwarding")) is not False
+    return [group(place_of(launch_object), children, configurations, conditions, scoped=scoped, forwarding=forwarding)]
 
 
-def _group_configurations(walker: Walker, launch_object: LaunchObject) -> Iterator[tuple[str, LaunchValue]]:
-    configurations = plain(launch_object.get(-1, "launch_configurations"))
+def _configurations(walker: Walker, launch_object: LaunchObject, position: int) -> Iterator[tuple[str, LaunchValue]]:
+    configurations = plain(launch_object.get(position, "launch_configurations"))
     if isinstance(configurations, dict):
         for name, value in configurations.items():
-            yield str(name), walker.text(value, launch_object.written(-1, "launch_configurations"), launch_object.source)
+            yield str(name), walker.text(value, launch_object.written(position, "launch_configurations"), launch_object.source)
+
+
+def _reset(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    kept = tuple(_configurations(walker, launch_object, 0))
+    return [LaunchAction("reset", place_of(launch_object), arguments=kept, conditions=conditions)]
+
+
+def _unset(kind: str) -> ActionBuilder:
+    def rule(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        return [LaunchAction(kind, place_of(launch_object), target=walker.value(launch_object, 0, "name"), conditions=conditions)]
+
+    return rule
+
+
+def _bare(kind: str) -> ActionBuilder:
+    def rule(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+        return [LaunchAction(kind, place_of(launch_object), conditions=conditions)]
+
+    return rule
 
 
 def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
@@ -248,8 +264,10 @@ _BUILDERS: Mapping[str, ActionBuilder] = {
     "LogInfo": _no_action,
     "Shutdown": _no_action,
     "EmitEvent": _no_action,
-    "UnsetEnvironmentVariable": _no_action,
-    "UnsetLaunchConfiguration": _no_action,
+    "UnsetEnvironmentVariable": _unset("unset_environment"),
+    "UnsetLaunchConfiguration": _unset("unset"),
+    "ResetEnvironment": _bare("reset_environment"),
+    "ResetLaunchConfigurations": _reset,
     "SetUseSimTime": _no_action,
     "ReadyToTest": _no_action,
 }
