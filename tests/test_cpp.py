@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from ros_lint.base.text import Span, Text, read
 from ros_lint.collectors.cpp import collect as cpp
-from ros_lint.collectors.cpp.includes import STANDARD, IncludeScan, exact, mentions
+from ros_lint.collectors.cpp.includes import STANDARD, IncludeScan, scan_exactly, scan_includes
 from ros_lint.facts.sources import Mention
 
 pytestmark = pytest.mark.slow
@@ -21,8 +21,8 @@ pytestmark = pytest.mark.slow
 def includes(text: str) -> IncludeScan:
     """Return the result of both scans for includes. Checks that they are equal."""
     source = Text("a.cpp", text)
-    result = mentions(source)
-    precise = exact(source)
+    result = scan_includes(source)
+    precise = scan_exactly(source)
     assert (result.mentions, result.computed) == (precise.mentions, precise.computed)
     assert all(text.find(mention.name, at) >= at for mention, at in zip(result.mentions, result.code, strict=True))
     return result
@@ -345,7 +345,7 @@ def test_fast_and_exact_scans_agree_on_real_sources() -> None:
     assert sources
     for path in sources:
         source = read(str(path), path.read_bytes())
-        result, precise = mentions(source), exact(source)
+        result, precise = scan_includes(source), scan_exactly(source)
         assert (result.mentions, result.computed) == (precise.mentions, precise.computed), path
 
 

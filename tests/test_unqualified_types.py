@@ -4,7 +4,7 @@ import pytest
 
 from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
-from ros_lint.collectors.cpp.types import declared, introduced
+from ros_lint.collectors.cpp.types import declared_types, interface_aliases
 from ros_lint.facts.sources import FileFacts, Mention
 from ros_lint.workspace.usage.package_files import PackageSource
 from ros_lint.workspace.usage.unqualified_types import Types
@@ -14,8 +14,8 @@ DATA = b"using nav_msgs::msg::Odometry;\nusing Line = nav_msgs::msg::Path;\n"
 
 
 def test_declared_types_are_found() -> None:
-    assert declared(ROUTE) == {b"RouteHandler", b"Node"}
-    assert declared(b"enum class Mode : int { A };\nenum Kind { B };\nstruct Point final { };") == {
+    assert declared_types(ROUTE) == {b"RouteHandler", b"Node"}
+    assert declared_types(b"enum class Mode : int { A };\nenum Kind { B };\nstruct Point final { };") == {
         b"Mode",
         b"Kind",
         b"Point",
@@ -23,7 +23,7 @@ def test_declared_types_are_found() -> None:
 
 
 def test_aliases_of_interface_types_are_found() -> None:
-    assert introduced(DATA) == {"nav_msgs": {b"Odometry", b"Line"}}
+    assert interface_aliases(DATA) == {"nav_msgs": {b"Odometry", b"Line"}}
 
 
 def source(name: str, files: dict[str, bytes], mentions: tuple[str, ...] = ()) -> PackageSource:

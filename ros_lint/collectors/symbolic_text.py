@@ -64,7 +64,7 @@ _RENAMES = ("__node:=", "__name:=", "__ns:=")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
-class Installed(NamedTuple):
+class InstallPlace(NamedTuple):
     """A place in the install space of a package."""
 
     package: str
@@ -259,7 +259,7 @@ def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozens
     return frozenset(result)
 
 
-def installed(text: str) -> Iterator[Installed]:
+def installed(text: str) -> Iterator[InstallPlace]:
     """Yield the install places in a text: one path, or several in a command line."""
     if _ROOT not in text:
         return
@@ -270,10 +270,10 @@ def installed(text: str) -> Iterator[Installed]:
                 parts.pop()
             elif part not in ("", ".", ".."):
                 parts.append(part)
-        yield Installed(match[1], "/".join(parts))
+        yield InstallPlace(match[1], "/".join(parts))
 
 
-def installed_place(text: str) -> Installed | None:
+def installed_place(text: str) -> InstallPlace | None:
     """Return the only install place in a text, None if there is none or there are several."""
     places = list(installed(text))
     return places[0] if len(places) == 1 else None

@@ -171,12 +171,12 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
                 call.machine.named.setdefault(text, (at, source))
 
 
-_ADDS = frozenset({"add_action", "add_entity", "append"})
+_ADD_METHODS = frozenset({"add_action", "add_entity", "append"})
 
 
 def _method(call: Call, owner: LaunchObject) -> Value:
     machine, name = call.machine, call.name
-    if name in _ADDS and owner.name == "LaunchDescription":
+    if name in _ADD_METHODS and owner.name == "LaunchDescription":
         machine.spend(1)
         owner.entities.append(machine.guard(call.get(0, "action", "entity")))
         return None
