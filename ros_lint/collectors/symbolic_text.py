@@ -102,7 +102,7 @@ def share(package: str) -> str:
 
 
 def configuration(name: str, default: str | None = None) -> str:
-    """Return the symbolic value of a launch configuration; ``default`` is its value if it is not set."""
+    """Return the symbolic value of a launch configuration; ``default`` is its value if nothing sets it."""
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
 

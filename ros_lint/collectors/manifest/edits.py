@@ -59,7 +59,10 @@ def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
 
 
 def _insert_by_order(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, element: str) -> Edit:
-    """Return the edit for an element at the place of ``order``, the name if names are sorted, else ""."""
+    """Return the edit that inserts an element for a dependency.
+
+    ``order`` is its name if the dependencies of the kind are sorted by name, else "".
+    """
     manifest = layout.manifest
     siblings = [depend for depend in depends if depend.tag == tag]
     if siblings:
