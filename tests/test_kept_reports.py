@@ -285,16 +285,16 @@ def test_a_tree_that_changes_while_it_is_read_is_not_trusted(tmp_path: Path) -> 
     with pytest.raises(FileNotFoundError):
         recorded.read("a")
     assert recorded.list("") == []
-    assert again(recorded).still_says(recorded.said.items())
+    assert again(recorded).is_unchanged(recorded.answers.items())
     (tmp_path / "a").write_text("x")
-    assert not again(recorded).still_says(recorded.said.items())
+    assert not again(recorded).is_unchanged(recorded.answers.items())
     assert recorded.steady
     recorded.list("")
     assert not recorded.steady
     file = again(recorded)
     assert file.read("a") == b"x"
     os.utime(tmp_path / "a", ns=(1, 1))
-    assert not again(file).still_says(file.said.items())
+    assert not again(file).is_unchanged(file.answers.items())
 
 
 def test_what_was_said_just_now_is_not_asked_for_again(tmp_path: Path) -> None:
@@ -305,7 +305,7 @@ def test_what_was_said_just_now_is_not_asked_for_again(tmp_path: Path) -> None:
     (tmp_path / "gone").rmdir()
     second = again(first)
     assert second.identity("") == said[0]
-    assert not second.still_says(first.said.items())
+    assert not second.is_unchanged(first.answers.items())
     assert second.list("") != said[1]
     with pytest.raises(FileNotFoundError) as raised:
         second.list("gone")
@@ -314,4 +314,4 @@ def test_what_was_said_just_now_is_not_asked_for_again(tmp_path: Path) -> None:
     assert (raised.value.errno, raised.value.strerror) == (real.value.errno, real.value.strerror)
     assert second.stamp("a") == said[3]
     assert second.steady
-    assert set(second.said) == {("identity", ""), ("list", ""), ("list", "gone"), ("stamp", "a")}
+    assert set(second.answers) == {("identity", ""), ("list", ""), ("list", "gone"), ("stamp", "a")}

@@ -1,4 +1,4 @@
-"""XML as a tree with exact offsets. Entities and external files are not resolved."""
+"""XML as a tree of elements with exact offsets. Entities and external files are not resolved."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class Element:
 
     def walk(self) -> Iterator[Element]:
         """Yield the element and its descendants in document order."""
-        waiting = [self]
-        while waiting:
-            found = waiting.pop()
-            yield found
-            waiting += reversed(found.children)
+        stack = [self]
+        while stack:
+            element = stack.pop()
+            yield element
+            stack += reversed(element.children)
 
 
 _DEEPEST = 200
@@ -61,7 +61,10 @@ def parse(text: str) -> Element:
 
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
-    """Return the root as created by ``make`` from tag, attributes and offset; see :func:`parse`."""
+    """Return the root element of a text. ``make`` creates an element from tag, attributes and offset.
+
+    Raises XmlError like :func:`parse`.
+    """
     data = unmarked(to_bytes(text))
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
@@ -94,15 +97,16 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
 
 
 def unmarked(data: bytes) -> bytes:
-    """Return the bytes for expat, with a leading byte order mark replaced.
+    """Return the bytes for expat, with a leading byte order mark replaced by an invalid character.
 
-    The first mark was removed when the file was decoded. A second one is an error, but expat would skip it.
+    The first mark was removed when the file was decoded, so this is a second one. It is an error that expat would
+    ignore.
     """
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 
 
 def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
-    """Return the start and end offsets of the attribute values between their quotes."""
+    """Return the start and end offsets of each attribute value, without its quotes, by attribute name."""
     name = _NAME.match(text, element.start)
     at = name.end() if name else element.start
     places = {}

@@ -25,10 +25,10 @@ class ReportCache:
     else.
     """
 
-    def __init__(self, folder: str, base: str, asked: str, data: Iterable[str]) -> None:
+    def __init__(self, folder: str, base: str, options: str, data: Iterable[str]) -> None:
         self._start = f"{digest(os.path.realpath(base))}-" if folder else ""
         self._folder = folder
-        self._file = os.path.join(folder, f"{self._start}{digest(asked)}.report") if folder else ""
+        self._file = os.path.join(folder, f"{self._start}{digest(options)}.report") if folder else ""
         own = files_below(SOURCES)
         self._state = state_of([*own, *data]) if folder else ""
 
@@ -45,8 +45,8 @@ class ReportCache:
             return None
         report, *answers = kept
         try:
-            return report if all(tree.still_says(of_tree) for tree, of_tree in zip(trees, answers, strict=True)) else None
-        except (TypeError, ValueError):  # not a list of questions, answers and paths
+            return report if all(tree.is_unchanged(recorded) for tree, recorded in zip(trees, answers, strict=True)) else None
+        except (TypeError, ValueError):  # not a list of queries, paths and answers
             return None
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
@@ -55,7 +55,7 @@ class ReportCache:
             return
         bare = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
         issues = tuple([issue._replace(rule=bare[issue.rule.name]) for issue in report.issues])
-        answers = ([(question, _bare(answer)) for question, answer in tree.said.items()] for tree in trees)
+        answers = ([(query, _bare(answer)) for query, answer in tree.answers.items()] for tree in trees)
         if kept_files.save(self._file, self._state, (report._replace(issues=issues, rules=tuple(bare.values())), *answers)):
             self._clear()
 
@@ -63,13 +63,15 @@ class ReportCache:
         """Remove the oldest reports of the workspace."""
         try:
             with os.scandir(self._folder) as entries:
-                mine = [(entry.stat().st_mtime_ns, entry.path) for entry in entries if entry.name.startswith(self._start)]
-            for _, path in sorted(mine)[:-_MOST_REPORTS]:
+                reports = [(entry.stat().st_mtime_ns, entry.path) for entry in entries if entry.name.startswith(self._start)]
+            for _, path in sorted(reports)[:-_MOST_REPORTS]:
                 os.unlink(path)
         except OSError:
             return
 
 
-def _bare(told: Any) -> Any:
+def _bare(answer: Any) -> Any:
     """Return stamps and directory entries as plain tuples, which are equal to them and load faster."""
-    return [tuple(entry) for entry in told] if isinstance(told, list) else tuple(told) if isinstance(told, tuple) else told
+    if isinstance(answer, list):
+        return [tuple(entry) for entry in answer]
+    return tuple(answer) if isinstance(answer, tuple) else answer

@@ -9,7 +9,7 @@ import ast
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_lint.base.python_parser import compiled
+from ros_lint.base.python_parser import compile_error
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.launch.detect import entries
 from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
@@ -80,7 +80,7 @@ def collect(
 
 def _misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
     """Yield what the compiler of Python refuses, such as a keyword that is given twice."""
-    if (error := compiled(tree)) is not None:
+    if (error := compile_error(tree)) is not None:
         from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
 
         yield from misplaced(error, tree, source)
