@@ -43,7 +43,7 @@ def main() -> int:
     parser.add_argument("judged", nargs="+", metavar="JUDGED.tsv=WORKSPACE")
     parser.add_argument("--write", metavar="PAGE", help="put the tables between the marks of a page, not on standard output")
     options = parser.parse_args()
-    tables = "\n".join(table(*each.split("=", 1)) for each in options.judged)
+    tables = "\n".join(table(*pair.split("=", 1)) for pair in options.judged)
     if not options.write:
         print(tables)
         return 0
@@ -74,8 +74,8 @@ def table(judged: str, workspace: str) -> str:
             continue
         count = Counter(verdicts.get(pair, "unknown") for pair in answer.pairs)
         false = count["wrong"] + count["aside"]
-        found = count["missing"]
-        lines.append(f"| {name} | {found} | {total - found} | {count['brought']} | {false} | {count['unknown']} |")
+        correct = count["missing"]
+        lines.append(f"| {name} | {correct} | {total - correct} | {count['brought']} | {false} | {count['unknown']} |")
     return "\n".join((*lines, ""))
 
 
@@ -90,21 +90,21 @@ def read(path: str) -> tuple[str, Mapping[Pair, str]]:
 def _ros_lint(workspace: str, *more: str) -> Answer:
     done = _run("ros-lint", workspace, "--format", "json", "--fail-on", "never", "--no-cache", *more)
     findings = json.loads(done.stdout)["findings"]
-    return Answer(frozenset((each["package"], each["subject"]) for each in findings if each["rule"] in _RULES))
+    return Answer(frozenset((finding["package"], finding["subject"]) for finding in findings if finding["rule"] in _RULES))
 
 
 def _validator(workspace: str) -> Answer:
     """Of package-xml-validator, the pairs of its three ways to say that something is missing."""
     arguments = ("--missing-deps-only", "--compare-with-cmake", "--strict-cmake-checking", workspace)
     done = _run("package-xml-validator", *arguments)
-    said = done.stdout + done.stderr
+    output = done.stdout + done.stderr
     names = _names(workspace)
-    return Answer(frozenset((package, name) for folder, name in _missing(said) for package in names.get(folder, (folder,))))
+    return Answer(frozenset((package, name) for folder, name in _missing(output) for package in names.get(folder, (folder,))))
 
 
-def _missing(said: str) -> Iterator[Pair]:
+def _missing(output: str) -> Iterator[Pair]:
     folder = ""
-    for line in said.splitlines():
+    for line in output.splitlines():
         match = _MISSING.match(line)
         if match and match["here"]:
             yield from ((match[1], name.strip()) for name in match["here"].split(","))
@@ -116,12 +116,12 @@ def _missing(said: str) -> Iterator[Pair]:
 
 def _names(workspace: str) -> dict[str, list[str]]:
     """Return the names of packages by the names of their folders."""
-    found: dict[str, list[str]] = {}
+    names_of: dict[str, list[str]] = {}
     for folder, _, files in os.walk(workspace):
         if "package.xml" in files:
             name = ElementTree.parse(os.path.join(folder, "package.xml")).getroot().findtext("name") or ""
-            found.setdefault(os.path.basename(folder), []).append(name.strip())
-    return found
+            names_of.setdefault(os.path.basename(folder), []).append(name.strip())
+    return names_of
 
 
 def _unable(*command: str) -> Callable[[str], Answer]:
@@ -130,8 +130,8 @@ def _unable(*command: str) -> Callable[[str], Answer]:
     def run(workspace: str) -> Answer:
         done = _run(*command, ".", cwd=workspace)
         lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-        said = next((line for line in lines if _ERROR.search(line)), lines[-1] if lines else "says nothing")
-        return Answer(None, said.replace("|", "/")[:120])
+        message = next((line for line in lines if _ERROR.search(line)), lines[-1] if lines else "says nothing")
+        return Answer(None, message.replace("|", "/")[:120])
 
     return run
 

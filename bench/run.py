@@ -71,8 +71,8 @@ def row(workspace: str, rounds: int, jobs: int) -> str:
             for stage, run in stages.items():
                 costs[stage].append(run())
     ratios = {
-        stage: statistics.median(cost.seconds / least for cost, least in zip(found, floors, strict=True))
-        for stage, found in costs.items()
+        stage: statistics.median(cost.seconds / least for cost, least in zip(measured, floors, strict=True))
+        for stage, measured in costs.items()
     }
     memory = max(cost.memory for cost in costs["cold"]) / 2**20
     cells = [
@@ -132,8 +132,8 @@ def spend(command: Sequence[str], cache: str) -> Cost:
 def packages(workspace: str) -> int:
     """Return how many packages ros-lint finds."""
     command = [sys.executable, "-m", "ros_lint", "check", workspace, "--format", "json", "--fail-on", "never"]
-    found = subprocess.run(command, capture_output=True, check=False).stdout
-    return int(json.loads(found)["packages"])
+    output = subprocess.run(command, capture_output=True, check=False).stdout
+    return int(json.loads(output)["packages"])
 
 
 def starts(rounds: int) -> str:
@@ -145,7 +145,7 @@ def starts(rounds: int) -> str:
         least = spend(bare, "").seconds
         for name, arguments in commands.items():
             ratios[name].append(spend([sys.executable, "-m", "ros_lint", *arguments], "").seconds / least)
-    return "\n".join(f"| {name} | {statistics.median(found):.1f}× |" for name, found in ratios.items())
+    return "\n".join(f"| {name} | {statistics.median(values):.1f}× |" for name, values in ratios.items())
 
 
 if __name__ == "__main__":

@@ -174,11 +174,11 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
             yield f"{issue.finding.span}: unexpected [{issue.finding.confidence}]: {issue.finding.message}"
     yield from (f'{want.path}:{want.line}: missing {sorted(want.tags)}: "{want.text}"' for want in wanted)
 
-    if case.output is not None and (got := _output(tree, issues)) != case.output:
-        yield f"the output is\n{got}"
+    if case.output is not None and (actual := _output(tree, issues)) != case.output:
+        yield f"the output is\n{actual}"
     changed = fixed(tree, issues)
-    if case.diff is not None and (got := _diff(tree, changed)) != case.diff:
-        yield f"the fix is\n{got}"
+    if case.diff is not None and (actual := _diff(tree, changed)) != case.diff:
+        yield f"the fix is\n{actual}"
     if changed and not rule.fixable:
         yield "the rule has a fix, and is not marked as fixable"
     if changed:
@@ -196,12 +196,12 @@ def bless(case: Case, rule: Rule) -> None:
     tree = case.tree()
     issues = issues_of(tree, case, rule)
     new = {"output": _output(tree, issues), "diff": _diff(tree, fixed(tree, issues))}
-    head, found, rest = case.source.read_text("utf-8").partition(f"## {case.title}\n")
+    head, heading, rest = case.source.read_text("utf-8").partition(f"## {case.title}\n")
     body, more, tail = rest.partition("\n## ")
     for kind, text in new.items():
         block = f"```{kind}\n{text}```"
         body = _block(kind).sub(block.replace("\\", r"\\"), body)
-    case.source.write_text(head + found + body + more + tail, "utf-8")
+    case.source.write_text(head + heading + body + more + tail, "utf-8")
 
 
 def _block(kind: str) -> re.Pattern[str]:

@@ -22,11 +22,11 @@ exit codes: 0 no findings at or above --fail-on, 1 such findings, 2 the check co
 
 
 class _Parser(argparse.ArgumentParser):
-    def refuse(self, strange: Sequence[str]) -> NoReturn:
+    def refuse(self, unknown: Sequence[str]) -> NoReturn:
         """Exit because of unknown arguments."""
         known = [text for action in self._actions for text in action.option_strings]
-        hint = did_you_mean(similar_names(strange[0].partition("=")[0], known))
-        self.error(f"unrecognized arguments: {' '.join(strange)}{hint}")
+        hint = did_you_mean(similar_names(unknown[0].partition("=")[0], known))
+        self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
 
     def error(self, message: str) -> NoReturn:
         print(f"ros-lint: {message} (see ros-lint --help)", file=sys.stderr)
@@ -59,9 +59,9 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
         command, rest = "check", list(arguments)
     made = parser(command, top=not arguments or arguments[0] != command)
     # Options may be placed between paths, which argparse does not support for commands with actions.
-    namespace, strange = made.parse_known_args(rest) if command == "index" else made.parse_known_intermixed_args(rest)
-    if strange:
-        made.refuse(strange)
+    namespace, unknown = made.parse_known_args(rest) if command == "index" else made.parse_known_intermixed_args(rest)
+    if unknown:
+        made.refuse(unknown)
     return command, {name.replace("_", "-"): value for name, value in vars(namespace).items()}
 
 

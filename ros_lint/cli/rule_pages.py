@@ -57,14 +57,14 @@ def overview(rules: Sequence[Rule]) -> str:
     """Return the page that lists all rules in Markdown, with links to their pages."""
     parts = ["# Rules\n\nGenerated from the rules and their cases by `pytest --bless`. `ros-lint rule NAME` prints a page.\n"]
     for digit, heading in GROUPS.items():
-        mine = [rule for rule in rules if rule.code[3] == digit]
-        if not mine:
+        in_group = [rule for rule in rules if rule.code[3] == digit]
+        if not in_group:
             continue
         parts.append(f"\n## {heading}\n\n| code | rule | severity | default | fix | checks that |\n|---|---|---|---|---|---|\n")
         parts += [
             f"| {rule.code} | [{rule.name}]({rule.name}.md) | {rule.severity!s} | {'on' if rule.default else 'off'} "
             f"| {'yes' if rule.fixable else ''} | {rule.summary} |\n"
-            for rule in mine
+            for rule in in_group
         ]
     return "".join(parts)
 

@@ -69,18 +69,18 @@ class Session(NamedTuple):
         return self.roots[0] if len(self.roots) == 1 else ""
 
 
-def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
+def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
     """Return the workspace that the options name. It is not loaded yet.
 
-    ``said`` is the result of :func:`ros_lint.cli.arguments.parse`. Raises UsageError, ConfigError and KnowledgeError.
+    ``options`` is the result of :func:`ros_lint.cli.arguments.parse`. Raises UsageError, ConfigError and KnowledgeError.
     """
-    return open_session(parse_request(said, environment), progress)
+    return open_session(parse_request(options, environment), progress)
 
 
-def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
+def parse_request(options: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
     """Return the validated request. Raises UsageError and ConfigError."""
-    paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
-    for path, written in zip(paths, said.get("paths") or ["."], strict=True):
+    paths = [os.path.realpath(path) for path in options.get("paths") or ["."]]
+    for path, written in zip(paths, options.get("paths") or ["."], strict=True):
         if not os.path.exists(path):
             raise UsageError(f"{written}: no such file or directory{_command(written)}")
         if not os.path.isdir(path):
@@ -88,7 +88,7 @@ def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Re
     base = _base(paths)
     inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in paths)
     settings = settle(
-        {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
+        {name: value for name, value in options.items() if name != "paths"}, os.path.commonpath(paths), environment, base
     )
     places = (user_directory(environment),)
     target, warnings = _target(settings, places)
@@ -98,33 +98,33 @@ def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Re
     )
 
 
-def open_session(asked: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
+def open_session(request: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
     """Return a workspace that can be loaded. ``workspace`` and ``machine`` replace the trees on disk.
 
     Raises UsageError and KnowledgeError.
     """
     from ros_lint.workspace.loader import Loader  # noqa: PLC0415  (not needed for a cached report)
 
-    settings, base = asked.settings, asked.base
-    knowledge = Knowledge(asked.target.distro, asked.places)
-    underlays, unread = _underlays(settings, asked.target.distro, base, machine)
+    settings, base = request.settings, request.base
+    knowledge = Knowledge(request.target.distro, request.places)
+    underlays, unread = _underlays(settings, request.target.distro, base, machine)
     loader = Loader(
-        workspace or asked.disk,
-        asked.roots,
-        asked.target,
+        workspace or request.disk,
+        request.roots,
+        request.target,
         underlays=underlays,
         knowledge=knowledge,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=cache.FactCache(asked.cache, _kept_by(asked)),
+        cache=cache.FactCache(request.cache, _kept_by(request)),
         progress=progress,
     )
-    return Session(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
+    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread))
 
 
-def _kept_by(asked: Request) -> str:
+def _kept_by(request: Request) -> str:
     """Return the key of cached file facts: they depend on the folders that links may lead into."""
-    return asked.base if asked.inside == (asked.base,) else os.pathsep.join((asked.base, *asked.inside))
+    return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
 
 
 _OF_NO_MATTER = frozenset((
@@ -140,24 +140,24 @@ _LIBRARIES = ("libcst", "networkx", "yaml")
 """Libraries that take part in reading a workspace, so that their versions invalidate the cache."""
 
 
-def reports(asked: Request) -> ReportCache:
+def reports(request: Request) -> ReportCache:
     """Return the cached reports of a request.
 
     There are none if plugins are enabled, because the files that plugins consist of are not watched.
     """
-    settings = asked.settings
-    if not asked.cache or settings["plugins"]:
-        return ReportCache("", asked.base, "", ())
+    settings = request.settings
+    if not request.cache or settings["plugins"]:
+        return ReportCache("", request.base, "", ())
     from importlib.util import find_spec  # noqa: PLC0415
 
     values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
     rules = find_spec(BUILTIN)
-    folders = [*(rules.submodule_search_locations or () if rules else ()), *asked.places]
+    folders = [*(rules.submodule_search_locations or () if rules else ()), *request.places]
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
     data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
-    request_key = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
-    return ReportCache(asked.cache, asked.base, request_key, data)
+    request_key = repr((request.roots, request.inside, request.target, values, prefixes, settings.origin("underlay")))
+    return ReportCache(request.cache, request.base, request_key, data)
 
 
 def _underlays(
@@ -187,12 +187,13 @@ def _underlays(
     return tuple(result), tuple(warnings)
 
 
-def no_packages(asked: Request | Session) -> str:
+def no_packages(request: Request | Session) -> str:
     """Return the message for a run without packages."""
     from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (not needed for a cached report)
 
-    places = ", ".join(root or asked.base for root in asked.roots)
-    skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in discover(DiskTree(asked.base), asked.roots, {}).skipped]
+    places = ", ".join(root or request.base for root in request.roots)
+    folders = discover(DiskTree(request.base), request.roots, {}).skipped
+    skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in folders]
     if not skipped:
         return f"ros-lint: no package found below {places}; is there a package.xml?"
     more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""

@@ -66,23 +66,23 @@ class Settings:
         return "".join(f"{name:{width}} = {toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
 
 
-def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
+def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
     """Return the settings of a run. Raises ConfigError.
 
-    ``given`` has the values of the command line by option name. ``start`` is the absolute path of the workspace, from
+    ``arguments`` has the values of the command line by option name. ``start`` is the absolute path of the workspace, from
     which the configuration file is searched upwards. Of ``environment`` only the variables in the table of options are
     read.
     """
-    isolated = bool(given.get("isolated"))
-    path = "" if isolated else str(given.get("config") or "") or find(start)
-    if given.get("config") and not os.path.isfile(path):
+    isolated = bool(arguments.get("isolated"))
+    path = "" if isolated else str(arguments.get("config") or "") or find(start)
+    if arguments.get("config") and not os.path.isfile(path):
         raise ConfigError(f"{path}: no such configuration file")
     from_file, warnings = read(path) if path else ({}, ())
     shown = os.path.relpath(path, display) if path and display else path
     values: dict[str, Setting] = {}
     for option in OPTIONS:
-        if option.name in given:
-            values[option.name] = Setting(given[option.name], f"--{option.name}")
+        if option.name in arguments:
+            values[option.name] = Setting(arguments[option.name], f"--{option.name}")
         elif option.name in from_file:
             values[option.name] = Setting(_relative(option, from_file[option.name], path), shown)
         elif not isolated and option.environment and (variable := environment.get(option.environment)):

@@ -122,10 +122,10 @@ def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, byte
 _CHANGED = "changed since it was read; fix skipped"
 
 
-def _so_far(written: Sequence[str], left: Sequence[str]) -> str:
+def _so_far(written: Sequence[str], unwritten: Sequence[str]) -> str:
     if not written:
         return "nothing was changed"
-    return f"written already: {', '.join(written)}; not written: {', '.join(left)}"
+    return f"written already: {', '.join(written)}; not written: {', '.join(unwritten)}"
 
 
 def _is_still(target: str, before: bytes | None) -> bool:
@@ -193,8 +193,8 @@ _NEW_MODE = 0o644
 def _remove_left_over(folder: str) -> None:
     """Remove the temporary files of runs that were killed while they wrote into a folder."""
     with os.scandir(folder) as entries:
-        mine = [entry for entry in entries if _LEFT_OVER.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
-    for entry in mine:
+        leftovers = [entry for entry in entries if _LEFT_OVER.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
+    for entry in leftovers:
         with suppress(OSError):
             if time.time() - entry.stat().st_mtime > _OLD:
                 os.unlink(entry.path)
@@ -210,17 +210,17 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
         start = source.offset(span.line, span.column)
         end = source.offset(span.end_line, span.end_column)
-        put = _indented(_joined(at_place), text, start)
-        put = put.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else put
-        text = text[:start] + put + text[end:]
+        replacement = _indented(_joined(at_place), text, start)
+        replacement = replacement.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else replacement
+        text = text[:start] + replacement + text[end:]
     return text
 
 
-def _indented(put: str, text: str, start: int) -> str:
+def _indented(replacement: str, text: str, start: int) -> str:
     """Indent new lines with tabs if the line before them has tabs, because edits are indented with spaces."""
     line = text[text.rfind("\n", 0, start) + 1 : start]
     indent = line[: len(line) - len(line.lstrip(" \t"))]
-    return put.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else put
+    return replacement.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else replacement
 
 
 _BLANK = re.compile(r"\r\n|\n|\r")
@@ -228,17 +228,17 @@ _BLANK = re.compile(r"\r\n|\n|\r")
 
 def _joined(edits: Sequence[Edit]) -> str:
     """Return the joined text of edits of one place, without double blank lines."""
-    whole, kind = "", 0
+    result, kind = "", 0
     for edit in edits:
-        text, same = edit.text, edit.kind == kind != 0
-        apart = _BLANK.match(text)
-        if whole and edit.span.column == 1 and apart and (same or _ends_apart(whole)):
-            text = text[apart.end() :]
-        elif same and _ends_apart(whole):
-            whole = whole[: len(whole) - 2 if whole.endswith("\r\n") else -1]
-        whole += text
+        text, same_group = edit.text, edit.kind == kind != 0
+        blank_line = _BLANK.match(text)
+        if result and edit.span.column == 1 and blank_line and (same_group or _ends_apart(result)):
+            text = text[blank_line.end() :]
+        elif same_group and _ends_apart(result):
+            result = result[: len(result) - 2 if result.endswith("\r\n") else -1]
+        result += text
         kind = edit.kind
-    return whole
+    return result
 
 
 def _collide(a: Edit, b: Edit) -> bool:

@@ -54,19 +54,19 @@ def check(workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Su
 
     ``known`` are all rules that a comment can name.
     """
-    heard = tuple(suppressions)
+    comments = tuple(suppressions)
     issues, crashes = run(workspace, rules)
     ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
-    outcome = suppress.apply(issues, heard, known, ran)
+    outcome = suppress.apply(issues, comments, known, ran)
     about_comments = [
         Issue(rule, owner(workspace, finding.span.path), finding)
         for rule in rules
         if rule.suppressions
         for finding in rule.suppressions(outcome.use)
     ]
-    spared = suppress.apply(about_comments, heard, known, ran)  # a comment can suppress findings about itself
-    kept = tuple(sorted((*outcome.kept, *spared.kept), key=order))
-    return Checked(kept, tuple(issue for issue, _ in (*outcome.suppressed, *spared.suppressed)), crashes)
+    about_outcome = suppress.apply(about_comments, comments, known, ran)  # a comment can suppress findings about itself
+    kept = tuple(sorted((*outcome.kept, *about_outcome.kept), key=order))
+    return Checked(kept, tuple(issue for issue, _ in (*outcome.suppressed, *about_outcome.suppressed)), crashes)
 
 
 def order(issue: Issue) -> tuple[object, ...]:

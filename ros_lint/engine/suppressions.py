@@ -42,12 +42,12 @@ def apply(
     names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
     judging = {rule.name for rule in known if rule.suppressions}  # run later: not judged yet
     ordered = sorted(suppressions, key=lambda comment: comment.span.path)
-    whole = [
+    resolved = [
         (comment, [(name, names.get(name.text.lower())) for name in comment.names]) for comment in ordered if not comment.problem
     ]
     about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
-    for comment, means in whole:
-        for name, rule in means:
+    for comment, rules in resolved:
+        for name, rule in rules:
             if rule is not None:
                 about.setdefault((comment.span.path, rule), []).append((comment, name))
     indexes = {key: _Heard(entries) for key, entries in about.items()}
@@ -62,18 +62,18 @@ def apply(
             suppressed.append((issue, hits[0][0]))
         else:
             kept.append(issue)
-    idle = [
-        (comment, tuple([name for name, rule in means if rule in ran and rule not in judging and (comment, name) not in used]))
-        for comment, means in whole
+    unused = [
+        (comment, tuple([name for name, rule in rules if rule in ran and rule not in judging and (comment, name) not in used]))
+        for comment, rules in resolved
     ]
     unknown = [
-        Unknown(comment, name, _nearest(name.text, names)) for comment, means in whole for name, rule in means if rule is None
+        Unknown(comment, name, _nearest(name.text, names)) for comment, rules in resolved for name, rule in rules if rule is None
     ]
     return Outcome(
         tuple(kept),
         tuple(suppressed),
         SuppressionUse(
-            tuple([Unused(comment, unused_names) for comment, unused_names in idle if unused_names]),
+            tuple([Unused(comment, unused_names) for comment, unused_names in unused if unused_names]),
             tuple(unknown),
             tuple([comment for comment in ordered if comment.problem]),
         ),

@@ -34,8 +34,8 @@ def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
 
     ``places`` are folders that override the shipped data, e.g. :func:`ros_lint.knowledge.store.user_directory`.
     """
-    found = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
-    return tuple([Distribution(name, name != "rolling" and _is_long_term(name)) for name in found])
+    names = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
+    return tuple([Distribution(name, name != "rolling" and _is_long_term(name)) for name in names])
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:
@@ -105,7 +105,7 @@ class Knowledge:
         """Return what is known of a package in the distributions before ``distro``, and in those after it."""
         at = self._order.index(distro)
         parts = self._order[:at], self._order[at + 1 :]
-        before, after = ([self._provides(each).known(package, offer) for each in part] for part in parts)
+        before, after = ([self._provides(name).known(package, offer) for name in part] for part in parts)
         return before, after
 
     def _provides(self, distro: str) -> Provides:
@@ -132,7 +132,7 @@ class Knowledge:
         return tuple(distro.name for distro in distros(self._store.places))
 
     def _index(self, distro: str) -> Index:
-        return self.index if distro == self.distro else next(other for other in self.others if other.distro == distro)
+        return self.index if distro == self.distro else next(entry for entry in self.others if entry.distro == distro)
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that contain a package, oldest first."""
@@ -158,16 +158,16 @@ class Knowledge:
         None if no other distribution contains the package, or if the name is unknown there.
         """
         having = self._where(package)
-        if not having or not (name in self.rosdep or any(other in having for other in self._where(name))):
+        if not having or not (name in self.rosdep or any(distribution in having for distribution in self._where(name))):
             return None
         if package not in self._elsewhere:
-            found = set().union(*(other.brought((package,)).names for other in having))
-            queue = list(found)
-            for each in queue:  # a key provides keys
-                new = [key for key in self.names.brought(each) if key not in found]
-                found.update(new)
+            provided = set().union(*(distribution.brought((package,)).names for distribution in having))
+            queue = list(provided)
+            for name_or_key in queue:  # keys provide further keys
+                new = [key for key in self.names.brought(name_or_key) if key not in provided]
+                provided.update(new)
                 queue += new
-            self._elsewhere[package] = frozenset(found)
+            self._elsewhere[package] = frozenset(provided)
         return name in self._elsewhere[package]
 
     def comes_elsewhere(self, packages: Collection[str], name: str) -> bool:

@@ -68,8 +68,8 @@ class Reach:
         """Return the given names with all names that they provide transitively."""
         bits = 0
         for name in names:
-            found = self._bits.get(name)
-            bits |= self._explore(name) if found is None else found
+            known_bits = self._bits.get(name)
+            bits |= self._explore(name) if known_bits is None else known_bits
         return Closure(self, bits)
 
     def closure_without(self, names: Iterable[str], changed: str, gone: Container[str]) -> Closure:
@@ -78,9 +78,9 @@ class Reach:
         Names that do not lead to ``changed`` keep their closure.
         """
         waiting = list(names)
-        whole = self.closure(waiting)
-        if changed not in whole:
-            return whole
+        closure = self.closure(waiting)
+        if changed not in closure:
+            return closure
         number = self.numbers[changed]
         bits = 0
         seen: set[str] = set()
@@ -91,7 +91,7 @@ class Reach:
             elif name not in seen:
                 seen.add(name)
                 bits |= 1 << self.numbers[name]
-                waiting += [each for each in self._next[name] if name != changed or each not in gone]
+                waiting += [follower for follower in self._next[name] if name != changed or follower not in gone]
         return Closure(self, bits)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
@@ -106,18 +106,18 @@ class Reach:
             return ()
         # Only names whose closure contains the goal are on a path to it.
         number = self.numbers[goal]
-        came = {name: "" for name in begin if self._bits[name] >> number & 1}
-        queue = list(came)
+        predecessor = {name: "" for name in begin if self._bits[name] >> number & 1}
+        queue = list(predecessor)
         for name in queue:
             followers = self._next[name]
             if goal in followers:
-                way = [goal, name]
-                while came[way[-1]]:
-                    way.append(came[way[-1]])
-                return tuple(reversed(way))
+                path = [goal, name]
+                while predecessor[path[-1]]:
+                    path.append(predecessor[path[-1]])
+                return tuple(reversed(path))
             for follower in followers:
-                if follower not in came and self._bits[follower] >> number & 1:
-                    came[follower] = name
+                if follower not in predecessor and self._bits[follower] >> number & 1:
+                    predecessor[follower] = name
                     queue.append(follower)
         return ()
 
@@ -129,15 +129,15 @@ class Reach:
             bits ^= lowest
 
     def _followers(self, name: str) -> tuple[str, ...]:
-        found = self._next.get(name)
-        if found is None:
-            brought = self._brings(name)
+        followers = self._next.get(name)
+        if followers is None:
+            provided = self._brings(name)
             self.numbers[name] = len(self._names)
             self._names.append(name)
-            if brought is None:
+            if provided is None:
                 self.unknown |= 1 << self.numbers[name]
-            found = self._next[name] = brought or ()
-        return found
+            followers = self._next[name] = provided or ()
+        return followers
 
     def _explore(self, root: str) -> int:
         """Compute the closures of everything below a name. Names in a cycle share one (Tarjan, iterative)."""
@@ -171,13 +171,13 @@ class Reach:
         return done[root]
 
     def _close(self, stack: list[str], name: str) -> None:
-        circle = [stack.pop()]
-        while circle[-1] != name:
-            circle.append(stack.pop())
+        component = [stack.pop()]
+        while component[-1] != name:
+            component.append(stack.pop())
         bits = 0
-        for member in circle:
+        for member in component:
             bits |= 1 << self.numbers[member]
             for follower in self._next[member]:
                 bits |= self._bits.get(follower, 0)
-        for member in circle:
+        for member in component:
             self._bits[member] = bits

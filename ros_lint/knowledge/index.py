@@ -100,8 +100,8 @@ def render(package: Released) -> str:
     for name in sorted(kinds_of):
         names_of.setdefault(kinds_of[name], []).append(name)
     for group in "MG":
-        if found := package.depends.get(group):
-            names_of[group] = sorted(found)
+        if groups := package.depends.get(group):
+            names_of[group] = sorted(groups)
     # <depend> comes first because most look-ups need it.
     order = sorted(names_of, key=lambda kinds: (kinds != "bex", kinds))
     sets = [f"{kinds}:{' '.join(names_of[kinds])}" for kinds in order]
@@ -139,9 +139,9 @@ class Index(Entries[Released]):
         lines = self._table.lines() if group == GROUP else self._grouped
         for line in lines:
             if group == GROUP or group in line:
-                found = self.get(line.partition("\t")[0])
-                if found is not None and group in found.groups:
-                    yield found.name
+                package = self.get(line.partition("\t")[0])
+                if package is not None and group in package.groups:
+                    yield package.name
 
     @cached_property
     def _grouped(self) -> list[str]:
@@ -150,46 +150,46 @@ class Index(Entries[Released]):
 
     def declared_as(self, name: str) -> Mapping[str, int]:
         """Return the number of packages that declare a name with each set of kinds: {"t": 12, "bex": 1}."""
-        found: dict[str, int] = {}
+        counts: dict[str, int] = {}
         for kinds in self._declared.get(name, ()):
-            found[kinds] = found.get(kinds, 0) + 1
-        return found
+            counts[kinds] = counts.get(kinds, 0) + 1
+        return counts
 
     @cached_property
     def _declared(self) -> Mapping[str, list[str]]:
         """Sets of kinds by name, one for each package that declares it: 7 ms for all names, 0.3 ms for one."""
-        found: defaultdict[str, list[str]] = defaultdict(list)
+        kinds_of: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
             for field in line.split("\t")[4:]:
                 kinds, _, names = field.partition(":")
                 if kinds not in "MG":
                     for name in names.split(" "):
-                        found[name].append(kinds)
-        return found
+                        kinds_of[name].append(kinds)
+        return kinds_of
 
     def bringing(self, name: str, most: int) -> int:
         """Return the number of packages that provide a name transitively.
 
         Counting stops above ``most``.
         """
-        found = {name}
+        providers = {name}
         queue = [name]
-        for each in queue:
-            new = [other for other in self._brought_by.get(each, ()) if other not in found]
-            found.update(new)
+        for provided in queue:
+            new = [provider for provider in self._brought_by.get(provided, ()) if provider not in providers]
+            providers.update(new)
             queue += new
-            if len(found) - 1 > most:
+            if len(providers) - 1 > most:
                 break
-        return len(found) - 1
+        return len(providers) - 1
 
     @cached_property
     def _brought_by(self) -> Mapping[str, list[str]]:
-        found: defaultdict[str, list[str]] = defaultdict(list)
+        providers: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
             row = line.split("\t")
             for name in _runtime(row) or ():
-                found[name].append(row[0])
-        return found
+                providers[name].append(row[0])
+        return providers
 
     def brought(self, names: Iterable[str]) -> Closure:
         """Return packages with all names that they provide transitively."""
@@ -208,12 +208,12 @@ def _runtime(row: list[str]) -> tuple[str, ...] | None:
     """Return the names that a package provides directly, given its fields; None if unknown."""
     if len(row) < 3 or "-" in row[2] or "U" in row[2]:
         return None
-    found: list[str] = []
+    result: list[str] = []
     for field in row[4:]:
         kinds, _, names = field.partition(":")
         if not RUNTIME.isdisjoint(kinds):
-            found += names.split(" ")
-    return tuple(found)
+            result += names.split(" ")
+    return tuple(result)
 
 
 _HEAD = re.compile(r"(\w+)=(\S+)")

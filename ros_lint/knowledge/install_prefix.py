@@ -65,10 +65,10 @@ class InstallPrefix:
     @cached_property
     def packages(self) -> tuple[str, ...]:
         """Packages with a manifest or an entry in the index of ament or colcon, sorted."""
-        found = {name for name, _ in self._list("share") if self._is_there(f"share/{name}/package.xml")}
-        found.update(name for name, _ in self._list(f"{_INDEX}/packages"))
-        found.update(name for name, _ in self._list("share/colcon-core/packages"))
-        return tuple(sorted(found))
+        names = {name for name, _ in self._list("share") if self._is_there(f"share/{name}/package.xml")}
+        names.update(name for name, _ in self._list(f"{_INDEX}/packages"))
+        names.update(name for name, _ in self._list("share/colcon-core/packages"))
+        return tuple(sorted(names))
 
     def recorded_dependencies(self, package: str) -> tuple[str, ...] | None:
         """Return the run dependencies recorded at build time, sorted, or None.
@@ -88,15 +88,15 @@ class InstallPrefix:
 
         Subfolders are left out because launch_ros does not search them.
         """
-        found, broken = [], []
+        executables, broken = [], []
         for name, kind in self._list(f"lib/{package}"):
             if name.endswith(_LIBRARIES) or _LIBRARY.search(name) or kind == "directory":
                 continue
             if kind == "other":
                 broken.append(name)
             elif self._is_executable(f"lib/{package}/{name}"):
-                found.append(name)
-        return tuple(found), tuple(broken)
+                executables.append(name)
+        return tuple(executables), tuple(broken)
 
     @property
     def programs(self) -> tuple[str, ...]:
@@ -121,28 +121,28 @@ class InstallPrefix:
 
     def interfaces(self, package: str) -> tuple[str, ...]:
         """Return the interfaces, as msg/Name, sorted."""
-        found = set()
+        names = set()
         for line in self._resource("rosidl_interfaces", package):
             name, _, suffix = line.strip().rpartition(".")
             # srv/Name_Request.msg is generated from srv/Name.srv.
             if suffix in (name.partition("/")[0], "idl"):
-                found.add(name)
-        return tuple(sorted(found))
+                names.add(name)
+        return tuple(sorted(names))
 
     def plugins(self, package: str) -> tuple[str, ...]:
         """Return the pluginlib plugins as base=class, sorted; class is the look-up name of the plugin."""
-        found: set[str] = set()
+        plugins: set[str] = set()
         for resource, _ in self._list(_INDEX):
             if resource.endswith(_PLUGINS):
                 for path in self._resource(resource, package):
                     base = resource.removesuffix(_PLUGINS)
-                    found.update(f"{base}={name}" for name in self._plugin_classes(path.strip()))
-        return tuple(sorted(found))
+                    plugins.update(f"{base}={name}" for name in self._plugin_classes(path.strip()))
+        return tuple(sorted(plugins))
 
     @cached_property
     def modules(self) -> Mapping[str, tuple[str, ...]]:
         """Top-level Python modules, with the packages that they belong to, as far as known."""
-        found: dict[str, tuple[str, ...]] = {}
+        owners: dict[str, tuple[str, ...]] = {}
         for folder in self._python_folders():
             entries = self._list(folder)
             owner_of = self._egg_owners(folder, [name for name, _ in entries])
@@ -153,12 +153,12 @@ class InstallPrefix:
                 if kind == "file" and not name.endswith((".py", ".so")):
                     continue
                 if self.single:
-                    found[module] = self.packages
+                    owners[module] = self.packages
                 elif module in self.packages:
-                    found[module] = (module,)
+                    owners[module] = (module,)
                 else:
-                    found[module] = owner_of.get(module, ())
-        return found
+                    owners[module] = owner_of.get(module, ())
+        return owners
 
     def header_owners(self, path: str) -> tuple[str, ...]:
         """Return the packages that install a header in include/ or include/<package>/."""
@@ -177,37 +177,37 @@ class InstallPrefix:
             places = [f"share/{package}/cmake"]
             if self.single:
                 places += [f"{at}/{name}" for at in ("lib/cmake", "share/cmake") for name, _ in self._list(at)]
-            listed = [_CONFIGURATION.fullmatch(name) for place in places for name, _ in self._list(place)]
-            yield from ((found[1], package) for found in listed if found is not None)
+            matches = [_CONFIGURATION.fullmatch(name) for place in places for name, _ in self._list(place)]
+            yield from ((match[1], package) for match in matches if match is not None)
 
     @cached_property
     def _include_folders(self) -> Mapping[str, tuple[str, ...]]:
         """First folders of header paths in include/<package>/, with the packages."""
-        found: dict[str, tuple[str, ...]] = {}
+        owners: dict[str, tuple[str, ...]] = {}
         for package, kind in self._list("include"):
             if kind == "directory" and package in self.packages:
                 for name, _ in self._list(f"include/{package}"):
-                    found[name] = (*found.get(name, ()), package)
-        return found
+                    owners[name] = (*owners.get(name, ()), package)
+        return owners
 
     def _egg_owners(self, folder: str, names: list[str]) -> Mapping[str, tuple[str, ...]]:
         by_name = {name.lower().replace("-", "_"): name for name in self.packages}
-        found = {}
+        owners = {}
         for name in names:
             if name.endswith((".egg-info", ".dist-info")):
                 owner = by_name.get(name.partition("-")[0].removesuffix(".egg-info").lower().replace("-", "_"))
                 listed = self.read(f"{folder}/{name}/top_level.txt")
                 if owner and listed:
-                    found.update(dict.fromkeys(listed.decode("utf-8", "replace").split(), (owner,)))
-        return found
+                    owners.update(dict.fromkeys(listed.decode("utf-8", "replace").split(), (owner,)))
+        return owners
 
     def _python_folders(self) -> list[str]:
-        found = []
+        folders = []
         for lib in ("lib", "local/lib"):
             for name, kind in self._list(lib):
                 if kind == "directory" and name.startswith("python3"):
-                    found += [f"{lib}/{name}/{site}" for site in ("site-packages", "dist-packages")]
-        return found
+                    folders += [f"{lib}/{name}/{site}" for site in ("site-packages", "dist-packages")]
+        return folders
 
     def _plugin_classes(self, path: str) -> Iterator[str]:
         from ros_lint.collectors.resources.plugin_descriptions import roots  # noqa: PLC0415  (few runs look at plugins)

@@ -69,8 +69,8 @@ class Names:
 
         Any of them suffices. ``("-",)`` is a module of CMake that needs no package.
         """
-        found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
-        return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
+        providers = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
+        return providers or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
 
     def alternatives(self, package: str) -> tuple[str, ...]:
         """Return the packages that provide the same for CMake, including ``package``.
@@ -174,12 +174,12 @@ class Names:
 
     @cached_property
     def _called(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
+        names_of: dict[str, list[str]] = {}
         for names in (self._cmake_system, self._include_system, self._py_import):
             for name, keys in names.items():
                 for key in keys:
-                    found.setdefault(key, []).append(name.rstrip("*/"))
-        return found
+                    names_of.setdefault(key, []).append(name.rstrip("*/"))
+        return names_of
 
     def brought(self, key: str) -> tuple[str, ...]:
         """Return the rosdep keys that a key provides directly, through dependencies of its system package."""
@@ -187,10 +187,10 @@ class Names:
 
     def works_unseen(self, package: str) -> bool:
         """Return whether the use of a package leaves no trace in its dependents, by the package's name."""
-        found = self._unseen.get(package)
-        if found is None:
-            found = self._unseen[package] = self._unseen_pattern.match(package) is not None
-        return found
+        matches = self._unseen.get(package)
+        if matches is None:
+            matches = self._unseen[package] = self._unseen_pattern.match(package) is not None
+        return matches
 
     def sounds_like_macros(self, package: str) -> bool:
         """Return whether the use of a package leaves no trace because it provides CMake macros, by its name."""
@@ -219,12 +219,12 @@ class Names:
 
     @cached_property
     def _alternatives(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
+        result: dict[str, tuple[str, ...]] = {}
         for names in self._cmake_system.values():
             for name in names:
                 if name.endswith(VENDOR):
-                    found.setdefault(name, names)
-        return {**found, **_SAME_MACROS}
+                    result.setdefault(name, names)
+        return {**result, **_SAME_MACROS}
 
     @cached_property
     def _cmake_lower(self) -> Mapping[str, tuple[str, ...]]:
@@ -262,19 +262,19 @@ class Names:
 
     @cached_property
     def _py_import(self) -> Mapping[str, tuple[str, ...]]:
-        found = {}
+        keys_of = {}
         for module, value in self._rows("py_import.tsv"):
             keys = (entry.partition(":") for entry in value.split())
-            found[module] = tuple(key for key, _, evidence in keys if evidence != "X")
-        return found
+            keys_of[module] = tuple(key for key, _, evidence in keys if evidence != "X")
+        return keys_of
 
     @cached_property
     def _py_ros(self) -> Mapping[str, tuple[tuple[str, frozenset[str]], ...]]:
-        found: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {}
+        packages_of: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {}
         for line in self._store.lines("py_ros.tsv")[1]:
             module, package, distros = (*line.split("\t"), "", "")[:3]
-            found[module] = (*found.get(module, ()), (package, frozenset(distros.split())))
-        return found
+            packages_of[module] = (*packages_of.get(module, ()), (package, frozenset(distros.split())))
+        return packages_of
 
     @cached_property
     def _successors(self) -> Mapping[str, str]:
@@ -286,27 +286,27 @@ class Names:
 
     def _doubted(self, file: str) -> frozenset[str]:
         """Return the names of a map that are manual entries, or that most users do not declare."""
-        found = self._doubts.get(file)
-        if found is None:
+        doubted = self._doubts.get(file)
+        if doubted is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])
-            found = self._doubts[file] = frozenset(row[0] for row in rows if row[-1] not in ("high", "medium"))
-        return found
+            doubted = self._doubts[file] = frozenset(row[0] for row in rows if row[-1] not in ("high", "medium"))
+        return doubted
 
     def _map(self, file: str) -> Mapping[str, tuple[str, ...]]:
         return {name: tuple(value.split()) for name, value in self._rows(file)}
 
     def _rows(self, file: str) -> list[tuple[str, str]]:
-        found = []
+        rows = []
         for line in self._store.lines(file)[1]:
             name, _, rest = line.partition("\t")
-            found.append((name, rest.partition("\t")[0]))
-        return found
+            rows.append((name, rest.partition("\t")[0]))
+        return rows
 
 
 def _prefixes(path: str) -> list[str]:
     """Return the possible entries of a header in a map, longest first: a/b/c.h, a/b/, a/b, a/, a."""
-    found = [path]
+    prefixes = [path]
     at = len(path)
     while (at := path.rfind("/", 0, at)) > 0:
-        found += [path[: at + 1], path[:at]]
-    return found
+        prefixes += [path[: at + 1], path[:at]]
+    return prefixes

@@ -115,10 +115,10 @@ def by_cmake(world: Layers, name: str) -> Providers:
     mapped = world.knowledge.names.cmake(name)
     if mapped == (NOTHING_NEEDED,) and not owners:
         return _NONE_NEEDED
-    found = _of(world, (*owners, name, *mapped), keys=mapped)
-    if not found.known or owners or found.names[0] == name:
-        return found
-    return found._replace(sure=world.knowledge.names.cmake_sure(name))
+    result = _of(world, (*owners, name, *mapped), keys=mapped)
+    if not result.known or owners or result.names[0] == name:
+        return result
+    return result._replace(sure=world.knowledge.names.cmake_sure(name))
 
 
 def by_macro(world: Layers, package: str) -> Providers:
@@ -144,11 +144,11 @@ def by_include(world: Layers, header: str) -> Providers:
     if mapped == (NOTHING_NEEDED,):
         return _NONE_NEEDED
     by_folder = second if shared else first if slash else ""
-    found = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
-    if not found.known:
-        return found
-    by_map = found.names[0] in found.keys or (found.names[0] != by_folder and not owners)
-    return found._replace(sure=names.header_sure(header)) if by_map else found
+    result = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
+    if not result.known:
+        return result
+    by_map = result.names[0] in result.keys or (result.names[0] != by_folder and not owners)
+    return result._replace(sure=names.header_sure(header)) if by_map else result
 
 
 def by_folder(world: Layers, folder: str) -> Providers:
@@ -193,8 +193,8 @@ def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None
         if slash and top in tops:
             is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA)
             modules[top] = modules.get(top, False) or is_module
-    found = tuple(dict.fromkeys([*(top for top in tops if modules.get(top, True)), *_installed_modules(script)]))
-    return found if found or _has_no_module(script, files) else None
+    result = tuple(dict.fromkeys([*(top for top in tops if modules.get(top, True)), *_installed_modules(script)]))
+    return result if result or _has_no_module(script, files) else None
 
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
@@ -249,9 +249,9 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
     same = _declarable(world, world.spelling.same(name))
     if same:
         return Suggestion(same[0], "spelling") if len(same) == 1 else None
-    for found in _other_names(world, name, python=python):
-        if found is not None:
-            return found
+    for suggestion in _other_names(world, name, python=python):
+        if suggestion is not None:
+            return suggestion
     slips = _declarable(world, world.spelling.one_slip(name))
     if python:  # Python does not use C libraries directly: the key for pyaml is that of the module, not of libyaml
         slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
@@ -264,9 +264,9 @@ def _bare(names: Iterable[str]) -> Iterator[str]:
 
 def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
     """Return packages and keys similar to an unknown name, nearest first, at most three."""
-    sure = world.meant(name, python=python)
-    found = _declarable(world, world.spelling.near(name))
-    return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
+    intended = world.meant(name, python=python)
+    candidates = _declarable(world, world.spelling.near(name))
+    return tuple(dict.fromkeys([intended.name, *candidates] if intended else candidates))[:3]
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
@@ -290,13 +290,13 @@ def _libraries(names: Iterable[str]) -> Iterator[str]:
 
 
 def _first(world: Layers, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Suggestion | None:
-    found = _declarable(world, names)
-    return Suggestion(found[0], by) if found else None
+    declarable = _declarable(world, names)
+    return Suggestion(declarable[0], by) if declarable else None
 
 
 def _only(world: Layers, keys: Iterable[str]) -> Suggestion | None:
-    found = _declarable(world, keys)
-    return Suggestion(found[0], "system") if len(found) == 1 else None
+    declarable = _declarable(world, keys)
+    return Suggestion(declarable[0], "system") if len(declarable) == 1 else None
 
 
 def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
@@ -314,10 +314,10 @@ def _has_module(world: Layers, package: str) -> bool:
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
     """Return the owners in the topmost underlay that has any, without packages hidden by the workspace."""
-    for found in owners:
-        seen = tuple(name for name in found if world.layer(name) == "underlay")
-        if seen:
-            return seen
+    for names in owners:
+        visible = tuple(name for name in names if world.layer(name) == "underlay")
+        if visible:
+            return visible
     return ()
 
 
@@ -330,7 +330,7 @@ def _of(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Provid
     allowed = set(keys)
     packages = tuple(name for name in ordered if world.is_package(name))
     as_keys = tuple(name for name in ordered if name in allowed and name not in packages and world.is_key(name))
-    found = [name for name in ordered if name in packages or name in as_keys]
-    if as_keys and len(found) > 1:
-        found.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
-    return Providers(tuple(found), packages, as_keys)
+    existing = [name for name in ordered if name in packages or name in as_keys]
+    if as_keys and len(existing) > 1:
+        existing.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
+    return Providers(tuple(existing), packages, as_keys)

@@ -64,8 +64,8 @@ class Known(NamedTuple):
         sides = [next((known for known in side if known.complete), None) for side in (earlier, later)]
         if None in sides:
             return self
-        others = [name for known in (*earlier, *later) for name in known.possible]
-        maybe = dict.fromkeys(name for name in (*self.maybe, *others) if name not in self.names)
+        neighbours = [name for known in (*earlier, *later) for name in known.possible]
+        maybe = dict.fromkeys(name for name in (*self.maybe, *neighbours) if name not in self.names)
         endings = next((known.endings for known in sides if known), ())
         return Known(self.names, tuple(maybe), True, endings)
 
@@ -111,15 +111,15 @@ def parse(fields: list[str]) -> ReleasedContents:
     Raises ValueError if they are invalid.
     """
     name, origin, *rest = fields
-    found: dict[str, tuple[str, ...]] = {}
+    names_of: dict[str, tuple[str, ...]] = {}
     for field in rest:
         letter, colon, text = field.partition(":")
         if len(letter) != 1:
             raise ValueError(f"{field!r} is not a list of names")
         # Y without names stands for the module named like the package.
         names = text.split(" ") if colon else [name]
-        found[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
-    return ReleasedContents(name, origin, found)
+        names_of[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
+    return ReleasedContents(name, origin, names_of)
 
 
 def render(provided: ReleasedContents) -> str:
@@ -145,11 +145,11 @@ def _apart(plugins: Iterable[str]) -> Iterator[str]:
 
 def _together(plugins: Iterable[str]) -> tuple[str, ...]:
     """Return base=class,class for each base. The inverse of :func:`_apart`."""
-    found: dict[str, list[str]] = {}
+    classes_of: dict[str, list[str]] = {}
     for plugin in plugins:
         base, _, name = plugin.partition("=")
-        found.setdefault(base, []).append(name)
-    return tuple(f"{base}={','.join(classes)}" for base, classes in found.items())
+        classes_of.setdefault(base, []).append(name)
+    return tuple(f"{base}={','.join(classes)}" for base, classes in classes_of.items())
 
 
 def render_file(distro: str, packages: Iterable[ReleasedContents]) -> str:
@@ -166,8 +166,8 @@ class Provides(Entries[ReleasedContents]):
 
     def known(self, name: str, offer: Offer) -> Known:
         """Return the known names of one kind that a package provides."""
-        found = self.get(name)
-        return found.known(offer) if found else NOTHING_KNOWN
+        contents = self.get(name)
+        return contents.known(offer) if contents else NOTHING_KNOWN
 
 
 def load(store: Store, distro: str) -> Provides:

@@ -100,15 +100,15 @@ class Rosdep(Entries[Key]):
         words = [word for word in re.findall(r"[a-z0-9]+", name.lower()) if not word.startswith("python")]
         word = max(words, key=len, default="python" if name else "\n").encode()
         text, lower = self._text
-        found = []
+        keys = []
         at = lower.find(word)
         while at >= 0:
             start, end = lower.rfind(b"\n", 0, at) + 1, lower.find(b"\n", at)
             key = parse(text[start:end].decode().split("\t"))
             if name in key.apt or any(_pip_name(pip) == name for pip in key.pip):
-                found.append(key.name)
+                keys.append(key.name)
             at = lower.find(word, end + 1)
-        return tuple(found)
+        return tuple(keys)
 
     @cached_property
     def _text(self) -> tuple[bytes, bytes]:

@@ -49,17 +49,17 @@ class Spelling:
         if len(name) < _SHORTEST:
             return ()
         half = len(name) // 2
-        near = set(_beginning(self._names, name[: half - 1]))
-        near.update([found[::-1] for found in _beginning(self._backwards, name[half + 1 :][::-1])])
-        return tuple(sorted([other for other in near if -2 < len(other) - len(name) < 2 and _is_slip(name, other)]))
+        candidates = set(_beginning(self._names, name[: half - 1]))
+        candidates.update([reverse[::-1] for reverse in _beginning(self._backwards, name[half + 1 :][::-1])])
+        return tuple(sorted([word for word in candidates if -2 < len(word) - len(name) < 2 and _is_slip(name, word)]))
 
     def near(self, name: str) -> tuple[str, ...]:
         """Return similar names, nearest first, at most three. Nearest are names of the same words reordered."""
         words = _words(name)
-        alike = {other for word in words for other in self._having(word)}
-        scored = [(-_overlap(words, _words(other)), other) for other in alike]
-        candidates = [other for _, other in sorted(scored)[:30]]
-        moved = [other for other in candidates if sorted(_WORD.findall(name)) == sorted(_WORD.findall(other))]
+        alike = {candidate for word in words for candidate in self._having(word)}
+        scored = [(-_overlap(words, _words(candidate)), candidate) for candidate in alike]
+        candidates = [candidate for _, candidate in sorted(scored)[:30]]
+        moved = [candidate for candidate in candidates if sorted(_WORD.findall(name)) == sorted(_WORD.findall(candidate))]
         candidates += self.one_slip(name)
         return tuple(dict.fromkeys([*moved, *near_names(name, dict.fromkeys(candidates), 3, 0.8)]))[:3]
 
@@ -69,15 +69,15 @@ class Spelling:
         if known is not None:
             return known
         text, same = self._lower, string.ascii_lowercase if word.isalpha() else string.digits
-        found: list[str] = []
+        names: list[str] = []
         at = text.find(word)
-        while at >= 0 and len(found) <= _COMMON:
+        while at >= 0 and len(names) <= _COMMON:
             end = at + len(word)
             if text[at - 1] not in same and text[end] not in same:
                 start, end = text.rfind("\n", 0, at) + 1, text.find("\n", end)
-                found += self._by_lower[text[start:end]]
+                names += self._by_lower[text[start:end]]
             at = text.find(word, end)
-        self._by_word[word] = found if len(found) <= _COMMON else []
+        self._by_word[word] = names if len(names) <= _COMMON else []
         return self._by_word[word]
 
     @cached_property
@@ -86,17 +86,17 @@ class Spelling:
 
     @cached_property
     def _by_lower(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
+        names_of: dict[str, list[str]] = {}
         for name in self._names:
-            found.setdefault(name.lower(), []).append(name)
-        return found
+            names_of.setdefault(name.lower(), []).append(name)
+        return names_of
 
     @cached_property
     def _plain(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
+        names_of: dict[str, list[str]] = {}
         for name, same in zip(self._names, plain("\n".join(self._names)).split("\n"), strict=True):
-            found.setdefault(same, []).append(name)
-        return found
+            names_of.setdefault(same, []).append(name)
+        return names_of
 
     @cached_property
     def _backwards(self) -> list[str]:
@@ -112,9 +112,9 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
     left_arm and right_arm extend arm, none of these is returned.
     """
     words = _words(name)
-    found = [other for other in similar_names(name, names, most, least) if _may_be_meant(words, _words(other))]
-    longer = [other for other in found if words < _words(other)]
-    return [other for other in found if other not in longer] if len(longer) > 1 else found
+    similar = [candidate for candidate in similar_names(name, names, most, least) if _may_be_meant(words, _words(candidate))]
+    longer = [candidate for candidate in similar if words < _words(candidate)]
+    return [candidate for candidate in similar if candidate not in longer] if len(longer) > 1 else similar
 
 
 def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
@@ -154,10 +154,10 @@ def is_vendor(package: str, library: str) -> bool:
     return _bare(library) in [_bare("_".join(words[start:])) for start in range(len(words))]
 
 
-def is_part(library: str, whole: str) -> bool:
+def is_part(part: str, key: str) -> bool:
     """Return whether a key is for a part of the library of another key, by name: libboost-thread-dev."""
-    words = _of_library(whole)
-    return words == _of_library(library)[: len(words)]
+    words = _of_library(key)
+    return words == _of_library(part)[: len(words)]
 
 
 def _of_library(key: str) -> list[str]:
@@ -185,10 +185,10 @@ def _beginning(ordered: list[str], beginning: str) -> list[str]:
     return ordered[start:end]
 
 
-def _is_slip(one: str, other: str) -> bool:
+def _is_slip(name: str, other: str) -> bool:
     """Return whether two names differ by one edit in a sufficiently long word, and not in a digit."""
-    longer, shorter = (one, other) if len(one) >= len(other) else (other, one)
-    if one == other or len(longer) - len(shorter) > 1:
+    longer, shorter = (name, other) if len(name) >= len(other) else (other, name)
+    if name == other or len(longer) - len(shorter) > 1:
         return False
     start = 0
     while start < len(shorter) and longer[start] == shorter[start]:

@@ -59,14 +59,14 @@ class Store:
 
     def names(self, suffix: str) -> tuple[str, ...]:
         """Return the names of all data files with a suffix, sorted, without the suffix."""
-        found: set[str] = set()
+        names: set[str] = set()
         for place in self.places:
             try:
                 entries = os.listdir(place)
             except OSError:
                 continue
-            found.update(entry.removesuffix(suffix) for entry in entries if entry.endswith(suffix))
-        return tuple(sorted(found))
+            names.update(entry.removesuffix(suffix) for entry in entries if entry.endswith(suffix))
+        return tuple(sorted(names))
 
     def lines(self, name: str) -> tuple[str, list[str]]:
         """Return the header line of a data file and its other lines; "" and no lines if there is no file.

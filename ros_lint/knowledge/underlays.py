@@ -55,9 +55,9 @@ class Installed:
         path = f"share/{self.name}/package.xml"
         data = self.prefix.read(path)
         if data is not None:
-            found = manifests.collect(read_text(path, data))
-            if found.name:
-                return describe(found, context(self._distro))._replace(name=self.name, repository=self.name)
+            manifest = manifests.collect(read_text(path, data))
+            if manifest.name:
+                return describe(manifest, context(self._distro))._replace(name=self.name, repository=self.name)
         recorded = self.prefix.recorded_dependencies(self.name)
         return None if recorded is None else Released(self.name, "", "?", self.name, {"x": recorded})
 
@@ -116,11 +116,11 @@ class Underlay:
     def __init__(self, root: str, prefixes: Sequence[InstallPrefix], distro: str = "") -> None:
         self.root = root
         self._prefixes = tuple(prefixes)
-        found: dict[str, Installed] = {}
+        packages: dict[str, Installed] = {}
         for prefix in prefixes:
             for name in prefix.packages:
-                found.setdefault(name, Installed(name, prefix, distro))
-        self.packages: Mapping[str, Installed] = dict(sorted(found.items()))
+                packages.setdefault(name, Installed(name, prefix, distro))
+        self.packages: Mapping[str, Installed] = dict(sorted(packages.items()))
 
     def headers(self, path: str) -> tuple[str, ...]:
         """Return the packages that install a header, by its path as written between the brackets, sorted."""
@@ -136,11 +136,11 @@ class Underlay:
 
     @cached_property
     def _cmake(self) -> Mapping[str, set[str]]:
-        found: dict[str, set[str]] = {}
+        owners: dict[str, set[str]] = {}
         for prefix in self._prefixes:
             for name, owner in prefix.cmake_names():
-                found.setdefault(name, set()).add(owner)
-        return found
+                owners.setdefault(name, set()).add(owner)
+        return owners
 
 
 def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:

@@ -160,7 +160,7 @@ class World:
         """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters, see Member."""
         member = self._members.get(name)
         if member is not None:
-            return tuple(sorted({other for kind in kinds for other in member.depends.get(kind, ())}))
+            return tuple(sorted({dependency for kind in kinds for dependency in member.depends.get(kind, ())}))
         released = self.released(name)
         return released.on(kinds) if released is not None and released.described else None
 
@@ -169,12 +169,12 @@ class World:
 
         Packages hidden by the workspace are left out.
         """
-        found = []
-        for other, installed in self._installed.items():
-            released = None if other in self._members else installed.released
+        dependents = []
+        for dependent, installed in self._installed.items():
+            released = None if dependent in self._members else installed.released
             if released is not None and any(name in released.depends.get(kind, ()) for kind in RUNTIME):
-                found.append(other)
-        return tuple(sorted(found))
+                dependents.append(dependent)
+        return tuple(sorted(dependents))
 
     def closure(self, names: Iterable[str]) -> Closure:
         """Return the declared names with all names that they provide transitively.
@@ -195,10 +195,10 @@ class World:
 
     def group_members(self, group: str) -> tuple[str, ...]:
         """Return the members of a group in all layers, sorted."""
-        found = set(self._members_of.get(group, ()))
-        found.update(name for name, installed in self._installed.items() if group in installed.groups)
-        found.update(self.knowledge.index.members(group))
-        return tuple(sorted(found))
+        names = set(self._members_of.get(group, ()))
+        names.update(name for name, installed in self._installed.items() if group in installed.groups)
+        names.update(self.knowledge.index.members(group))
+        return tuple(sorted(names))
 
     # --- what packages provide ------------------------------------------------------------------------------------
 
@@ -247,8 +247,10 @@ class World:
             known = [own]
             if name not in self._members and (everywhere or own == NOTHING_KNOWN):
                 known += self.knowledge.known_elsewhere(name, "interfaces")
-            whole = known[-1].complete and all(k.complete and k.possible for k in known if k != NOTHING_KNOWN)
-            self._interfaces[key] = frozenset([interface for k in known for interface in k.possible]) if whole else frozenset()
+            lists = [contents for contents in known if contents != NOTHING_KNOWN]
+            complete = known[-1].complete and all(contents.complete and contents.possible for contents in lists)
+            names = [interface for contents in lists for interface in contents.possible]
+            self._interfaces[key] = frozenset(names if complete else ())
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
@@ -263,7 +265,7 @@ class World:
             return known
         if released.interfaces:
             return known._replace(names=(*known.names, name))
-        if known.complete and any(k.possible for k in self.knowledge.known_elsewhere(name, "interfaces")):
+        if known.complete and any(contents.possible for contents in self.knowledge.known_elsewhere(name, "interfaces")):
             return known._replace(maybe=(*known.maybe, name))
         return known
 
@@ -314,11 +316,11 @@ class World:
 
     def offering(self, module: str) -> tuple[str, ...]:
         """Return the workspace packages with a Python module: by their build script, else by their name."""
-        found = self._modules.get(module, ())
+        packages = self._modules.get(module, ())
         member = self._members.get(module)
-        if not found and member is not None and (member.modules is None or GROUP in member.groups):
+        if not packages and member is not None and (member.modules is None or GROUP in member.groups):
             return (module,)
-        return found
+        return packages
 
     def where_else(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that contain a package, oldest first."""
@@ -350,10 +352,10 @@ class World:
     # --- inside ---------------------------------------------------------------------------------------------------
 
     def _look_up(self, name: str) -> tuple[bool, bool]:
-        found = self._is.get(name)
-        if found is None:
-            found = self._is[name] = (self.layer(name) is not None, name in self.knowledge.rosdep)
-        return found
+        answer = self._is.get(name)
+        if answer is None:
+            answer = self._is[name] = (self.layer(name) is not None, name in self.knowledge.rosdep)
+        return answer
 
     def _known(self, name: str, offer: Offer) -> Known:
         if name in self._members:
@@ -364,8 +366,8 @@ class World:
     def _brings(self, name: str) -> tuple[str, ...] | None:
         member = self._members.get(name)
         if member is not None:
-            names = [other for kind in "eux" for other in member.depends.get(kind, ())]
-            names += [other for group in member.depends.get("G", ()) for other in self._members_of.get(group, ())]
+            names = [provided for kind in "eux" for provided in member.depends.get(kind, ())]
+            names += [provided for group in member.depends.get("G", ()) for provided in self._members_of.get(group, ())]
             return tuple(names)
         installed = self._installed.get(name)
         if installed is not None:
@@ -376,16 +378,16 @@ class World:
 
     @cached_property
     def _members_of(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
+        members: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
             for group in member.groups:
-                found[group] = (*found.get(group, ()), member.name)
-        return found
+                members[group] = (*members.get(group, ()), member.name)
+        return members
 
     @cached_property
     def _modules(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
+        packages_of: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
             for module in member.modules or ():
-                found[module] = (*found.get(module, ()), member.name)
-        return found
+                packages_of[module] = (*packages_of.get(module, ()), member.name)
+        return packages_of

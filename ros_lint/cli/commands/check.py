@@ -28,38 +28,38 @@ if TYPE_CHECKING:
 Said = Mapping[str, Any]
 
 
-def run(said: Said) -> int:
+def run(options: Said) -> int:
     """Check the requested workspace, print the findings, return the exit code."""
-    if said.get("version"):
+    if options.get("version"):
         print(f"ros-lint {__version__}")
         return 0
-    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
         with progress:
-            asked = opening.parse_request(said, os.environ)
-            _warn(asked.settings.warnings)
-            if asked.settings["show-settings"]:
-                print(asked.settings.show(), end="")
+            request = opening.parse_request(options, os.environ)
+            _warn(request.settings.warnings)
+            if request.settings["show-settings"]:
+                print(request.settings.show(), end="")
                 return 0
-            known = _known(asked.settings)
-            if asked.settings["fix"] or asked.settings["diff"]:
+            known = _known(request.settings)
+            if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = fix.run(opening.open_session(asked, progress.tell), _selection(asked.settings))
+                report, code = fix.run(opening.open_session(request, progress.tell), _selection(request.settings))
             else:
-                report, code = _checked(asked, progress), 0
-            if asked.settings["write-baseline"]:
-                return max(code, _keep(report, asked))
+                report, code = _checked(request, progress), 0
+            if request.settings["write-baseline"]:
+                return max(code, _keep(report, request))
             if known is not None:
-                path = asked.settings["baseline"]
-                report = known.without(report, os.path.basename(path), _folders(asked, path))
+                path = request.settings["baseline"]
+                report = known.without(report, os.path.basename(path), _folders(request, path))
     except UserError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    _warn((*report.warnings, *_alone(asked)))
-    if asked.settings["diff"]:  # standard output is the patch and nothing else
-        return max(code, exit_code(report, asked.settings["fail-on"]))
-    return max(code, _print(report, asked))
+    _warn((*report.warnings, *_alone(request)))
+    if request.settings["diff"]:  # standard output is the patch and nothing else
+        return max(code, exit_code(report, request.settings["fail-on"]))
+    return max(code, _print(report, request))
 
 
 def _warn(warnings: Iterable[str]) -> None:
@@ -84,32 +84,32 @@ def _known(settings: Settings) -> Baseline | None:
     return baseline.read(path)
 
 
-def _keep(report: Report, asked: Request) -> int:
+def _keep(report: Report, request: Request) -> int:
     """Write the findings to the baseline, unless the report is incomplete. Raises BaselineError."""
     from ros_lint.engine import baseline  # noqa: PLC0415
 
-    path = asked.settings["baseline"]
+    path = request.settings["baseline"]
     if code := exit_code(report, "never"):
-        why = "a rule failed, so its findings are unknown" if report.packages else opening.no_packages(asked)
+        why = "a rule failed, so its findings are unknown" if report.packages else opening.no_packages(request)
         print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
         return code
-    baseline.write(path, report, _folders(asked, path))
+    baseline.write(path, report, _folders(request, path))
     count = len(report.issues)
     print(f"ros-lint: wrote {count} finding{'s' * (count != 1)} to {path}", file=sys.stderr)
     return 0
 
 
-def _folders(asked: Request, path: str) -> list[str]:
+def _folders(request: Request, path: str) -> list[str]:
     """Return the requested paths, relative to the folder of a file."""
     folder = os.path.dirname(os.path.realpath(path))
-    return [os.path.relpath(os.path.join(asked.base, root), folder).replace(os.sep, "/") for root in asked.roots]
+    return [os.path.relpath(os.path.join(request.base, root), folder).replace(os.sep, "/") for root in request.roots]
 
 
-def _alone(asked: Request) -> Iterator[str]:
+def _alone(request: Request) -> Iterator[str]:
     """Yield a warning if a single package of a workspace is checked: its siblings are unknown then."""
-    root = os.path.join(asked.base, asked.roots[0]) if asked.roots[0] else asked.base
+    root = os.path.join(request.base, request.roots[0]) if request.roots[0] else request.base
     manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
-    if len(asked.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
+    if len(request.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
         return
     from ros_lint.cli.commands.query import enclosing_workspace  # noqa: PLC0415
 
@@ -119,20 +119,20 @@ def _alone(asked: Request) -> Iterator[str]:
         yield f"'{what}' was checked without its sibling packages; run 'ros-lint {where}' for the whole workspace"
 
 
-def _checked(asked: Request, progress: Progress) -> Report:
+def _checked(request: Request, progress: Progress) -> Report:
     """Return the report of a run, or the cached one if nothing that it depends on has changed."""
-    reports = opening.reports(asked)
-    disks = asked.disk, Machine()
+    reports = opening.reports(request)
+    disks = request.disk, Machine()
     recorded = [RecordedTree(disk) for disk in disks]
     if kept := reports.fetch(recorded):
         return kept
-    opened = opening.open_session(asked, progress.tell, *(recorded if reports else disks))
+    session = opening.open_session(request, progress.tell, *(recorded if reports else disks))
     from ros_lint.engine import registry  # noqa: PLC0415
     from ros_lint.engine.check import Context, check  # noqa: PLC0415
 
-    context = Context(registry.load(asked.settings["plugins"]), opened.knowledge.date, opened.folder, opened.warnings)
-    workspace = opened.loader.load()
-    report = check(workspace, opened.loader.suppressions(), _selection(asked.settings), context)
+    context = Context(registry.load(request.settings["plugins"]), session.knowledge.date, session.folder, session.warnings)
+    workspace = session.loader.load()
+    report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
     reports.store(recorded, report)
     return report
 
@@ -162,12 +162,12 @@ def exit_code(report: Report, fail_on: str) -> int:
     return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
 
 
-def _print(report: Report, asked: Request) -> int:
+def _print(report: Report, request: Request) -> int:
     from ros_lint import reporters  # noqa: PLC0415
 
-    settings = asked.settings
+    settings = request.settings
     render = reporters.reporter(settings["format"])
-    data = render(report, partial(text_of, asked.disk), _style(settings)).encode("utf-8", "backslashreplace")
+    data = render(report, partial(text_of, request.disk), _style(settings)).encode("utf-8", "backslashreplace")
     if settings["output"]:
         from ros_lint.engine import edits  # noqa: PLC0415  (few runs write a file)
 
@@ -180,7 +180,7 @@ def _print(report: Report, asked: Request) -> int:
         sys.stdout.buffer.write(data)
         sys.stdout.buffer.flush()
     if not report.packages:
-        print(opening.no_packages(asked), file=sys.stderr)
+        print(opening.no_packages(request), file=sys.stderr)
     return exit_code(report, settings["fail-on"])
 
 

@@ -134,7 +134,7 @@ def _facets(flags: Facet) -> list[str]:
 def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
     import json  # noqa: PLC0415
 
-    found = [
+    documents = [
         {
             "name": package.name,
             "path": package.path,
@@ -146,7 +146,7 @@ def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
         }
         for package in packages
     ]
-    return json.dumps({"distro": workspace.target.distro, "packages": found}, indent=2, ensure_ascii=False) + "\n"
+    return json.dumps({"distro": workspace.target.distro, "packages": documents}, indent=2, ensure_ascii=False) + "\n"
 
 
 def _no_such(workspace: Workspace, name: str) -> str:

@@ -29,13 +29,13 @@ _WITH_SOURCES = ("explain-package", "why")
 """Commands that need the sources; the others need only the manifests."""
 
 
-def run(command: str, said: Said) -> int:
+def run(command: str, options: Said) -> int:
     """Run one of the commands, print the answer, return the exit code."""
 
-    def answer(opened: Session, workspace: Workspace) -> CommandOutput:
-        out, err, code = _COMMANDS[command](workspace, said)
-        return (out, err, code) if workspace.packages else (out, f"{err}{no_packages(opened)}\n", 2)
+    def answer(session: Session, workspace: Workspace) -> CommandOutput:
+        out, err, code = _COMMANDS[command](workspace, options)
+        return (out, err, code) if workspace.packages else (out, f"{err}{no_packages(session)}\n", 2)
 
-    if command in _WITH_SOURCES and not said.get("paths"):
-        said = {**said, "paths": [current_workspace()]}
-    return run_query(said, answer, sources=command in _WITH_SOURCES)
+    if command in _WITH_SOURCES and not options.get("paths"):
+        options = {**options, "paths": [current_workspace()]}
+    return run_query(options, answer, sources=command in _WITH_SOURCES)

@@ -10,15 +10,15 @@ from ros_lint.cli import rule_pages as docs
 from ros_lint.engine import registry
 
 
-def run(command: str, said: Mapping[str, Any]) -> int:
+def run(command: str, options: Mapping[str, Any]) -> int:
     """Print the requested information and return the exit code."""
     match command:
         case "rules":
             rules = registry.load()
-            print(docs.as_json(rules) if said.get("format") == "json" else docs.listing(rules), end="")
+            print(docs.as_json(rules) if options.get("format") == "json" else docs.listing(rules), end="")
             return 0
         case "rule":
-            return _rule(said["rule"], said.get("format", "text"))
+            return _rule(options["rule"], options.get("format", "text"))
         case "schema":
             import json  # noqa: PLC0415
 
@@ -27,7 +27,7 @@ def run(command: str, said: Mapping[str, Any]) -> int:
             print(json.dumps(schema(), indent=2))
             return 0
         case _:
-            return _completion(said["shell"])
+            return _completion(options["shell"])
 
 
 def _rule(name: str, form: str) -> int:

@@ -33,11 +33,11 @@ def _cycles(graph: Graph) -> Iterator[str]:
             yield from _edges(graph, knot)
 
 
-def _edges(graph: Graph, knot: Cycle) -> Iterator[str]:
-    cycle = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
-    yield f"  shortest cycle: {' -> '.join((*knot.cycle, knot.cycle[0]))}"
-    for edge in (*cycle, *(edge for edge in knot.cut if edge not in cycle)):
-        out = "; removing it breaks the cycle" if edge in knot.cut else ""
+def _edges(graph: Graph, cycle: Cycle) -> Iterator[str]:
+    edges = tuple(zip(cycle.cycle, (*cycle.cycle[1:], cycle.cycle[0]), strict=True))
+    yield f"  shortest cycle: {' -> '.join((*cycle.cycle, cycle.cycle[0]))}"
+    for edge in (*edges, *(edge for edge in cycle.cut if edge not in edges)):
+        out = "; removing it breaks the cycle" if edge in cycle.cut else ""
         for reason in graph.reasons(edge):
             yield f"    {reason.span}: {edge[0]} depends on {edge[1]} ({reason.tag}){out}"
 

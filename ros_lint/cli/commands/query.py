@@ -19,21 +19,21 @@ CommandOutput = tuple[str, str, int]
 """Standard output, standard error and the exit code."""
 
 
-def run_query(said: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
+def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
     """Print the answer about the requested workspace. Returns the exit code, 2 if there is no answer.
 
     Without ``sources`` only manifests are read.
     """
-    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
         with progress:
-            opened = open_workspace(said, os.environ, progress.tell)
-            workspace = opened.loader.load(sources=sources)
-        out, err, code = answer(opened, workspace)
+            session = open_workspace(options, os.environ, progress.tell)
+            workspace = session.loader.load(sources=sources)
+        out, err, code = answer(session, workspace)
     except (UsageError, ConfigError, KnowledgeError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in (*opened.settings.warnings, *opened.warnings):
+    for warning in (*session.settings.warnings, *session.warnings):
         print(f"ros-lint: {warning}", file=sys.stderr)
     sys.stdout.write(out)
     sys.stdout.flush()

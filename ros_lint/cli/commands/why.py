@@ -69,27 +69,27 @@ class _Model:
             self._needs[name] = tuple(sorted(names))
         return self._needs[name]
 
-    def lines(self, name: str, other: str) -> Iterator[_Line]:
+    def lines(self, name: str, dependency: str) -> Iterator[_Line]:
         """Yield the reasons of an edge."""
         graph = dependency_graph(self.workspace)
-        if other in graph.needs.get(name, ()):
-            for reason in graph.reasons((name, other)):
+        if dependency in graph.needs.get(name, ()):
+            for reason in graph.reasons((name, dependency)):
                 yield _Line(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
             return
         for declared in self._declared(name):
-            if declared.name == other:
+            if declared.name == dependency:
                 condition = "" if declared.certain else f"if {declared.depend.condition}"
                 yield _Line(declared.depend.tag, str(declared.depend.span), condition)
         if not self._packages(name):
             world = self.workspace.world
-            tags = [tag for tag, kind in _TAGS.items() if other in (world.depends(name, kind) or ())]
+            tags = [tag for tag, kind in _TAGS.items() if dependency in (world.depends(name, kind) or ())]
             layer = world.layer(name)
             place = f"as released in {self.workspace.target.distro}" if layer == "index" else f"in the {layer}"
             yield from (_Line(tag, place) for tag in tags)
 
-    def uses(self, name: str, other: str) -> list[tuple[str, Span]]:
+    def uses(self, name: str, dependency: str) -> list[tuple[str, Span]]:
         """Return the places in the sources that use the dependency, sorted."""
-        places = {use.span: use.what for package in self._packages(name) for use in package.uses if other in use.providers}
+        places = {use.span: use.what for package in self._packages(name) for use in package.uses if dependency in use.providers}
         return [(places[span], span) for span in sorted(places)]
 
     def _declared(self, name: str) -> Iterator[Declared]:

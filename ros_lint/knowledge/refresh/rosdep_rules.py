@@ -61,20 +61,20 @@ def _pip(rule: object) -> Iterator[str]:
 def _resolve(rule: Mapping[str, object], platform: str) -> tuple[tuple[str, str], ...] | None:
     """Return packages and their installers ("" for the default installer); None if there is no rule."""
     system, _, version = platform.partition(":")
-    found = rule[system] if system in rule else rule.get("*")
+    entry = rule[system] if system in rule else rule.get("*")
     for _ in range(3):  # the version, the installer, its packages
-        if isinstance(found, dict):
-            if found.keys() & _INSTALLERS:
+        if isinstance(entry, dict):
+            if entry.keys() & _INSTALLERS:
                 break
-            found = found[version] if version in found else found.get("*")
-    if isinstance(found, dict):
-        installer = sorted(found.keys() & _INSTALLERS)
+            entry = entry[version] if version in entry else entry.get("*")
+    if isinstance(entry, dict):
+        installer = sorted(entry.keys() & _INSTALLERS)
         if not installer:
             return None
-        inside = found[installer[0]]
+        inside = entry[installer[0]]
         packages = inside.get("packages", ()) if isinstance(inside, dict) else inside
         return tuple((installer[0], name) for name in _words(packages))
-    return None if found is None else tuple(("", name) for name in _words(found))
+    return None if entry is None else tuple(("", name) for name in _words(entry))
 
 
 def _words(packages: object) -> list[str]:

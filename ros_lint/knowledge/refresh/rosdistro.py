@@ -38,15 +38,15 @@ class Source(NamedTuple):
 def sources(place: str) -> dict[str, Source]:
     """Return the distributions of an index (``index-v4.yaml``) by name. Raises KnowledgeError if invalid."""
     index = _mapping(place, load_yaml(place), "distributions")["distributions"]
-    found = {}
+    result = {}
     for name, entry in index.items():
         if not isinstance(entry, dict) or not isinstance(entry.get("distribution"), list):
             raise KnowledgeError(f"{place}: distribution '{name}' has no list of files")
         files = tuple(_beside(place, str(file)) for file in entry["distribution"])
         cache = str(entry.get("distribution_cache") or "")
         active = entry.get("distribution_type") == "ros2" and entry.get("distribution_status") != "end-of-life"
-        found[str(name)] = Source(str(name), files, _beside(place, cache) if cache else "", active)
-    return found
+        result[str(name)] = Source(str(name), files, _beside(place, cache) if cache else "", active)
+    return result
 
 
 def packages(source: Source) -> Iterator[Released]:
@@ -85,10 +85,10 @@ def _described(source: Source, listed: Released, xml: object, known: Mapping[str
     manifest = manifests.collect(Text(f"{source.cache}: {listed.name}", str(xml)))
     if manifest.name != listed.name:
         return listed._replace(flags="?-")
-    found = describe(manifest, known)
+    package = describe(manifest, known)
     # The cache may be older than the distribution file.
-    state = "U" if not listed.version else "~" if found.version != listed.version else ""
-    return listed._replace(flags=found.flags + state + ended, depends=found.depends)
+    state = "U" if not listed.version else "~" if package.version != listed.version else ""
+    return listed._replace(flags=package.flags + state + ended, depends=package.depends)
 
 
 def load_yaml(place: str) -> Any:
@@ -140,7 +140,7 @@ def _beside(index: str, place: str) -> str:
     return f"{folder}/{place}" if folder else place
 
 
-def _mapping(place: str, found: object, key: str) -> dict[str, Any]:
-    if not isinstance(found, dict) or not isinstance(found.get(key, ""), dict | None):
+def _mapping(place: str, document: object, key: str) -> dict[str, Any]:
+    if not isinstance(document, dict) or not isinstance(document.get(key, ""), dict | None):
         raise KnowledgeError(f"{place} has no mapping {key!r}, so it is not the expected file")
-    return found
+    return document

@@ -98,24 +98,24 @@ def _head(started: Started) -> str:
     return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later}"
 
 
-def _unknown(found: Found) -> list[tuple[str, Span]]:
-    files = (found.file, *found.look_up.followed)
+def _unknown(expanded: Found) -> list[tuple[str, Span]]:
+    files = (expanded.file, *expanded.look_up.followed)
     return list(dict.fromkeys((opaque.reason, opaque.span) for file in files for opaque in file.opaque))
 
 
 # --- tree ----------------------------------------------------------------------------------------------------------
 
 
-def tree(found: Found) -> str:
+def tree(expanded: Found) -> str:
     """Return the expansion as an indented list."""
-    expansion = found.expansion
-    lines = [found.file.path]
+    expansion = expanded.expansion
+    lines = [expanded.file.path]
     lines += [f"  {_argument(argument)}" for argument in expansion.arguments if argument.depth == 0]
     for started in expansion.started:
         indent = "  " * (started.depth + 1)
         lines.append(f"{indent}{_head(started)}")
-        lines += [f"{indent}  {detail}" for detail in _details(started, found)]
-    unknown = _unknown(found)
+        lines += [f"{indent}  {detail}" for detail in _details(started, expanded)]
+    unknown = _unknown(expanded)
     if unknown:
         lines += ["", "not analysed:"]
         lines += [f"  {span}: {reason}" for reason, span in unknown[:_MOST_UNKNOWN]]
@@ -128,7 +128,7 @@ def _argument(argument: Argument) -> str:
     return f"argument {readable(argument.name)} = {_value(argument.texts)}{' (given)' if argument.given else ''}"
 
 
-def _details(started: Started, found: Found) -> Iterator[str]:
+def _details(started: Started, expanded: Found) -> Iterator[str]:
     if not started.certain:
         yield " and ".join(_when(started)) or "conditional: the condition is not known"
     if started.container:
@@ -148,7 +148,7 @@ def _details(started: Started, found: Found) -> Iterator[str]:
     for name, texts in started.arguments:
         yield f"{'argument ' if started.kind == 'include' else ''}{readable(name)} = {_value(texts)}"
     if started.kind == "include" and not started.file:
-        yield f"not followed: {_why_not_followed(started, found.look_up)}"
+        yield f"not followed: {_why_not_followed(started, expanded.look_up)}"
     yield from (f"? {reason}" for reason in started.unknown)
 
 
@@ -170,14 +170,14 @@ def _summary(expansion: Expansion) -> str:
 # --- json ----------------------------------------------------------------------------------------------------------
 
 
-def json(found: Found) -> str:
+def json(expanded: Found) -> str:
     """Return the expansion as JSON."""
     import json as library  # noqa: PLC0415  (only for this format)
 
-    expansion = found.expansion
+    expansion = expanded.expansion
     document = {
         "schema_version": SCHEMA_VERSION,
-        "file": found.file.path,
+        "file": expanded.file.path,
         "arguments": [
             {
                 **_named([(argument.name, argument.texts)])[0],
@@ -187,14 +187,14 @@ def json(found: Found) -> str:
             }
             for argument in expansion.arguments
         ],
-        "starts": _nested(expansion.started, 0, found),
-        "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(found)],
+        "starts": _nested(expansion.started, 0, expanded),
+        "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(expanded)],
         "complete": expansion.complete,
     }
     return library.dumps(document, indent=2, ensure_ascii=False) + "\n"
 
 
-def _nested(started: Sequence[Started], depth: int, found: Found) -> list[dict[str, Any]]:
+def _nested(started: Sequence[Started], depth: int, expanded: Found) -> list[dict[str, Any]]:
     items: list[dict[str, Any]] = []
     at = 0
     while at < len(started):
@@ -206,31 +206,31 @@ def _nested(started: Sequence[Started], depth: int, found: Found) -> list[dict[s
         if entry.kind == "include":
             item["follows"] = entry.file or None
             if not entry.file:
-                item["unknown"].append(_why_not_followed(entry, found.look_up))
-            item["starts"] = _nested(started[at + 1 : end], depth + 1, found)
+                item["unknown"].append(_why_not_followed(entry, expanded.look_up))
+            item["starts"] = _nested(started[at + 1 : end], depth + 1, expanded)
         items.append(item)
         at = end
     return items
 
 
-def _item(one: Started) -> dict[str, Any]:
+def _item(started: Started) -> dict[str, Any]:
     return {
-        "kind": one.kind,
-        "package": _list(one.package),
-        "target": _list(one.target),
-        "name": _list(one.name),
-        "namespace": [f"/{space.strip('/')}" for space in _list(one.namespace)],
-        "container": _list(one.container),
-        "words": [_list(texts) for texts in one.words],
-        "later": one.later,
-        "parameters": _named(one.parameters),
-        "remappings": [{"from": _list(before), "to": _list(after)} for before, after in one.remappings],
-        "environment": _named(one.environment),
-        "arguments": _named(one.arguments),
-        "certain": one.certain,
-        "when": _when(one),
-        "unknown": list(one.unknown),
-        **where(one.span),
+        "kind": started.kind,
+        "package": _list(started.package),
+        "target": _list(started.target),
+        "name": _list(started.name),
+        "namespace": [f"/{space.strip('/')}" for space in _list(started.namespace)],
+        "container": _list(started.container),
+        "words": [_list(texts) for texts in started.words],
+        "later": started.later,
+        "parameters": _named(started.parameters),
+        "remappings": [{"from": _list(before), "to": _list(after)} for before, after in started.remappings],
+        "environment": _named(started.environment),
+        "arguments": _named(started.arguments),
+        "certain": started.certain,
+        "when": _when(started),
+        "unknown": list(started.unknown),
+        **where(started.span),
     }
 
 
@@ -245,11 +245,11 @@ def _list(texts: Iterable[str]) -> list[str]:
 # --- mermaid -------------------------------------------------------------------------------------------------------
 
 
-def mermaid(found: Found) -> str:
+def mermaid(expanded: Found) -> str:
     """Return the expansion as a flow chart of files, processes and includes; dotted if conditional."""
-    lines = ["flowchart LR", f'  n0["{label(found.file.path.rpartition("/")[2])}"]']
+    lines = ["flowchart LR", f'  n0["{label(expanded.file.path.rpartition("/")[2])}"]']
     above = ["n0"]
-    for number, started in enumerate(found.expansion.started, 1):
+    for number, started in enumerate(expanded.expansion.started, 1):
         del above[started.depth + 1 :]
         name = f"n{number}"
         opening, closing = _SHAPES[started.kind]

@@ -36,20 +36,20 @@ class Asked(NamedTuple):
     given: Mapping[str, str]
 
 
-def run(said: Mapping[str, Any]) -> int:
+def run(options: Mapping[str, Any]) -> int:
     """Run the command, print the answer, return the exit code."""
     try:
-        asked = understood(said["words"], os.path.isfile)
-        paths = said.get("paths") or [current_workspace() if asked.package else enclosing_workspace(asked.file)]
+        request = understood(options["words"], os.path.isfile)
+        paths = options.get("paths") or [current_workspace() if request.package else enclosing_workspace(request.file)]
     except UsageError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
 
-    def answered(opened: Session, workspace: Workspace) -> CommandOutput:
-        path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
-        return answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
+    def answered(session: Session, workspace: Workspace) -> CommandOutput:
+        path = "" if request.package else os.path.relpath(os.path.realpath(request.file), session.base).replace(os.sep, "/")
+        return answer(workspace, LookUp(workspace, session.loader.tree), request, path, options["format"])
 
-    return run_query({**said, "paths": paths}, answered)
+    return run_query({**options, "paths": paths}, answered)
 
 
 def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
@@ -76,29 +76,29 @@ def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
     return Asked("", places[0], arguments)
 
 
-def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:
+def answer(workspace: Workspace, look_up: LookUp, request: Asked, path: str, form: str) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code.
 
     ``path`` is the path of the file relative to the base of the workspace, if no package is given. Raises UsageError.
     """
-    if asked.package:
-        file, place = look_up.installed_file(asked.package, asked.file)
+    if request.package:
+        file, place = look_up.installed_file(request.package, request.file)
     else:
         file, place = look_up.source_file(path), path
-    expansion = expand(file._replace(path=place), asked.given, look_up.included, workspace.target.distro)
-    doubts = list(_doubts(file, look_up, expansion, asked.given))
+    expansion = expand(file._replace(path=place), request.given, look_up.included, workspace.target.distro)
+    doubts = list(_doubts(file, look_up, expansion, request.given))
     problems = list(dict.fromkeys(_problems(file, look_up, expansion)))
     err = "".join(f"ros-lint: {line}\n" for line in (*doubts, *problems))
     content = launch_formats.Found(file, expansion, look_up)
     return launch_formats.FORMATS[form](content), err, 1 if problems else 0
 
 
-def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
+def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, arguments: Mapping[str, str]) -> Iterator[str]:
     """Yield warnings about arguments that are not used. Raises UsageError if an error is almost certain."""
     takes = look_up.takes(file)
     declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
     known = {*takes.known, *declared, *look_up.used(file)}
-    for name in given:
+    for name in arguments:
         if name in known:
             continue
         near = similar_names(name, declared, 1, 0.75)
@@ -121,8 +121,8 @@ def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterat
     for refused in expansion.refused:
         choices = ", ".join(refused.choices)
         yield f"{refused.span}: '{refused.value}' is not a valid choice for the argument '{refused.name}'; use one of {choices}"
-    for circle in expansion.circles:
-        yield f"{circle.span}: this include leads back to {circle.path}, so launching never ends"
+    for cycle in expansion.circles:
+        yield f"{cycle.span}: this include leads back to {cycle.path}, so launching never ends"
     for started in expansion.started:
         if started.kind == "include" and started.certain and not started.file and len(started.target) == 1:
             absent = look_up.absent(started.target[0])

@@ -96,12 +96,12 @@ class LookUp:
         launch_file = self.included(path)
         return self._launchable(launch_file or self._found[path], f"{package}/{same[0]}"), path
 
-    def _launchable(self, found: LaunchFile | Absent, path: str) -> LaunchFile:
-        if isinstance(found, Absent):
-            raise UsageError(f"{path}: {found.reason}")
-        if found.helper:
+    def _launchable(self, result: LaunchFile | Absent, path: str) -> LaunchFile:
+        if isinstance(result, Absent):
+            raise UsageError(f"{path}: {result.reason}")
+        if result.helper:
             raise UsageError(f"{path}: not a launch file: it has no generate_launch_description() without parameters")
-        return found
+        return result
 
     def _no_package(self, package: str) -> str:
         if self._workspace.world.is_package(package):
