@@ -31,8 +31,8 @@ from ros_lint.base.diff import unified
 from ros_lint.base.text import Text, read, to_bytes
 from ros_lint.base.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.engine import edits, registry
-from ros_lint.engine import run as engine
 from ros_lint.engine.report import Issue
+from ros_lint.engine.run import find_issues
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
@@ -155,7 +155,7 @@ def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
     loader = Loader(tree, ("",), target, underlays=underlays)
     every = registry.load()
     rules = every if rule.suppressions else (rule,)
-    checked = engine.check(loader.load(), rules, loader.suppressions(), every)
+    checked = find_issues(loader.load(), rules, loader.suppressions(), every)
     if checked.crashes:
         raise AssertionError(checked.crashes[0].traceback)
     return tuple(issue for issue in checked.issues if issue.rule is rule)

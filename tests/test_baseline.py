@@ -54,14 +54,14 @@ found = issues_of(st.text(max_size=2))
 @given(issues_of(st.text(st.characters(), max_size=4)))  # lone bytes, too
 def test_what_is_written_hides_just_that(tmp_path_factory: pytest.TempPathFactory, issues: list[Issue]) -> None:
     known = kept(tmp_path_factory.mktemp("known"), report(*issues))
-    left = known.without(report(*issues), "known.json", (".",))
+    left = known.hide_known(report(*issues), "known.json", (".",))
     assert (left.issues, left.warnings) == ((), ())
     assert left.hidden == ((HiddenCount("listed in known.json", len(issues)),) if issues else ())
 
 
 @given(found, found)
 def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, before: list[Issue], after: list[Issue]) -> None:
-    left = kept(tmp_path_factory.mktemp("known"), report(*before)).without(report(*after), "known.json", (".",))
+    left = kept(tmp_path_factory.mktemp("known"), report(*before)).hide_known(report(*after), "known.json", (".",))
     keys = [(one.rule.name, one.package, one.finding.subject) for one in before]
     for one in after:
         key = one.rule.name, one.package, one.finding.subject
@@ -71,19 +71,19 @@ def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, 
 
 def test_what_is_gone_is_told(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("one", "a", "x"), issue("two", "b", "y")))
-    left = known.without(report(issue("one", "a", "x")), "known.json", (".",))
+    left = known.hide_known(report(issue("one", "a", "x")), "known.json", (".",))
     assert left.warnings == ("2 findings in known.json no longer occur; --write-baseline removes them",)
-    left = known.without(report(issue("one", "a", "x"), issue("two", "b", "y")), "known.json", (".",))
+    left = known.hide_known(report(issue("one", "a", "x"), issue("two", "b", "y")), "known.json", (".",))
     assert left.warnings == ("1 finding in known.json no longer occurs; --write-baseline removes it",)
 
 
 def test_nothing_is_gone_that_was_not_looked_for(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("two", "b", "y", sure=False)))
-    assert not known.without(report(ran=("two",), hidden=(HiddenCount(UNSURE, 1),)), "k", (".",)).warnings
-    assert not known.without(report(), "k", ("src",)).warnings
+    assert not known.hide_known(report(ran=("two",), hidden=(HiddenCount(UNSURE, 1),)), "k", (".",)).warnings
+    assert not known.hide_known(report(), "k", ("src",)).warnings
     crashed = report(ran=("one",))._replace(crashes=(Crash("one", "a", "ValueError"),))
-    assert not known.without(crashed, "k", (".",)).warnings
-    assert known.without(report(ran=("two",)), "k", (".",)).warnings
+    assert not known.hide_known(crashed, "k", (".",)).warnings
+    assert known.hide_known(report(ran=("two",)), "k", (".",)).warnings
 
 
 def test_the_file_has_a_line_a_key_and_does_not_depend_on_places(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from ros_lint.analysis.finding import Confidence
 from ros_lint.base.paths import join
 from ros_lint.base.tree import DiskTree, MemoryTree, Tree
 from ros_lint.engine import registry
-from ros_lint.engine import run as engine
+from ros_lint.engine.run import find_issues
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.testing import Case, read_cases
 from ros_lint.workspace.discovery.discover import discover
@@ -38,7 +38,7 @@ def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str
     target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
-    checked = engine.check(loader.load(), RULES, loader.suppressions(), RULES)
+    checked = find_issues(loader.load(), RULES, loader.suppressions(), RULES)
     assert not checked.crashes
     return Counter(
         (issue.rule.name, issue.package, issue.finding.subject, issue.finding.message)
@@ -133,7 +133,7 @@ def test_a_workspace_with_other_names_for_colcon(names: Callable[[Sequence[str]]
     workspaces = [Loader(demo, ("",), TargetDistro("jazzy", "test")).load(changed) for changed in ({}, files)]
     own, other = ([package.colcon_name for package in workspace.packages] for workspace in workspaces)
     assert other == names(own)
-    before, after = (engine.check(workspace, RULES, (), RULES) for workspace in workspaces)
+    before, after = (find_issues(workspace, RULES, (), RULES) for workspace in workspaces)
     assert not after.crashes
     of_ament = [[issue for issue in checked.issues if issue.rule.name not in OF_COLCON] for checked in (before, after)]
     assert of_ament[1] == of_ament[0] != []

@@ -63,7 +63,7 @@ def test_all_that_is_harmless_is_made(seed: int) -> None:
     left = [number for number in range(60) if number not in bad]
     odds = [(f"s{a}", f"s{b}") for a, b in zip(random.sample(left, 2), random.sample(left, 2), strict=True) if a != b]
     done = fix(Harmful(issues, harm, odds))
-    made = {issue.finding.subject for issue in done.made}
+    made = {issue.finding.subject for issue in done.applied}
     withheld = {issue.finding.subject for issue, _ in done.skipped}
     assert made | withheld == {issue.finding.subject for issue in issues}
     assert not made & harm.keys()

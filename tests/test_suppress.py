@@ -17,7 +17,7 @@ from ros_lint.collectors.comments import comments
 from ros_lint.collectors.suppressions import collect
 from ros_lint.engine import edits
 from ros_lint.engine.report import Issue
-from ros_lint.engine.suppressions import apply
+from ros_lint.engine.suppressions import apply_suppressions
 from ros_lint.facts.suppressions import Suppression
 
 RULES = tuple(
@@ -256,8 +256,8 @@ def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
 def test_problems(comment: str, problem: str) -> None:
     found = one("a.py", f"import foo  # {comment}\n")
     assert problem in found.problem
-    assert apply([issue("missing-file", "a.py", 1)], [found], RULES, NAMES).use.malformed == (found,)
-    assert len(apply([issue("unused-dependency", "a.py", 1)], [found], RULES, NAMES).kept) == 1
+    assert apply_suppressions([issue("missing-file", "a.py", 1)], [found], RULES, NAMES).use.malformed == (found,)
+    assert len(apply_suppressions([issue("unused-dependency", "a.py", 1)], [found], RULES, NAMES).kept) == 1
 
 
 @pytest.mark.parametrize("comment", ["run ros-lint: it helps", "ros-lint: 5 lines", "as ros-lint: rules", "ros-lint:"])
@@ -283,7 +283,7 @@ def test_apply() -> None:
         issue("unused-dependency", "a.py", 1),
         issue("undeclared-dependency", "a.py", 2),
     )
-    outcome = apply([wanted, other, elsewhere], found, RULES, NAMES)
+    outcome = apply_suppressions([wanted, other, elsewhere], found, RULES, NAMES)
     assert outcome.kept == (other, elsewhere)
     assert outcome.suppressed == ((wanted, found[0]),)
     assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["Missing-File"]]
@@ -296,12 +296,12 @@ def test_apply() -> None:
 
 def test_a_rule_that_did_not_run_leaves_nothing_unused() -> None:
     found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
-    assert apply([], found, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
+    assert apply_suppressions([], found, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
 
 
 def test_two_suppressions_for_one_finding_are_both_used() -> None:
     found = collect(Text("a.py", "# ros-lint: ignore-file[ROS201]\nx\ny  # ros-lint: ignore[ROS201]\n"))
-    outcome = apply([issue("undeclared-dependency", "a.py", 3)], found, RULES, NAMES)
+    outcome = apply_suppressions([issue("undeclared-dependency", "a.py", 3)], found, RULES, NAMES)
     assert (outcome.use.unused, outcome.kept) == ((), ())
 
 
@@ -311,10 +311,10 @@ def test_what_is_said_about_a_suppression_can_be_suppressed() -> None:
     names = NAMES | {judge.name}
     for mark in ("x  # {}", "# {}\nx"):
         found = collect(Text("a.py", mark.format("ros-lint: ignore[ROS201, ROS901] so\n")))
-        outcome = apply([], found, known, names)
+        outcome = apply_suppressions([], found, known, names)
         assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["ROS201"]]
         about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.use.unused]
-        assert apply(about, found, known, names).kept == ()
+        assert apply_suppressions(about, found, known, names).kept == ()
 
 
 LINES = st.sampled_from(
@@ -329,7 +329,7 @@ def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
     issues = [issue("unused-dependency", "a.py", first, last) for first, last in ends]
     covering = [each for each in found if any(name.text == "ROS204" for name in each.names)]
     kept = tuple([each for each in issues if not any(one.covers(each.finding.span) for one in covering)])
-    outcome = apply(issues, found, RULES, NAMES)
+    outcome = apply_suppressions(issues, found, RULES, NAMES)
     assert outcome.kept == kept
     idle = {each.suppression for each in outcome.use.unused if each.names[0].text == "ROS204"}
     idle_by_place = {each for each in covering if not any(each.covers(spoken.finding.span) for spoken in issues)}
@@ -340,7 +340,7 @@ def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
 def test_thousands_of_comments_take_linear_time(lines: str) -> None:
     started = time.process_time()
     found = collect(Text("a.py", lines.format(mark=MARK)))
-    apply([issue("missing-file", "a.py", line) for line in range(4000)], found, RULES, NAMES)
+    apply_suppressions([issue("missing-file", "a.py", line) for line in range(4000)], found, RULES, NAMES)
     assert time.process_time() - started < 5
 
 

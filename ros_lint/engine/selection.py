@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.analysis.rule import Rule
-from ros_lint.engine.registry import matching, no_rule
+from ros_lint.engine.registry import matching, unknown_rule_message
 from ros_lint.engine.report import UNSURE, HiddenCount, Issue
 from ros_lint.errors import UserError
 
@@ -18,15 +18,17 @@ class SelectionError(UserError):
 
 
 class Selection(NamedTuple):
-    """The rules that run, and the findings that are shown."""
+    """The rules to run, and the settings that decide which findings are shown."""
 
     rules: tuple[Rule, ...]
     named: frozenset[str]
-    """Rules selected by name: their findings are shown with any confidence."""
+    """Names of the rules selected by name or code: their findings of any confidence are shown."""
     severities: Mapping[str, Severity]
+    """Severities from the settings by the name of the rule."""
     pedantic: bool
+    """True if findings of any confidence are shown."""
     ignores: tuple[tuple[str, frozenset[str]], ...]
-    """Path patterns, each with the names of the rules that are ignored for matching files."""
+    """Path patterns, each with the names of the rules to ignore in matching files."""
 
 
 def select(
@@ -99,4 +101,4 @@ def matches(path: str, pattern: str) -> bool:
 def _matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
     if matching_rules := matching(rules, selector):
         return matching_rules
-    raise SelectionError(no_rule(rules, selector))
+    raise SelectionError(unknown_rule_message(rules, selector))

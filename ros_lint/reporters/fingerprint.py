@@ -21,8 +21,8 @@ _END = b"\xff\xff"
 
 
 def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
-    """Return the hash of each line by number, from 1. Lines that the file does not have are left out."""
-    # As UTF-8 in any case, like other tools that compute it.
+    """Return the hashes of the lines with these numbers, from 1, by number. Missing lines are left out."""
+    # The file is read as UTF-8 whatever its encoding, as other tools do that compute this hash.
     text = source.encode(source.text).decode("utf-8", "replace").removeprefix("\ufeff")
     text = re.sub(r"[ \t]+", "", re.sub(r"\r\n?", "\n", text))
     units = text.encode("utf-16-le", "surrogatepass") + _END

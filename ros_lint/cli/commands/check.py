@@ -52,7 +52,7 @@ def run(options: Said) -> int:
                 return max(code, _keep(report, request))
             if known is not None:
                 path = request.settings["baseline"]
-                report = known.without(report, os.path.basename(path), _folders(request, path))
+                report = known.hide_known(report, os.path.basename(path), _folders(request, path))
     except UserError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
@@ -128,9 +128,9 @@ def _checked(request: Request, progress: Progress) -> Report:
         return kept
     session = opening.open_session(request, progress.tell, *(recorded if reports else disks))
     from ros_lint.engine import registry  # noqa: PLC0415
-    from ros_lint.engine.check import Context, check  # noqa: PLC0415
+    from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
-    context = Context(registry.load(request.settings["plugins"]), session.knowledge.date, session.folder, session.warnings)
+    context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.folder, session.warnings)
     workspace = session.loader.load()
     report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
     reports.store(recorded, report)

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from ros_lint.engine import edits, registry
-from ros_lint.engine.check import Context, check
+from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
 
@@ -28,7 +28,7 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     settings = session.settings
     rules = registry.load(settings["plugins"])
     trials = FixTrials(session.loader, session.roots, selection, rules, unsafe=settings["unsafe-fixes"])
-    context = Context(rules, session.knowledge.date, session.folder, session.warnings)
+    context = ReportContext(rules, session.knowledge.date, session.folder, session.warnings)
 
     def report(changed: Mapping[str, bytes]) -> Report:
         return check(trials.trial(changed).workspace, session.loader.suppressions(changed), selection, context)
@@ -45,7 +45,7 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return report({path: result.changed[path] for path in error.written}), 2
-    print(f"ros-lint: {_summary(len(result.made), len(result.changed))}", file=sys.stderr)
+    print(f"ros-lint: {_summary(len(result.applied), len(result.changed))}", file=sys.stderr)
     return report(result.changed), 0
 
 

@@ -34,7 +34,7 @@ def _rule(name: str, form: str) -> int:
     rules = registry.load()
     matches = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
     if not matches:
-        print(f"ros-lint: {registry.no_rule(rules, name)}", file=sys.stderr)
+        print(f"ros-lint: {registry.unknown_rule_message(rules, name)}", file=sys.stderr)
         return 2
     print(docs.as_json(matches) if form == "json" else docs.page(matches[0]), end="")
     return 0
