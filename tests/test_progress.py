@@ -38,7 +38,7 @@ def test_a_short_run_says_nothing() -> None:
     with Progress(stream, clock=clock) as progress:
         for done in range(100):
             clock.now += 0.004
-            progress.tell("reading", done, 100)
+            progress.update("reading", done, 100)
     assert stream.getvalue() == ""
 
 
@@ -46,9 +46,9 @@ def test_a_long_run_overwrites_one_line_and_takes_it_away() -> None:
     stream, clock = Terminal(), Clock()
     with Progress(stream, clock=clock) as progress:
         for done in range(8):
-            progress.tell("reading", done, 10)
+            progress.update("reading", done, 10)
             clock.now += 0.15
-        progress.tell("joining", 0, 0)
+        progress.update("joining", 0, 0)
     assert stream.getvalue() == (
         "\rreading 4/10\x1b[K\rreading 5/10\x1b[K\rreading 6/10\x1b[K\rreading 7/10\x1b[K\rjoining\x1b[K\r\x1b[K"
     )
@@ -58,7 +58,7 @@ def test_the_line_goes_away_when_the_run_fails() -> None:
     stream, clock = Terminal(), Clock()
     with pytest.raises(RuntimeError), Progress(stream, clock=clock) as progress:  # noqa: PT012
         clock.now += 1
-        progress.tell("reading", 1, 2)
+        progress.update("reading", 1, 2)
         raise RuntimeError
     assert stream.getvalue().endswith("\r\x1b[K")
 
@@ -69,7 +69,7 @@ def test_not_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     for stream, wanted in ((io.StringIO(), True), (Terminal(), False), (Terminal(), True)):
         progress = Progress(stream, wanted, clock)
         clock.now += 10
-        progress.tell("reading", 1, 2)
+        progress.update("reading", 1, 2)
         progress.clear()
         assert stream.getvalue() == ""
 
@@ -80,7 +80,7 @@ def test_on_a_real_terminal_the_line_is_no_longer_than_the_screen() -> None:
     clock = Clock()
     with os.fdopen(theirs, "w") as stream, Progress(stream, clock=clock) as progress:
         clock.now += 1
-        progress.tell("x" * 1000, 1, 2)
+        progress.update("x" * 1000, 1, 2)
         progress.clear()
         wanted = f"\r{'x' * 39}\x1b[K\r\x1b[K"
         written = ""
@@ -98,4 +98,4 @@ def test_a_terminal_that_has_gone_is_no_error() -> None:
     clock = Clock()
     with Progress(Gone(), clock=clock) as progress:
         clock.now += 1
-        progress.tell("reading", 1, 2)
+        progress.update("reading", 1, 2)

@@ -1,4 +1,4 @@
-"""Paths through a graph, the shortest first."""
+"""GraphPaths through a graph, the shortest first."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ _MOST_STEPS = 20_000
 """Maximum number of steps of a search, because a graph with many cycles has too many paths."""
 
 
-class Paths(NamedTuple):
-    """Paths from one node to another."""
+class GraphPaths(NamedTuple):
+    """GraphPaths from one node to another."""
 
-    found: tuple[tuple[str, ...], ...]
-    """Paths without repeated nodes, from start to end, sorted by length, then by name."""
+    paths: tuple[tuple[str, ...], ...]
+    """GraphPaths without repeated nodes, from start to end, sorted by length, then by name."""
     more: bool
     """True if there are or may be further paths."""
 
 
-def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> Paths:
+def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> GraphPaths:
     """Return the shortest ``most`` paths from ``start`` to ``end``. ``successors`` returns the direct successors of a node.
 
     If both are the same node, the paths are the cycles through it.
     """
     distance = _distances(successors, start, end)
     if start not in distance:
-        return Paths((), False)
+        return GraphPaths((), False)
     result: list[tuple[str, ...]] = []
     queue: list[tuple[int, tuple[str, ...]]] = [(distance[start], (start,))]
     for _ in range(_MOST_STEPS):
         if not queue:
-            return Paths(tuple(result), False)
+            return GraphPaths(tuple(result), False)
         _, path = heappop(queue)
         if len(path) > 1 and path[-1] == end:
             if len(result) == most:
-                return Paths(tuple(result), True)
+                return GraphPaths(tuple(result), True)
             result.append(path)
             continue
         for successor in successors(path[-1]):
             if successor in distance and (successor not in path or successor == end == start):
                 heappush(queue, (len(path) + distance[successor], (*path, successor)))
-    return Paths(tuple(result), True)
+    return GraphPaths(tuple(result), True)
 
 
 def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str) -> dict[str, int]:

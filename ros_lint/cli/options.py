@@ -1,4 +1,4 @@
-"""The table of options: source of the command line, the settings, their JSON schema and their docs."""
+"""The table of options, from which the command line, the settings, their JSON schema and their docs are generated."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ MOST = 1_000_000
 
 
 class Option(NamedTuple):
-    """An option. ``table`` maps a pattern or rule to words and is only allowed in files."""
+    """An option of the command line, a setting of configuration files, or both.
+
+    The type ``table`` maps patterns or rules to words; only files can have it.
+    """
 
     name: str
     type: Type
@@ -26,9 +29,7 @@ class Option(NamedTuple):
     environment: str = ""
     """The environment variable that is read if neither the command line nor the file sets the option."""
     loads_code: bool = False
-    """True if the option loads code.
-
-    It causes a warning in a file, which can be part of the checked workspace."""
+    """True if the option loads code. Files cannot set it, because they can be part of the checked workspace."""
 
 
 OPTIONS: tuple[Option, ...] = (
@@ -59,7 +60,7 @@ OPTIONS: tuple[Option, ...] = (
         "lowest severity that makes the exit code 1",
         choices=(*SEVERITIES, "never"),
     ),
-    Option("exclude", "words", (), "folders or files not to read, as patterns like build_* or src/vendor", metavar="PATTERNS"),
+    Option("exclude", "words", (), "patterns of folders or files not to read, such as build_* or src/vendor", metavar="PATTERNS"),
     Option(
         "severity",
         "table",
@@ -74,11 +75,11 @@ OPTIONS: tuple[Option, ...] = (
         "plugins",
         "flag",
         False,
-        "load rules from installed Python packages (entry point group ros_lint.rules)",
+        "also load rules from installed Python packages (entry point group ros_lint.rules)",
         in_file=False,
         loads_code=True,
     ),
-    Option("jobs", "number", 0, "processes that read files, at most one a core; 0: by the size of the workspace", metavar="N"),
+    Option("jobs", "number", 0, "processes that read files, at most one per core; 0: by the size of the workspace", metavar="N"),
     Option("cache", "flag", True, "cache results in the user's cache folder"),
     Option("format", "word", "text", "output format", choices=FORMATS, in_file=False),
     Option("output", "path", "", "write the findings to a file instead of standard output", metavar="FILE", in_file=False),

@@ -1,4 +1,4 @@
-"""Documentation of rules and options: lists, the page of a rule and the table of options."""
+"""Documentation of rules and options: lists of rules, the page of a rule and the table of options."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ GROUPS = {
 
 
 def group(rule: Rule) -> str:
-    """Return the heading under which a rule is listed."""
+    """Return the name of the group that a rule belongs to, by the first digit of its code."""
     return GROUPS[rule.code[3]]
 
 
 def listing(rules: Iterable[Rule]) -> str:
-    """Return one line for each rule: code, name, severity, whether it is on and fixable, summary."""
+    """Return a line for each rule: code, name, severity, on or off, whether it has fixes, and summary."""
     rules = list(rules)
     width = max((len(rule.name) for rule in rules), default=0)
     lines = []
@@ -35,7 +35,7 @@ def listing(rules: Iterable[Rule]) -> str:
 
 
 def page(rule: Rule, example: str = "") -> str:
-    """Return the page of a rule in Markdown. An example of its output follows the section "What it finds"."""
+    """Return the page of a rule in Markdown. ``example`` is output of the rule, shown in the section "What it finds"."""
     facts = [
         f"{rule.severity!s}",
         "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",
@@ -70,7 +70,7 @@ def overview(rules: Sequence[Rule]) -> str:
 
 
 def settings(options: Iterable[Option]) -> str:
-    """Return the table of options in Markdown, first those that are allowed in a file."""
+    """Return a table of options in Markdown. Those that configuration files can set come first."""
     lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
     for option in sorted(options, key=lambda option: not option.in_file):
         name = f"`{option.name}`" if option.in_file else ""
@@ -89,7 +89,7 @@ def _flag(option: Option) -> str:
 
 
 def as_json(rules: Iterable[Rule]) -> str:
-    """Return all data about rules as a JSON list."""
+    """Return the names, codes, severities, documentation and other data of rules as a JSON list."""
     import json  # noqa: PLC0415
 
     return (

@@ -20,7 +20,7 @@ def run() -> None:
 def leave_current_folder() -> None:
     """Remove the current folder from the module path, also for child processes.
 
-    If this package is in the current folder, the folder becomes the last entry.
+    If ros-lint itself is in the current folder, the folder becomes the last entry.
     """
     try:
         here = os.path.realpath(os.curdir)
@@ -36,8 +36,5 @@ def leave_current_folder() -> None:
 
 
 def _without(folder: str, path: list[str]) -> list[str]:
-    """Return the entries of a path that are not the current folder.
-
-    An empty entry means the current folder.
-    """
+    """Return the entries of a module path except for ``folder``. An empty entry means the current folder."""
     return [entry for entry in path if entry and os.path.realpath(entry) != folder]

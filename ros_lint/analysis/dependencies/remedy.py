@@ -103,7 +103,7 @@ def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[st
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
         from ros_lint.base.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
 
-        return paths(lambda package_name: sorted(graph.arcs[package_name]), name, package.colcon_name, 1).found[0]
+        return paths(lambda package_name: sorted(graph.arcs[package_name]), name, package.colcon_name, 1).paths[0]
     world = workspace.world
     if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
         return (name, package.name)

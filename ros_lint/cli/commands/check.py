@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from ros_lint import __version__
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.tree import Machine, RecordedTree, text_of
-from ros_lint.cli import session as opening
 from ros_lint.cli.progress import Progress
+from ros_lint.cli.session import UsageError, no_packages, open_session, parse_request, report_cache
 from ros_lint.engine.report import Report
 from ros_lint.errors import UserError
 
@@ -25,38 +25,36 @@ if TYPE_CHECKING:
     from ros_lint.engine.selection import Selection
     from ros_lint.reporters.ansi import Style
 
-Said = Mapping[str, Any]
 
-
-def run(options: Said) -> int:
-    """Check the requested workspace, print the findings, return the exit code."""
+def run(options: Mapping[str, Any]) -> int:
+    """Check the requested workspace and print the findings. Returns the exit code."""
     if options.get("version"):
         print(f"ros-lint {__version__}")
         return 0
     progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
         with progress:
-            request = opening.parse_request(options, os.environ)
+            request = parse_request(options, os.environ)
             _warn(request.settings.warnings)
             if request.settings["show-settings"]:
                 print(request.settings.show(), end="")
                 return 0
-            known = _known(request.settings)
+            known_findings = _baseline(request.settings)
             if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = fix.run(opening.open_session(request, progress.tell), _selection(request.settings))
+                report, code = fix.run(open_session(request, progress.update), _selection(request.settings))
             else:
-                report, code = _checked(request, progress), 0
+                report, code = _report(request, progress), 0
             if request.settings["write-baseline"]:
-                return max(code, _keep(report, request))
-            if known is not None:
+                return max(code, _write_baseline(report, request))
+            if known_findings is not None:
                 path = request.settings["baseline"]
-                report = known.hide_known(report, os.path.basename(path), _folders(request, path))
+                report = known_findings.hide_known(report, os.path.basename(path), _folders(request, path))
     except UserError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    _warn((*report.warnings, *_alone(request)))
+    _warn((*report.warnings, *_single_package_warning(request)))
     if request.settings["diff"]:  # standard output is the patch and nothing else
         return max(code, exit_code(report, request.settings["fail-on"]))
     return max(code, _print(report, request))
@@ -67,16 +65,13 @@ def _warn(warnings: Iterable[str]) -> None:
         print(f"ros-lint: {warning}", file=sys.stderr)
 
 
-def _known(settings: Settings) -> Baseline | None:
-    """Return the baseline, or None if there is none.
-
-    Raises BaselineError, and UsageError for conflicting options.
-    """
+def _baseline(settings: Settings) -> Baseline | None:
+    """Return the baseline to apply, or None. Raises BaselineError, and UsageError for conflicting options."""
     path, write = settings["baseline"], settings["write-baseline"]
     if write and not path:
-        raise opening.UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
+        raise UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
     if write and settings["diff"]:
-        raise opening.UsageError("--write-baseline and --diff cannot be combined, because --diff writes no files")
+        raise UsageError("--write-baseline and --diff cannot be combined, because --diff writes no files")
     if write or not path:
         return None
     from ros_lint.engine import baseline  # noqa: PLC0415
@@ -84,13 +79,13 @@ def _known(settings: Settings) -> Baseline | None:
     return baseline.read(path)
 
 
-def _keep(report: Report, request: Request) -> int:
-    """Write the findings to the baseline, unless the report is incomplete. Raises BaselineError."""
+def _write_baseline(report: Report, request: Request) -> int:
+    """Write the findings to the baseline, unless the run failed. Returns the exit code. Raises BaselineError."""
     from ros_lint.engine import baseline  # noqa: PLC0415
 
     path = request.settings["baseline"]
     if code := exit_code(report, "never"):
-        why = "a rule failed, so its findings are unknown" if report.packages else opening.no_packages(request)
+        why = "a rule failed, so its findings are unknown" if report.packages else no_packages(request)
         print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
         return code
     baseline.write(path, report, _folders(request, path))
@@ -100,45 +95,45 @@ def _keep(report: Report, request: Request) -> int:
 
 
 def _folders(request: Request, path: str) -> list[str]:
-    """Return the requested paths, relative to the folder of a file."""
+    """Return the requested paths, relative to the folder of the file ``path``."""
     folder = os.path.dirname(os.path.realpath(path))
     return [os.path.relpath(os.path.join(request.base, root), folder).replace(os.sep, "/") for root in request.roots]
 
 
-def _alone(request: Request) -> Iterator[str]:
-    """Yield a warning if a single package of a workspace is checked: its siblings are unknown then."""
+def _single_package_warning(request: Request) -> Iterator[str]:
+    """Yield a warning if a single package of a workspace is checked, because its sibling packages are not read."""
     root = os.path.join(request.base, request.roots[0]) if request.roots[0] else request.base
     manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
     if len(request.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
         return
     from ros_lint.cli.commands.query import enclosing_workspace  # noqa: PLC0415
 
-    around = enclosing_workspace(manifest)
-    if around != root:
-        what, where = os.path.relpath(root, around), os.path.relpath(around)
+    workspace = enclosing_workspace(manifest)
+    if workspace != root:
+        what, where = os.path.relpath(root, workspace), os.path.relpath(workspace)
         yield f"'{what}' was checked without its sibling packages; run 'ros-lint {where}' for the whole workspace"
 
 
-def _checked(request: Request, progress: Progress) -> Report:
+def _report(request: Request, progress: Progress) -> Report:
     """Return the report of a run, or the cached one if nothing that it depends on has changed."""
-    reports = opening.reports(request)
+    cache = report_cache(request)
     disks = request.disk, Machine()
     recorded = [RecordedTree(disk) for disk in disks]
-    if kept := reports.fetch(recorded):
-        return kept
-    session = opening.open_session(request, progress.tell, *(recorded if reports else disks))
+    if cached := cache.fetch(recorded):
+        return cached
+    session = open_session(request, progress.update, *(recorded if cache else disks))
     from ros_lint.engine import registry  # noqa: PLC0415
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
     context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.folder, session.warnings)
     workspace = session.loader.load()
     report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
-    reports.store(recorded, report)
+    cache.store(recorded, report)
     return report
 
 
 def _selection(settings: Settings) -> Selection:
-    """Return the rules that the settings select. Raises SelectionError and PluginError."""
+    """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
     from ros_lint.engine import registry  # noqa: PLC0415  (not needed for a cached report)
     from ros_lint.engine.selection import select  # noqa: PLC0415
 
@@ -154,7 +149,10 @@ def _selection(settings: Settings) -> Selection:
 
 
 def exit_code(report: Report, fail_on: str) -> int:
-    """Return 2 if the run was incomplete, 1 for findings at or above ``fail_on``, else 0."""
+    """Return 2 if no package was found or a rule crashed, 1 for findings at or above ``fail_on``, else 0.
+
+    ``fail_on`` is a severity or "never".
+    """
     if not report.packages or report.crashes:
         return 2
     if fail_on == "never":
@@ -163,6 +161,7 @@ def exit_code(report: Report, fail_on: str) -> int:
 
 
 def _print(report: Report, request: Request) -> int:
+    """Print a report or write it to a file. Returns the exit code."""
     from ros_lint import reporters  # noqa: PLC0415
 
     settings = request.settings
@@ -180,7 +179,7 @@ def _print(report: Report, request: Request) -> int:
         sys.stdout.buffer.write(data)
         sys.stdout.buffer.flush()
     if not report.packages:
-        print(opening.no_packages(request), file=sys.stderr)
+        print(no_packages(request), file=sys.stderr)
     return exit_code(report, settings["fail-on"])
 
 

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 def run(session: Session, selection: Selection) -> tuple[Report, int]:
-    """Print or write the fixes.
+    """Print the fixes as a patch (--diff) or write them (--fix).
 
-    Return the report of the remaining findings, and 2 if a file was not written, else 0.
+    Return the report of the remaining findings, and 2 if a file could not be written, else 0.
     """
     gc.enable()  # the workspace is loaded several times, and the memory of a trial has to be freed
     settings = session.settings

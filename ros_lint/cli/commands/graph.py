@@ -50,7 +50,7 @@ def _measure(graph: Graph) -> Mapping[str, Metrics]:
 
 
 def _dot(graph: Graph) -> Iterator[str]:
-    in_cycles = _knotted(graph)
+    in_cycles = _edges_in_cycles(graph)
     yield "digraph workspace {"
     yield "  rankdir=LR;"
     yield "  node [shape=box, fontname=Helvetica];"
@@ -70,7 +70,7 @@ def _quoted(name: str) -> str:
 
 
 def _mermaid(graph: Graph) -> Iterator[str]:
-    in_cycles = _knotted(graph)
+    in_cycles = _edges_in_cycles(graph)
     identifier = {name: f"p{number}" for number, name in enumerate(graph.names)}
     yield "flowchart LR"
     for name in graph.names:
@@ -137,7 +137,7 @@ def is_test_only(graph: Graph, edge: Edge) -> bool:
     return all(reason.categories == ("test",) for reason in graph.reasons(edge))
 
 
-def _knotted(graph: Graph) -> frozenset[Edge]:
-    """Return the edges that lie in a cycle."""
+def _edges_in_cycles(graph: Graph) -> frozenset[Edge]:
+    """Return the edges that are part of a cycle."""
     member = {name: number for number, names in enumerate(graph.cycles) for name in names}
     return frozenset(edge for edge in graph.edges if edge[0] in member and member[edge[0]] == member.get(edge[1]))

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from ros_lint.cli import rule_pages as docs
+from ros_lint.cli import rule_pages
 from ros_lint.engine import registry
 
 
@@ -15,7 +15,7 @@ def run(command: str, options: Mapping[str, Any]) -> int:
     match command:
         case "rules":
             rules = registry.load()
-            print(docs.as_json(rules) if options.get("format") == "json" else docs.listing(rules), end="")
+            print(rule_pages.as_json(rules) if options.get("format") == "json" else rule_pages.listing(rules), end="")
             return 0
         case "rule":
             return _rule(options["rule"], options.get("format", "text"))
@@ -36,7 +36,7 @@ def _rule(name: str, form: str) -> int:
     if not matches:
         print(f"ros-lint: {registry.unknown_rule_message(rules, name)}", file=sys.stderr)
         return 2
-    print(docs.as_json(matches) if form == "json" else docs.page(matches[0]), end="")
+    print(rule_pages.as_json(matches) if form == "json" else rule_pages.page(matches[0]), end="")
     return 0
 
 
@@ -46,7 +46,7 @@ def _completion(shell: str) -> int:
     except ModuleNotFoundError:
         print("ros-lint: completion needs shtab: pip install 'ros-lint[completion]'", file=sys.stderr)
         return 2
-    from ros_lint.cli.arguments import parser  # noqa: PLC0415
+    from ros_lint.cli.arguments import create_parser  # noqa: PLC0415
 
-    print(shtab.complete(parser("check", top=True), shell=shell))
+    print(shtab.complete(create_parser("check", top=True), shell=shell))
     return 0
