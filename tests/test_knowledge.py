@@ -163,8 +163,8 @@ def test_what_is_known_before_and_after_tells_of_a_distribution_between(tmp_path
     assert asked("both", "talker", "old", "newer", "speaker") == ["exists", "unknowable", "unknowable", "missing"]
     assert asked("later", "talker", "speaker") == ["exists", "unknowable"]
     assert asked("silent", "talker", "speaker") == ["unknowable", "missing"]
-    assert not jazzy.offered_elsewhere("both", "executables", "speaker")
-    assert jazzy.offered_elsewhere("later", "executables", "speaker")
+    assert not jazzy.may_exist_elsewhere("both", "executables", "speaker")
+    assert jazzy.may_exist_elsewhere("later", "executables", "speaker")
 
 
 def test_a_distribution_without_an_index_is_not_covered() -> None:
@@ -179,7 +179,7 @@ def test_rosdep_keys_are_asked_for_the_platform_of_the_distribution() -> None:
     assert (humble.resolves("eigen"), jazzy.resolves("eigen")) == (True, True)
     assert (humble.resolves("gazebo"), jazzy.resolves("gazebo")) == (True, False)
     assert jazzy.resolves("ament_python") is None
-    assert jazzy.resolving("gazebo") == ("humble",)
+    assert jazzy.distros_resolving("gazebo") == ("humble",)
     assert jazzy.rosdep.installing("uuid-dev") == ("uuid",)
     assert "python3-numpy" in jazzy.rosdep
     assert jazzy.platform == "ubuntu:noble"
@@ -232,8 +232,8 @@ def test_python_modules() -> None:
 def test_headers_that_tell_their_key() -> None:
     names = Names(Store())
     assert names.header("gst/app/gstappsink.h")[0] == "libgstreamer1.0-dev"
-    assert names.header_sure("gst/gst.h")  # the released packages that use it declare it, too
-    assert not names.header_sure("GLFW/glfw3.h")  # too few use it to tell
+    assert names.is_header_usually_declared("gst/gst.h")  # the released packages that use it declare it, too
+    assert not names.is_header_usually_declared("GLFW/glfw3.h")  # too few use it to tell
 
 
 def test_cmake_names() -> None:
@@ -258,11 +258,11 @@ def test_loading_needs_nothing_heavy() -> None:
 
 def test_what_brings_a_name_is_what_walks_to_it() -> None:
     jazzy = index.load(Store(), "jazzy")
-    brought = {name: jazzy.brought((name,)) for name in jazzy.names()}
+    brought = {name: jazzy.closure((name,)) for name in jazzy.names()}
     for name in ("rviz2", "octomap_server", "python3-yaml", "eigen", "rclcpp"):
         having = sum(name in found for other, found in brought.items() if other != name)
-        assert jazzy.bringing(name, len(jazzy)) == having
-        assert jazzy.bringing(name, 3) > 3 or having <= 3
+        assert jazzy.count_providers(name, len(jazzy)) == having
+        assert jazzy.count_providers(name, 3) > 3 or having <= 3
 
 
 def test_plugins_of_one_base_stand_together() -> None:

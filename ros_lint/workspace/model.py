@@ -21,7 +21,7 @@ from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
-    from ros_lint.knowledge.provides import Offer
+    from ros_lint.knowledge.provides import ContentKind
     from ros_lint.knowledge.world import World
 
 
@@ -219,13 +219,13 @@ class Workspace:
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
-    def surely_lacks(self, owner: str, offer: Offer, wanted: str) -> bool:
+    def surely_lacks(self, owner: str, kind: ContentKind, wanted: str) -> bool:
         """Return whether a package certainly does not provide what was not found in it.
 
         Packages of the workspace have been searched. A released package must be known to lack it: in every
         distribution, unless the user chose one.
         """
-        return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.explicit)
+        return owner in self.by_name or self.world.lacks(owner, kind, wanted, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
         """Return whether a file of the package, or of the workspace if None, could not be read.

@@ -44,7 +44,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 def _key(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
-    anywhere = knowledge.resolving(name)
+    anywhere = knowledge.distros_resolving(name)
     meant = workspace.world.meant(name, python=stranger.runs_python)
     place = f"{knowledge.platform}, the platform of {distro}" if anywhere else "any Ubuntu that ROS 2 supports"
     remedy = f"use '{meant.name}'" if meant else "use another key, or add a rule to rosdistro"

@@ -87,7 +87,7 @@ def _lost_above(
     if not gone:
         return None
     hung = _hanging_by_name(workspace)
-    for name in sorted(name for name in world.closure(gone).less(world.closure(still)) if name in hung):
+    for name in sorted(name for name in world.closure(gone).difference(world.closure(still)) if name in hung):
         for dependent, use in hung[name]:
             starts = [declared.name for declared in dependent.declared]
             if dependent.name == package.name or package.name not in world.closure(starts):

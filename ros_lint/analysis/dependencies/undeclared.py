@@ -102,7 +102,7 @@ def provided_in_other_distros(package: Package, workspace: Workspace, name: str)
     for name_here, having in workspace.by_name.items():
         if name_here in closure:
             starts.update(declared.name for namesake in having for declared in namesake.declared)
-    return workspace.world.knowledge.comes_elsewhere(starts, name)
+    return workspace.world.knowledge.is_in_closure_elsewhere(starts, name)
 
 
 def _joined(found: Sequence[Need]) -> list[Need]:
