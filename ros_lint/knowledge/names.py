@@ -208,7 +208,7 @@ class Names:
     @cached_property
     def _macros_pattern(self) -> re.Pattern[str]:
         rows = self._rows("unseen.tsv")
-        return re.compile("|".join(fnmatch.translate(pattern) for pattern, why in rows if why.endswith("gives CMake macros")))
+        return re.compile("|".join(fnmatch.translate(pattern) for pattern, why in rows if why.endswith("provides CMake macros")))
 
     @cached_property
     def _targets(self) -> frozenset[str]:
