@@ -60,8 +60,8 @@ class Want(NamedTuple):
     def fits(self, issue: Issue) -> bool:
         """Return whether a finding is the expected one."""
         finding = issue.finding
-        here = (finding.span.path, finding.span.line) == (self.path, self.line)
-        return here and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}
+        place = (finding.span.path, finding.span.line) == (self.path, self.line)
+        return place and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}
 
 
 class Case(NamedTuple):
@@ -187,8 +187,8 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
         yield "the rule has a fix, but is not marked as fixable"
     if changed:
         after = OverlayTree(tree, {path: to_bytes(text) for path, text in changed.items()})
-        again = issues_of(after, case, rule)
-        yield from (f"{issue.finding.span}: still reported after its fix" for issue in again if issue.finding.fix)
+        remaining = issues_of(after, case, rule)
+        yield from (f"{issue.finding.span}: still reported after its fix" for issue in remaining if issue.finding.fix)
 
     reversed_tree = case._replace(files=dict(reversed(list(case.files.items())))).tree()
     if issues_of(reversed_tree, case, rule) != issues:

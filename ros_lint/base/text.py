@@ -107,8 +107,8 @@ class Text:
         count, rfind = text.count, text.rfind
         line, at, before = 1, 0, -1
         for start, end in ranges:
-            if passed := count("\n", at, start):
-                line += passed
+            if line_feeds := count("\n", at, start):
+                line += line_feeds
                 before = rfind("\n", at, start)
             at = start
             yield _make(Span, (path, line, start - before, line, end - before))
@@ -177,8 +177,8 @@ def decode(data: bytes) -> tuple[str, str]:
     Bytes that are not UTF-8 become lone surrogates, so nothing raises and nothing is lost.
     """
     head = data[:400]
-    named = b"coding" in head
-    if not named and data.isascii() and b"\0" not in head[:2]:
+    has_coding = b"coding" in head
+    if not has_coding and data.isascii() and b"\0" not in head[:2]:
         return data.decode("ascii"), "utf-8"  # nearly every file
     for mark, codec in _BOMS:
         if data.startswith(mark):
@@ -191,7 +191,7 @@ def decode(data: bytes) -> tuple[str, str]:
         if b"\0" in head[:2] and begins.match(data):
             with suppress(UnicodeDecodeError):
                 return data.decode(codec), codec
-    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if named else None)
+    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if has_coding else None)
     if declared:
         try:
             codec = codecs.lookup(declared[1].decode("ascii")).name

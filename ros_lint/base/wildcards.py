@@ -24,8 +24,8 @@ def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
         return first
     *middle, last = later_pieces
     # A lookahead is not retried. It replaces an atomic group, which Python has only from 3.11.
-    kept = [f"(?=(?P<g{number}>{gap}?{piece}))(?P=g{number})" for piece, number in zip(middle, numbers, strict=False)]
-    return f"{first}{''.join(kept)}{gap}{last}"
+    lookaheads = [f"(?=(?P<g{number}>{gap}?{piece}))(?P=g{number})" for piece, number in zip(middle, numbers, strict=False)]
+    return f"{first}{''.join(lookaheads)}{gap}{last}"
 
 
 def letters(ranges: Iterable[tuple[int, int]], *, negated: bool) -> str:

@@ -24,8 +24,8 @@ exit codes: 0 no findings at or above --fail-on, 1 such findings, 2 the run fail
 class _ArgumentParser(argparse.ArgumentParser):
     def reject(self, unknown: Sequence[str]) -> NoReturn:
         """Exit with a message about unknown arguments."""
-        known = [text for action in self._actions for text in action.option_strings]
-        hint = did_you_mean(similar_names(unknown[0].partition("=")[0], known))
+        options = [text for action in self._actions for text in action.option_strings]
+        hint = did_you_mean(similar_names(unknown[0].partition("=")[0], options))
         self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
 
     def error(self, message: str) -> NoReturn:

@@ -196,9 +196,9 @@ def no_packages(request: Request | Session) -> str:
     skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in folders]
     if not skipped:
         return f"ros-lint: no package found below {places}; is there a package.xml?"
-    more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
-    named = ", ".join(skipped[:_MOST_SKIPPED])
-    nothing = f"ros-lint: no package found below {places}; skipped: {named}{more}"
+    remaining = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
+    listed = ", ".join(skipped[:_MOST_SKIPPED])
+    nothing = f"ros-lint: no package found below {places}; skipped: {listed}{remaining}"
     return f"{nothing}; to check a skipped folder, pass its path"
 
 
@@ -223,17 +223,17 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[TargetDistro, tu
     distro = settings["distro"]
     if not distro:
         return TargetDistro(newest_lts(places), "newest LTS", explicit=False), ()
-    known = [known.name for known in distros(places)]
-    if distro in known:
+    available_names = [available_names.name for available_names in distros(places)]
+    if distro in available_names:
         return TargetDistro(distro, settings.origin("distro")), ()
     if settings.origin("distro") == "ROS_DISTRO":
         return TargetDistro(distro, "ROS_DISTRO"), (
-            f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(known)}",
+            f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(available_names)}",
         )
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar_names(distro, known)))
-    available = f"(available: {', '.join(known)})"
+    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar_names(distro, available_names)))
+    available = f"(available: {', '.join(available_names)})"
     raise UsageError(f"{settings.origin('distro')}: {kind} distribution '{distro}'{hint} {available}")
 
 

@@ -94,12 +94,12 @@ def find(start: str) -> str:
     if not os.path.isdir(folder):
         folder = os.path.dirname(folder)
     for place in upwards(folder):
-        own = os.path.join(place, "ros-lint.toml")
-        if os.path.isfile(own):
-            return own
-        project = os.path.join(place, "pyproject.toml")
-        if os.path.isfile(project) and _has_table(project):
-            return project
+        ros_lint_toml = os.path.join(place, "ros-lint.toml")
+        if os.path.isfile(ros_lint_toml):
+            return ros_lint_toml
+        pyproject = os.path.join(place, "pyproject.toml")
+        if os.path.isfile(pyproject) and _has_table(pyproject):
+            return pyproject
     return ""
 
 
@@ -115,9 +115,9 @@ def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
         if not isinstance(table, dict):
             raise ConfigError(f"{path}: {'tool.ros-lint' if name == 'ros-lint' else name} is not a table")
     text = data.decode("utf-8", "replace")
-    refused = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
-    settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in refused}
-    return settings, tuple([_without_effect(path, text, name) for name in refused])
+    without_effect = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
+    settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in without_effect}
+    return settings, tuple([_without_effect(path, text, name) for name in without_effect])
 
 
 def _without_effect(path: str, text: str, name: str) -> str:
@@ -155,10 +155,10 @@ def _load_toml(path: str, data: bytes) -> dict[str, Any]:
 def _checked(path: str, text: str, name: str, value: Any) -> Any:
     option = BY_NAME.get(name)
     if option is None or not option.in_file:
-        known = [option.name for option in OPTIONS if option.in_file]
+        available = [option.name for option in OPTIONS if option.in_file]
         if option is not None:
             raise ConfigError(f"{_place(path, text, name)}: '{name}' is a command-line option, not a setting")
-        hint = did_you_mean(similar_names(name.replace("_", "-"), known)) or f"; available: {', '.join(known)}"
+        hint = did_you_mean(similar_names(name.replace("_", "-"), available)) or f"; available: {', '.join(available)}"
         raise ConfigError(f"{_place(path, text, name)}: unknown setting '{name}'{hint}")
     if error := _error_in(option, value):
         raise ConfigError(f"{_place(path, text, name)}: '{name}' {error}")
@@ -182,8 +182,8 @@ def _error_in(option: Option, value: Any) -> str:
             if not isinstance(value, dict):
                 return "must be a table"
             if option.choices:
-                wrong = [f"of '{key}' {why}" for key, entry in value.items() if (why := _word_error_in(option, entry))]
-                return wrong[0] if wrong else ""
+                errors = [f"of '{key}' {why}" for key, entry in value.items() if (why := _word_error_in(option, entry))]
+                return errors[0] if errors else ""
             return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of rules"
 
 

@@ -23,16 +23,16 @@ def leave_current_folder() -> None:
     If ros-lint itself is in the current folder, the folder becomes the last entry.
     """
     try:
-        here = os.path.realpath(os.curdir)
+        current = os.path.realpath(os.curdir)
     except OSError:
         return  # the folder does not exist any more and contains no module
-    sys.path[:] = _without(here, sys.path)
+    sys.path[:] = _without(current, sys.path)
     home = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
-    if here == home:
+    if current == home:
         sys.path.append(home)
     os.environ["PYTHONSAFEPATH"] = "1"
     if path := os.environ.get("PYTHONPATH"):
-        os.environ["PYTHONPATH"] = os.pathsep.join(_without(here, path.split(os.pathsep)))
+        os.environ["PYTHONPATH"] = os.pathsep.join(_without(current, path.split(os.pathsep)))
 
 
 def _without(folder: str, path: list[str]) -> list[str]:

@@ -101,8 +101,8 @@ def text(report: Report, folders: Sequence[str]) -> str:
     """Return the baseline of a report: one line for each key, sorted, so that versions merge well."""
     counts = Counter(map(_key, report.issues))
     unsure = {_key(issue) for issue in report.issues if issue.finding.confidence is not Confidence.HIGH}
-    known = [_as_json(key, count, key not in unsure) for key, count in sorted(counts.items())]
-    return encode({"folders": list(folders), "known": known}, 2)
+    entries = [_as_json(key, count, key not in unsure) for key, count in sorted(counts.items())]
+    return encode({"folders": list(folders), "known": entries}, 2)
 
 
 def _gone_warning(name: str, gone: int) -> str:

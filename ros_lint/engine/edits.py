@@ -29,13 +29,13 @@ class EditError(Exception):
 def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
     """Return the fixes that can be applied together: those that do not overlap an earlier one."""
     chosen: list[Fix] = []
-    taken: list[Edit] = []
+    chosen_edits: list[Edit] = []
     for fix in fixes:
-        new = [edit for edit in fix.edits if edit not in taken]
-        if any(_collide(edit, chosen_fix) for edit in new for chosen_fix in taken):
+        new = [edit for edit in fix.edits if edit not in chosen_edits]
+        if any(_collide(edit, chosen_fix) for edit in new for chosen_fix in chosen_edits):
             continue
         chosen.append(fix)
-        taken += new
+        chosen_edits += new
     return tuple(chosen)
 
 

@@ -61,8 +61,8 @@ class FixTrials:
     def _writable(self) -> Writable:
         workspace = self.trial({}).workspace
         manifests = [package.manifest.path for package in workspace.unusable if package.manifest]
-        own = [join(package.path, file) for package in workspace.packages for file in package.files]
-        return Writable(self._loader.tree, self._roots, [*own, *manifests])
+        package_files = [join(package.path, file) for package in workspace.packages for file in package.files]
+        return Writable(self._loader.tree, self._roots, [*package_files, *manifests])
 
     def trial(self, changed: Mapping[str, bytes]) -> Trial:
         """Return the workspace with changed files, loaded and checked."""

@@ -29,8 +29,8 @@ class ReportCache:
         self._start = f"{digest(os.path.realpath(base))}-" if folder else ""
         self._folder = folder
         self._file = os.path.join(folder, f"{self._start}{digest(options)}.report") if folder else ""
-        own = files_below(SOURCES)
-        self._state = state_of([*own, *data]) if folder else ""
+        source_files = files_below(SOURCES)
+        self._state = state_of([*source_files, *data]) if folder else ""
 
     def __bool__(self) -> bool:
         """Return whether reports are cached at all."""

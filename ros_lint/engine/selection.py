@@ -45,30 +45,30 @@ def select(
 
     A rule with a severity in the settings is selected; a rule set to off is not.
     """
-    on: dict[str, Rule] = {}
-    named: set[str] = set()
+    selected: dict[str, Rule] = {}
+    selected_by_name: set[str] = set()
     for selector in (*(("all",) if pedantic else chosen), *added):
         matching_rules = _matching(rules, selector)
-        on.update((rule.name, rule) for rule in matching_rules)
+        selected.update((rule.name, rule) for rule in matching_rules)
         if selector not in ("all", "default"):
-            named.update(rule.name for rule in matching_rules)
+            selected_by_name.update(rule.name for rule in matching_rules)
     levels: dict[str, Severity] = {}
     for selector, word in (severities or {}).items():
         for rule in _matching(rules, selector):
             if word == "off":
-                on.pop(rule.name, None)
+                selected.pop(rule.name, None)
             else:
-                on[rule.name] = rule
+                selected[rule.name] = rule
                 levels[rule.name] = Severity[word.upper()]
     for selector in ignored:
         for rule in _matching(rules, selector):
-            on.pop(rule.name, None)
+            selected.pop(rule.name, None)
     ignores = tuple(
         (pattern, frozenset(rule.name for selector in selectors for rule in _matching(rules, selector)))
         for pattern, selectors in (per_path or {}).items()
     )
-    ordered = tuple(rule for rule in rules if rule.name in on)
-    return Selection(ordered, frozenset(named), levels, pedantic, ignores)
+    ordered = tuple(rule for rule in rules if rule.name in selected)
+    return Selection(ordered, frozenset(selected_by_name), levels, pedantic, ignores)
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:

@@ -93,12 +93,12 @@ class Knowledge:
         return self._provided(self.distro, package, kind)
 
     def _provided(self, distro: str, package: str, kind: ContentKind) -> Known:
-        own = self._provides(distro).known(package, kind)
-        if own.complete or package not in self._index(distro):
-            return own
+        contents = self._provides(distro).known(package, kind)
+        if contents.complete or package not in self._index(distro):
+            return contents
         key = (distro, package, kind)
         if key not in self._supplemented:
-            self._supplemented[key] = own.between(*self._neighbours(distro, package, kind))
+            self._supplemented[key] = contents.between(*self._neighbours(distro, package, kind))
         return self._supplemented[key]
 
     def _neighbours(self, distro: str, package: str, kind: ContentKind) -> tuple[list[Known], list[Known]]:
@@ -136,21 +136,21 @@ class Knowledge:
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that contain a package, oldest first."""
-        return tuple(other.distro for other in self._indexes_with(name))
+        return tuple(entry.distro for entry in self._indexes_with(name))
 
     def _indexes_with(self, name: str) -> tuple[Index, ...]:
         distributions = self._distros_with.get(name)
         if distributions is None:
-            distributions = self._distros_with[name] = tuple([other for other in self.others if name in other])
+            distributions = self._distros_with[name] = tuple([entry for entry in self.others if name in entry])
         return distributions
 
     def may_exist_elsewhere(self, package: str, kind: ContentKind, name: str) -> bool:
         """Return whether a package may provide a name in any other distribution."""
-        return any(known.ask(name) != "missing" for known in self.known_elsewhere(package, kind))
+        return any(contents.ask(name) != "missing" for contents in self.known_elsewhere(package, kind))
 
     def known_elsewhere(self, package: str, kind: ContentKind) -> tuple[Known, ...]:
         """Return the lists of names that a package provides, one for each other distribution with the package."""
-        return tuple([self._provided(other.distro, package, kind) for other in self._indexes_with(package)])
+        return tuple([self._provided(entry.distro, package, kind) for entry in self._indexes_with(package)])
 
     def provides_elsewhere(self, package: str, name: str) -> bool | None:
         """Return whether ``name`` is a transitive dependency of a package in any other distribution.
@@ -173,7 +173,7 @@ class Knowledge:
 
     def is_in_closure_elsewhere(self, packages: Collection[str], name: str) -> bool:
         """Return whether ``name`` is a transitive dependency of one of ``packages`` in any other distribution."""
-        return any(name in other.closure(packages) for other in self._indexes_with(name))
+        return any(name in entry.closure(packages) for entry in self._indexes_with(name))
 
     @property
     def active(self) -> tuple[str, ...]:
@@ -197,8 +197,8 @@ class Knowledge:
 
     def distros_resolving(self, key: str) -> tuple[str, ...]:
         """Return the distributions for which a rosdep key resolves, oldest first."""
-        known = distros(self._store.places)
-        return tuple(distro.name for distro in known if self.rosdep.resolves(key, distro.name))
+        distributions = distros(self._store.places)
+        return tuple(distro.name for distro in distributions if self.rosdep.resolves(key, distro.name))
 
     def resolves(self, key: str) -> bool | None:
         """Return whether a rosdep key has a rule for a platform of the distribution; None if unknown."""

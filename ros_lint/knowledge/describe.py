@@ -41,8 +41,8 @@ def describe(manifest: Manifest, known_variables: Mapping[str, str]) -> Released
     letter = next((letter for letter, name in BUILD_TYPES.items() if name == types[-1]), "?")
     exported = {element.tag for element in manifest.exports}
     flags = letter + "i" * interfaces + "m" * ("metapackage" in exported) + "D" * ("deprecated" in exported)
-    named = {kind: tuple(sorted(names)) for kind, names in depends.items()}
-    return Released(manifest.name, manifest.version, flags, manifest.name, named)
+    sorted_names = {kind: tuple(sorted(names)) for kind, names in depends.items()}
+    return Released(manifest.name, manifest.version, flags, manifest.name, sorted_names)
 
 
 def holds(condition: str, known_variables: Mapping[str, str]) -> bool:

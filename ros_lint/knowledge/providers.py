@@ -168,8 +168,8 @@ def by_import(world: Layers, module: str) -> Providers:
         return _existing(world, _with_released(world, top, packages))
     owners = _in_underlay(world, [underlay.modules(top) for underlay in world.underlays])
     differing = names.module_packages(module, world.knowledge.distro)
-    named = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
-    return _existing(world, (*owners, *differing, *named, *keys), keys=keys)
+    module_package = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
+    return _existing(world, (*owners, *differing, *module_package, *keys), keys=keys)
 
 
 def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tuple[str, ...]:
@@ -251,9 +251,9 @@ def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
         return _first_candidate(world, libraries, "cmake")  # a build uses no pip packages
-    same = _declarable(world, world.spelling.same(name))
-    if same:
-        return Suggestion(same[0], "spelling") if len(same) == 1 else None
+    same_spelling = _declarable(world, world.spelling.same(name))
+    if same_spelling:
+        return Suggestion(same_spelling[0], "spelling") if len(same_spelling) == 1 else None
     for suggestion in _other_names(world, name, python=python):
         if suggestion is not None:
             return suggestion

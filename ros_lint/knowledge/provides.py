@@ -62,12 +62,12 @@ class Known(NamedTuple):
         the list is returned unchanged.
         """
         earlier, later = list(before), list(after)
-        sides = [next((known for known in side if known.complete), None) for side in (earlier, later)]
+        sides = [next((contents for contents in side if contents.complete), None) for side in (earlier, later)]
         if None in sides:
             return self
-        neighbours = [name for known in (*earlier, *later) for name in known.possible]
+        neighbours = [name for contents in (*earlier, *later) for name in contents.possible]
         maybe = dict.fromkeys(name for name in (*self.maybe, *neighbours) if name not in self.names)
-        endings = next((known.endings for known in sides if known), ())
+        endings = next((contents.endings for contents in sides if contents), ())
         return Known(self.names, tuple(maybe), True, endings)
 
 

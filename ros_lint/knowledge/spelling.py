@@ -65,15 +65,15 @@ class Spelling:
 
     def _names_with(self, word: str) -> list[str]:
         """Return the names that contain a word; none for a very common word, which is not significant."""
-        known = self._by_word.get(word)
-        if known is not None:
-            return known
-        text, same = self._lower, string.ascii_lowercase if word.isalpha() else string.digits
+        cached = self._by_word.get(word)
+        if cached is not None:
+            return cached
+        text, word_characters = self._lower, string.ascii_lowercase if word.isalpha() else string.digits
         names: list[str] = []
         at = text.find(word)
         while at >= 0 and len(names) <= _MOST_NAMES_WITH_WORD:
             end = at + len(word)
-            if text[at - 1] not in same and text[end] not in same:
+            if text[at - 1] not in word_characters and text[end] not in word_characters:
                 start, end = text.rfind("\n", 0, at) + 1, text.find("\n", end)
                 names += self._by_lower[text[start:end]]
             at = text.find(word, end)
@@ -94,8 +94,8 @@ class Spelling:
     @cached_property
     def _plain(self) -> Mapping[str, list[str]]:
         names_of: dict[str, list[str]] = {}
-        for name, same in zip(self._names, plain("\n".join(self._names)).split("\n"), strict=True):
-            names_of.setdefault(same, []).append(name)
+        for name, plain_name in zip(self._names, plain("\n".join(self._names)).split("\n"), strict=True):
+            names_of.setdefault(plain_name, []).append(name)
         return names_of
 
     @cached_property
@@ -120,12 +120,12 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
 
 
 def _may_be_intended(words: frozenset[str], others: frozenset[str]) -> bool:
-    lacking, more = words - others, others - words
-    if not (lacking and more):
+    lacking, additional = words - others, others - words
+    if not (lacking and additional):
         return True
-    if all(similar_names(word, lacking) for word in more):
-        return all(similar_names(word, more) for word in lacking)
-    return all(any(word.startswith(other) or other.startswith(word) for other in more) for word in lacking)
+    if all(similar_names(word, lacking) for word in additional):
+        return all(similar_names(word, additional) for word in lacking)
+    return all(any(word.startswith(other) or other.startswith(word) for other in additional) for word in lacking)
 
 
 def may_be_package(name: str) -> bool:

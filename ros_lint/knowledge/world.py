@@ -242,12 +242,12 @@ class World:
         """
         key = (name, everywhere)
         if key not in self._interfaces:
-            own = self._known(name, "interfaces")
-            known = [own]
-            if name not in self._members and (everywhere or own == NOTHING_KNOWN):
-                known += self.knowledge.known_elsewhere(name, "interfaces")
-            lists = [contents for contents in known if contents != NOTHING_KNOWN]
-            complete = known[-1].complete and all(contents.complete and contents.possible for contents in lists)
+            target_contents = self._known(name, "interfaces")
+            all_contents = [target_contents]
+            if name not in self._members and (everywhere or target_contents == NOTHING_KNOWN):
+                all_contents += self.knowledge.known_elsewhere(name, "interfaces")
+            lists = [contents for contents in all_contents if contents != NOTHING_KNOWN]
+            complete = all_contents[-1].complete and all(contents.complete and contents.possible for contents in lists)
             names = [interface for contents in lists for interface in contents.possible]
             self._interfaces[key] = frozenset(names if complete else ())
         return self._interfaces[key]
@@ -258,15 +258,15 @@ class World:
         A package that has interfaces only in other distributions may have the module: interfaces of turtlesim, for
         example, have moved to turtlesim_msgs.
         """
-        known = self._known(name, "modules")
+        modules = self._known(name, "modules")
         released = self.released(name) if self.layer(name) in ("underlay", "index") else None
-        if released is None or name in known.names:
-            return known
+        if released is None or name in modules.names:
+            return modules
         if released.interfaces:
-            return known._replace(names=(*known.names, name))
-        if known.complete and any(contents.possible for contents in self.knowledge.known_elsewhere(name, "interfaces")):
-            return known._replace(maybe=(*known.maybe, name))
-        return known
+            return modules._replace(names=(*modules.names, name))
+        if modules.complete and any(contents.possible for contents in self.knowledge.known_elsewhere(name, "interfaces")):
+            return modules._replace(maybe=(*modules.maybe, name))
+        return modules
 
     # --- names of headers, modules and CMake packages --------------------------------------------------------------------------
 
@@ -345,8 +345,8 @@ class World:
     @cached_property
     def spelling(self) -> Spelling:
         """All names of packages and keys, for look-ups of similar names."""
-        known = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
-        return Spelling(name for names in known for name in names)
+        name_sources = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
+        return Spelling(name for names in name_sources for name in names)
 
     # --- inside ---------------------------------------------------------------------------------------------------
 

@@ -27,16 +27,16 @@ def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
     text = re.sub(r"[ \t]+", "", re.sub(r"\r\n?", "\n", text))
     units = text.encode("utf-16-le", "surrogatepass") + _END
     result: dict[int, str] = {}
-    seen: dict[bytes, int] = {}
+    counts: dict[bytes, int] = {}
     last = max(lines, default=0)
     start = 0
     for number in range(1, last + 1):
         window = units[start : start + 2 * _UNITS]
         if not window:
             break
-        seen[window] = seen.get(window, 0) + 1
+        counts[window] = counts.get(window, 0) + 1
         if number in lines:
-            result[number] = f"{_hash(window):x}:{seen[window]}"
+            result[number] = f"{_hash(window):x}:{counts[window]}"
         start = _next_line(units, start)
         if start < 0:
             break

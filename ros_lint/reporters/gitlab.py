@@ -27,13 +27,13 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 def _findings(report: Report) -> Iterator[dict[str, Any]]:
     # GitLab merges entries with the same fingerprint, so issues of one identity are numbered in each file.
-    seen: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for issue in report.issues:
         finding = issue.finding
         identity = f"{issue.identity}/{finding.span.path}"
-        seen[identity] += 1
+        counts[identity] += 1
         name, level, span = f"{issue.rule.name} ({issue.rule.code})", _LEVELS[issue.severity], finding.span
-        yield _entry(f"{identity}/{seen[identity]}", name, finding.message, level, span.path, span.line)
+        yield _entry(f"{identity}/{counts[identity]}", name, finding.message, level, span.path, span.line)
 
 
 def _problems(report: Report) -> Iterator[dict[str, Any]]:

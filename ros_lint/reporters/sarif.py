@@ -120,9 +120,9 @@ def _hashes(groups: Sequence[IssueGroup], texts: SourceTexts) -> dict[tuple[str,
         lines.setdefault(span.path, set()).add(span.line)
     return {
         (path, line): line_hash
-        for path, wanted in lines.items()
+        for path, numbers in lines.items()
         if (source := texts(path))
-        for line, line_hash in line_hashes(source, wanted).items()
+        for line, line_hash in line_hashes(source, numbers).items()
     }
 
 

@@ -109,4 +109,4 @@ TOPICS = [
 
 def topic(name: str) -> dict[str, Any]:
     """Return the reference to a kind of notification. Raises StopIteration for an unknown name."""
-    return next({"id": known["id"], "index": index} for index, known in enumerate(TOPICS) if known["name"] == name)
+    return next({"id": entry["id"], "index": index} for index, entry in enumerate(TOPICS) if entry["name"] == name)

@@ -66,8 +66,8 @@ def refresh(
     unknown = [name for name in distros if name not in available]
     if unknown:
         raise KnowledgeError(f"{source} has no distribution '{unknown[0]}'; available: {', '.join(sorted(available))}")
-    wanted = distros or sorted(name for name, entry in available.items() if entry.active)
-    files = {f"{name}.idx": index.render_file(name, "", date, rosdistro.packages(available[name])) for name in wanted}
+    names = distros or sorted(name for name, entry in available.items() if entry.active)
+    files = {f"{name}.idx": index.render_file(name, "", date, rosdistro.packages(available[name])) for name in names}
     if rosdep_files:
         rules = [(place, rosdistro.load_yaml(place)) for place in rosdep_files]
         files["rosdep.tsv"] = rosdep.render_file(rosdep_rules.keys(rules))
@@ -92,8 +92,8 @@ def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str
 def _provided(installed: Installed) -> ReleasedContents:
     fields = {}
     for facet, letter in LETTERS.items():
-        known = installed.known(facet)
-        names = (*known.names, *(f"{name}?" for name in known.maybe))
+        contents = installed.known(facet)
+        names = (*contents.names, *(f"{name}?" for name in contents.maybe))
         if facet == "modules" and installed.known("interfaces").names:
             # The module of an interface package is implied by its interfaces.
             names = tuple(name for name in names if name != installed.name)

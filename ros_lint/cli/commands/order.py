@@ -44,8 +44,8 @@ def _edges(graph: Graph, cycle: Cycle) -> Iterator[str]:
 
 def _behind_cycles(graph: Graph) -> Iterator[str]:
     on_cycles = {name for cycle in graph.cycles for name in cycle}
-    if after := [name for name in graph.order.stuck if name not in on_cycles]:
-        yield f"no build order, because of a dependency on a package of the cycle: {', '.join(after)}"
+    if blocked := [name for name in graph.order.stuck if name not in on_cycles]:
+        yield f"no build order, because of a dependency on a package of the cycle: {', '.join(blocked)}"
 
 
 def _duplicates(graph: Graph) -> Iterator[str]:

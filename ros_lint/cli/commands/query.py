@@ -67,5 +67,5 @@ def enclosing_workspace(file: str) -> str:
         built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
         if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
             return above
-    here = os.path.realpath(os.curdir)
-    return repository or (here if here in folders else start)
+    current = os.path.realpath(os.curdir)
+    return repository or (current if current in folders else start)

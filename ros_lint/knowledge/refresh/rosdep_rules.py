@@ -29,9 +29,9 @@ def keys(files: Iterable[tuple[str, object]]) -> dict[str, RosdepKey]:
         for name, rule in rules.items():
             if not isinstance(rule, dict):
                 raise KnowledgeError(f"{place}: the rule of '{name}' is not a mapping from systems")
-            known = merged.get(str(name), {})
-            if known.keys() <= _ONLY_OSX:
-                merged[str(name)] = {**rule, **known}
+            known_rule = merged.get(str(name), {})
+            if known_rule.keys() <= _ONLY_OSX:
+                merged[str(name)] = {**rule, **known_rule}
     # A package for Linux cannot use a key that exists on macOS only.
     return {name: _key(name, rule) for name, rule in merged.items() if rule.keys() - _ONLY_OSX}
 

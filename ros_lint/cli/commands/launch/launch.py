@@ -105,9 +105,9 @@ def _argument_warnings(
     """
     accepted = lookup.accepted_arguments(file)
     declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
-    known = {*accepted.known, *declared, *lookup.used(file)}
+    accepted_names = {*accepted.known, *declared, *lookup.used(file)}
     for name in arguments:
-        if name in known:
+        if name in accepted_names:
             continue
         near = similar_names(name, declared, 1, 0.75)
         hint = did_you_mean(near) or (f"; available: {', '.join(declared)}" if declared else "; it declares none")
@@ -126,9 +126,9 @@ def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion) 
             yield f"{missing.span}: the argument '{missing.name}' has no default; pass {missing.name}:=VALUE"
         else:
             yield f"{missing.include}: the argument '{missing.name}' is not passed here and has no default at {missing.span}"
-    for refused in expansion.refused:
-        choices = ", ".join(refused.choices)
-        yield f"{refused.span}: '{refused.value}' is not a valid choice for the argument '{refused.name}'; use one of {choices}"
+    for invalid in expansion.refused:
+        choices = ", ".join(invalid.choices)
+        yield f"{invalid.span}: '{invalid.value}' is not a valid choice for the argument '{invalid.name}'; use one of {choices}"
     for cycle in expansion.circles:
         yield f"{cycle.span}: this include leads back to {cycle.path}, so launching never ends"
     for started in expansion.started:
