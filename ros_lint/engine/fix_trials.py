@@ -77,7 +77,7 @@ class FixTrials:
 
     def patch(self, changed: Mapping[str, bytes]) -> bytes:
         """Return the changes as a unified diff against the files that were read."""
-        return b"".join(unified_bytes(path, self._loader.held.get(path), data) for path, data in sorted(changed.items()))
+        return b"".join(unified_bytes(path, self._loader.pinned.get(path), data) for path, data in sorted(changed.items()))
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
         """Return the shown issues with a fix that is of the selected kind and may be written.
@@ -91,7 +91,7 @@ class FixTrials:
             if not new:
                 return issues
             self._files_to_edit |= new
-            self._loader.hold(new)
+            self._loader.pin(new)
             self._trials.clear()
 
     def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:

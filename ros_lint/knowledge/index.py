@@ -40,7 +40,9 @@ class Released(NamedTuple):
     """The entry of a package in the index of a distribution."""
 
     name: str
+    """Name of the package."""
     version: str
+    """Version of the release."""
     flags: str
     """Letter of the build type, followed by flags.
 
@@ -48,8 +50,12 @@ class Released(NamedTuple):
     ``-`` only the name is known, ``~`` dependencies may be of an older version.
     """
     repository: str
+    """Name of the repository."""
     depends: Mapping[str, tuple[str, ...]]
-    """Sorted names by letter: a letter of KINDS, ``M`` for groups that it is a member of, ``G`` for groups it depends on."""
+    """Sorted names by letter: a letter of KINDS for dependencies, ``M`` for groups that it is a member of, ``G`` for groups.
+
+    b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc.
+    """
 
     @property
     def build_type(self) -> str:

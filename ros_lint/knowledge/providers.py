@@ -34,7 +34,9 @@ class Providers(NamedTuple):
     names: tuple[str, ...] = ()
     """Packages and keys, best first: the first name is to be declared."""
     packages: tuple[str, ...] = ()
+    """The members of ``names`` that are packages."""
     keys: tuple[str, ...] = ()
+    """The members of ``names`` that are rosdep keys."""
     none_needed: bool = False
     """True if the language or the build tool provides it, so that nothing has to be declared."""
     sure: bool = True
@@ -191,7 +193,7 @@ def importable_modules(script: BuildScript, files: Sequence[str]) -> tuple[str, 
     ``files`` are the files of the package. Folders without Python modules and folders with usual names of data are
     left out, because ``find_namespace_packages()`` counts every folder as a package.
     """
-    tops = dict.fromkeys(name.partition(".")[0] for name in script.python_packages)
+    tops = dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages)
     modules: dict[str, bool] = {}
     for file in files if tops else ():
         top, slash, rest = file.removeprefix("src/").partition("/")
@@ -204,7 +206,7 @@ def importable_modules(script: BuildScript, files: Sequence[str]) -> tuple[str, 
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
     """Yield the modules whose files CMake installs into a folder of ``sys.path``."""
-    for provided in script.installs:
+    for provided in script.products.installs:
         if provided.path.endswith(".py") and provided.importable:
             top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
             if top != "__init__":

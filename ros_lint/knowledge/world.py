@@ -73,8 +73,11 @@ class World:
         awaited: ExpectedRepositories = NOTHING_AWAITED,
     ) -> None:
         self.underlays = tuple(underlays)
+        """Install prefixes below the workspace, topmost first. Not for plugins."""
         self.knowledge = knowledge
+        """Data of released packages. Not for plugins."""
         self.awaited = awaited
+        """Repositories of the workspace that may be missing."""
         self._members: dict[str, Member] = {}
         for member in members:
             self._members.setdefault(member.name, member)
@@ -157,7 +160,7 @@ class World:
         return self._installed.get(name)
 
     def depends(self, name: str, kinds: Iterable[str]) -> tuple[str, ...] | None:
-        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters, see Member."""
+        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters as in Released."""
         member = self._members.get(name)
         if member is not None:
             return tuple(sorted({dependency for kind in kinds for dependency in member.depends.get(kind, ())}))
