@@ -249,7 +249,7 @@ def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
 
 def test_what_another_distribution_has_is_known_from_there() -> None:
     workspace = loaded(cmake("talker", "", ""), "lyrical")
-    assert workspace.world.standing("gazebo_ros") == "elsewhere"
+    assert workspace.world.resolution("gazebo_ros") == "elsewhere"
     assert may_provide(("gazebo_ros",), "rclpy", workspace)
     assert not may_provide(("gazebo_ros",), "rviz_common", workspace)
     assert may_provide(("gazebo_ros",), "gazebo", workspace)

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.base import files
-from ros_lint.base.tree import DiskTree, Machine
+from ros_lint.base.tree import DiskTree, MachineTree
 from ros_lint.knowledge.store import KnowledgeError, Store
 from tests.test_bad_input import GOOD, lint, package, rules
 
@@ -73,7 +73,7 @@ def test_a_shrinking_file_is_read_to_its_end(tmp_path: Path, monkeypatch: pytest
 
 
 @IRREGULAR
-@pytest.mark.parametrize("tree", [DiskTree, lambda folder: Machine()])
+@pytest.mark.parametrize("tree", [DiskTree, lambda folder: MachineTree()])
 def test_only_regular_files_are_read(tmp_path: Path, make: Callable[[Path], None], tree: Callable[[str], DiskTree]) -> None:
     make(tmp_path / "f")
     with pytest.raises(OSError, match="not a regular file|links to a place outside the workspace"):

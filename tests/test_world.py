@@ -57,13 +57,13 @@ def test_a_name_can_be_a_package_and_a_key() -> None:
     ],
 )
 def test_a_declared_name_is_classified(name: str, standing: str) -> None:
-    assert world(member("mine")).standing(name) == standing
+    assert world(member("mine")).resolution(name) == standing
 
 
 def test_nothing_is_unknown_without_an_index() -> None:
     result = world(member("mine"), distro="iron")
-    assert result.standing("nonsense_pkg") == "unknowable"
-    assert result.standing("mine") == result.standing("eigen") == "known"
+    assert result.resolution("nonsense_pkg") == "unknowable"
+    assert result.resolution("mine") == result.resolution("eigen") == "known"
     assert not result.closure(["rclcpp"]).complete
 
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
+from ros_lint.base.xml_tree import XmlElement, XmlError, attribute_places, parse
 
 pytestmark = pytest.mark.slow
 
@@ -78,7 +78,7 @@ def _libxml2(text: str) -> etree._Element:
     return etree.fromstring(text.encode(), parser)
 
 
-def _agree(text: str, found: Element, expected: etree._Element) -> None:
+def _agree(text: str, found: XmlElement, expected: etree._Element) -> None:
     assert found.tag == expected.tag
     assert found.attributes == dict(expected.attrib)
     assert text.startswith(f"<{found.tag}", found.start)

@@ -8,11 +8,11 @@ TEST_FOLDERS = frozenset(
     {"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests", "test_data", "testdata",
      "test_resources"}
 )  # fmt: skip
-EDITORS_COPIES = frozenset({".ipynb_checkpoints"})
+EDITOR_COPY_FOLDERS = frozenset({".ipynb_checkpoints"})
 """Names of folders in which editors keep copies of files."""
 _DISCARDED_FOLDERS = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"})
 _EXAMPLE_FOLDERS = frozenset({"example", "examples", "sample", "samples", "template", "templates", "doc", "docs"})
-_AUXILIARY_FOLDERS = _EXAMPLE_FOLDERS | _DISCARDED_FOLDERS | EDITORS_COPIES
+_AUXILIARY_FOLDERS = _EXAMPLE_FOLDERS | _DISCARDED_FOLDERS | EDITOR_COPY_FOLDERS
 _COPY_SUFFIX = re.compile(r" (?:copy(?: \d+)?|\((?:\d+|(?:another |\d+\w\w )?copy)\))\.\w+\Z")
 """Suffix that editors and file managers add to the name of a copy."""
 _OLD_VERSION_SUFFIX = re.compile(r"[ _.-](?:backup|bak|old)\d*(?:(?:[ _.-]v?|v)\d+)*(?:\.launch)?\.\w+\Z")

@@ -1,4 +1,4 @@
-"""GraphPaths through a graph, the shortest first."""
+"""Find the shortest paths through a graph."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _MOST_STEPS = 20_000
 
 
 class GraphPaths(NamedTuple):
-    """GraphPaths from one node to another."""
+    """Paths from one node to another."""
 
     paths: tuple[tuple[str, ...], ...]
-    """GraphPaths without repeated nodes, from start to end, sorted by length, then by name."""
+    """Paths without repeated nodes, from start to end, sorted by length, then by name."""
     more: bool
     """True if there are or may be further paths."""
 

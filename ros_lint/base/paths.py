@@ -38,7 +38,7 @@ def parent(path: str) -> str:
 
 
 def is_below(path: str, folder: str) -> bool:
-    """Return whether a path is a folder or is inside it. The empty folder contains everything."""
+    """Return whether ``path`` is ``folder`` or is inside it. The empty folder contains everything."""
     return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
 
 

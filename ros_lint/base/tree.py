@@ -173,7 +173,7 @@ def _is_in(path: str, folders: Iterable[str]) -> bool:
     return any(is_below(path, folder) for folder in folders)
 
 
-class Machine(DiskTree):
+class MachineTree(DiskTree):
     """All files of the machine, by absolute path. Links may lead anywhere."""
 
     __slots__ = ()

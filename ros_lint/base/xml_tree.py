@@ -19,7 +19,7 @@ class XmlError(Exception):
         self.offset: Final = offset
 
 
-class Element:
+class XmlElement:
     """An element; ``start`` is the offset of its ``<``. Comments and text between elements are left out."""
 
     __slots__ = ("attributes", "children", "start", "tag")
@@ -28,9 +28,9 @@ class Element:
         self.tag = tag
         self.attributes = attributes
         self.start = start
-        self.children: list[Element] = []
+        self.children: list[XmlElement] = []
 
-    def walk(self) -> Iterator[Element]:
+    def walk(self) -> Iterator[XmlElement]:
         """Yield the element and its descendants in document order."""
         stack = [self]
         while stack:
@@ -52,12 +52,12 @@ class _Parent(Protocol):
 _E = TypeVar("_E", bound=_Parent)
 
 
-def parse(text: str) -> Element:
+def parse(text: str) -> XmlElement:
     """Return the root element. Raises XmlError, also for a declared entity.
 
     An entity could expand without limit or read other files.
     """
-    return parse_as(text, Element)
+    return parse_as(text, XmlElement)
 
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
@@ -105,7 +105,7 @@ def unmarked(data: bytes) -> bytes:
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 
 
-def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
+def attribute_places(text: str, element: XmlElement) -> dict[str, tuple[int, int]]:
     """Return the start and end offsets of each attribute value, without its quotes, by attribute name."""
     name = _NAME.match(text, element.start)
     at = name.end() if name else element.start

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.cli.options import BY_NAME, COMMANDS, OPTIONS, Option
+from ros_lint.cli.options import BY_NAME, COMMANDS, OPTIONS, CliOption
 
 _COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
 _WORKSPACE_HELP = "workspace (default: the workspace that contains the current folder)"
@@ -181,7 +181,7 @@ def _add_paths(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("paths", nargs="*", default=["."], metavar="PATH", help="workspaces or packages (default: .)")
 
 
-def _add_option(parser: argparse.ArgumentParser, option: Option) -> None:
+def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
     flag = f"--{option.name}"
     text = f"{option.help} (also ${option.environment})" if option.environment else option.help
     match option.type:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ros_lint.analysis.rule import Rule
-from ros_lint.cli.options import Option
+from ros_lint.cli.options import CliOption
 from ros_lint.cli.settings import toml
 
 GROUPS = {
@@ -69,7 +69,7 @@ def overview(rules: Sequence[Rule]) -> str:
     return "".join(parts)
 
 
-def settings(options: Iterable[Option]) -> str:
+def settings(options: Iterable[CliOption]) -> str:
     """Return a table of options in Markdown. Those that configuration files can set come first."""
     lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
     for option in sorted(options, key=lambda option: not option.in_file):
@@ -80,7 +80,7 @@ def settings(options: Iterable[Option]) -> str:
     return "\n".join(lines)
 
 
-def _flag(option: Option) -> str:
+def _flag(option: CliOption) -> str:
     if not option.on_command_line:
         return ""
     if option.type == "flag":

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from ros_lint.base import files
 from ros_lint.base.paths import upwards
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
+from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, CliOption
 from ros_lint.errors import UserError
 
 _MOST_BYTES = 256 << 10
@@ -167,7 +167,7 @@ def _checked(path: str, text: str, name: str, value: Any) -> Any:
     return value
 
 
-def _error_in(option: Option, value: Any) -> str:
+def _error_in(option: CliOption, value: Any) -> str:
     match option.type:
         case "flag":
             return "" if isinstance(value, bool) else "must be true or false"
@@ -187,7 +187,7 @@ def _error_in(option: Option, value: Any) -> str:
             return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of rules"
 
 
-def _word_error_in(option: Option, value: Any) -> str:
+def _word_error_in(option: CliOption, value: Any) -> str:
     if not isinstance(value, str):
         return "must be a string"
     if option.choices and value not in option.choices:
@@ -207,14 +207,14 @@ def _place(path: str, text: str, name: str) -> str:
     return f"{path}:{text.count(chr(10), 0, match.start()) + 1}" if match else path
 
 
-def _relative(option: Option, value: Any, path: str) -> Any:
+def _relative(option: CliOption, value: Any, path: str) -> Any:
     """Return a value of a configuration file. Paths in it are relative to the folder of the file."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value
 
 
-def _from_environment(option: Option, value: str) -> Any:
+def _from_environment(option: CliOption, value: str) -> Any:
     if option.type == "paths":
         return tuple(entry for entry in value.split(os.pathsep) if entry)
     return value

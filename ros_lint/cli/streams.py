@@ -16,7 +16,7 @@ class OutputError(Exception):
 
 
 class _Output(io.RawIOBase):
-    """Standard output that raises OutputError, because an OSError would not tell it from other files."""
+    """Standard output that raises OutputError, because an OSError does not show which file failed."""
 
     def __init__(self, raw: io.RawIOBase) -> None:
         self._raw = raw

@@ -139,7 +139,7 @@ class Names:
         """Return the rosdep keys that provide a Python module, best first. ``("-",)`` means the standard library.
 
         ``module`` may be dotted. The evidence for a key is the name of its system package, its declaration by packages
-        with the import, or a manual entry. Names from nixpkgs alone do not suffice.
+        that import the module, or a manual entry. Names from nixpkgs alone do not suffice.
         """
         top, _, rest = module.partition(".")
         if top in PYTHON_MODULES:

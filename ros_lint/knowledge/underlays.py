@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
 from ros_lint.base.text import read as read_text
-from ros_lint.base.tree import Machine
+from ros_lint.base.tree import MachineTree
 from ros_lint.collectors.manifest import collect
 from ros_lint.knowledge.describe import context, describe
 from ros_lint.knowledge.index import RUNTIME, Released
@@ -158,7 +158,7 @@ def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tre
     absolute path; by default it is this machine.
     """
     roots = [os.path.abspath(place) for place in prefixes]
-    tree = machine or Machine()
+    tree = machine or MachineTree()
     return tuple(in_tree(tree, root, distro) for root in roots if not (base and _belongs_to(tree, root, base)))
 
 

@@ -110,14 +110,14 @@ class World:
         """Return whether a name is a rosdep key, even if it resolves on other platforms only."""
         return self._look_up(name)[1]
 
-    def only_runs(self, name: str) -> bool:
+    def is_runtime_library(self, name: str) -> bool:
         """Return whether a name is a rosdep key for shared libraries only, without the files to build against them."""
         if not name.startswith("lib") or self.is_package(name):
             return False
         key = self.knowledge.rosdep.get(name)
         return key is not None and bool(key.apt) and all(map(_SHARED_LIBRARY.match, key.apt))
 
-    def standing(self, name: str) -> Resolution:
+    def resolution(self, name: str) -> Resolution:
         """Return how a declared name resolves, see :data:`Resolution`."""
         if self.is_package(name) or self.is_key(name):
             return "known"

@@ -192,7 +192,7 @@ class _View(NamedTuple):
     """Number of characters at the start of the line that ``columns`` leaves out."""
 
     def column(self, index: int) -> int:
-        """Return the column of a character of the line in the shown text."""
+        """Return the column, in the shown text, of the character at ``index`` of the line."""
         return self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
 
 

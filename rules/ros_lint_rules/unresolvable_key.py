@@ -38,7 +38,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if world.is_key(name):
             if dependencies.is_unresolvable_key(workspace, name):
                 yield from (_key(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
-        elif workspace.target.explicit and world.standing(name) == "elsewhere":
+        elif workspace.target.explicit and world.resolution(name) == "elsewhere":
             yield from (_package(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
 
 

@@ -61,7 +61,7 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     if any(words & _words(unknown_name) for unknown_name in unknown):
         return False
     world = workspace.world
-    if world.standing(name) == "elsewhere":
+    if world.resolution(name) == "elsewhere":
         return False  # packages of that distribution provide it
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
     if most < 1 or any(name in world.closure((local,)) for local in workspace.by_name if local != name):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
 from ros_lint.analysis.finding import Severity
-from ros_lint.base.tree import Machine, RecordedTree, text_of
+from ros_lint.base.tree import MachineTree, RecordedTree, text_of
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import UsageError, no_packages, open_session, parse_request, report_cache
 from ros_lint.engine.report import Report
@@ -117,7 +117,7 @@ def _single_package_warning(request: Request) -> Iterator[str]:
 def _report(request: Request, progress: Progress) -> Report:
     """Return the report of a run, or the cached one if nothing that it depends on has changed."""
     cache = report_cache(request)
-    disks = request.disk, Machine()
+    disks = request.disk, MachineTree()
     recorded = [RecordedTree(disk) for disk in disks]
     if cached := cache.fetch(recorded):
         return cached

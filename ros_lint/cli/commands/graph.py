@@ -1,4 +1,4 @@
-"""``ros-lint graph``: the dependency graph for people and for programs.
+"""``ros-lint graph``: print the dependency graph, for people or for programs.
 
 The JSON has ``schema_version`` 1 and, in the order of names:
 

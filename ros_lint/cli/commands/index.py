@@ -56,7 +56,7 @@ def refresh(
 ) -> tuple[Refreshed, ...]:
     """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` if ``rosdep_files`` are given. Return the changes.
 
-    ``source`` is the ``index-v4.yaml`` of rosdistro, a path or a URL as are ``rosdep_files``. Without ``distros`` all
+    ``source`` (the ``index-v4.yaml`` of rosdistro) and ``rosdep_files`` are paths or URLs. Without ``distros``, all
     active ROS 2 distributions are written. ``to`` is a folder. ``date`` is the date of the data, by default today.
     Everything is read before anything is written. Raises KnowledgeError if something cannot be read, and OSError if it
     cannot be written.
@@ -117,7 +117,7 @@ def _write_scan(distro: str, to: str, idx: str, prov: str) -> None:
 
 
 def _replace(folder: str, name: str, text: str) -> Refreshed:
-    """Write a data file atomically, so that no reader sees half of it."""
+    """Write a data file atomically, so that it is never read incomplete. Return the numbers of changed lines."""
     try:
         before = _by_name(Store((folder,)).lines(name)[1])
     except KnowledgeError:

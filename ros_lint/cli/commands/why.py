@@ -91,7 +91,7 @@ class _DependencyModel:
             yield from (_EdgeReason(tag, place) for tag in tags)
 
     def uses(self, name: str, dependency: str) -> list[tuple[str, Span]]:
-        """Return the places in the sources that use the dependency, sorted."""
+        """Return what uses the dependency in the sources of the package, each with its place, sorted by place."""
         places = {use.span: use.what for package in self._packages(name) for use in package.uses if dependency in use.providers}
         return [(places[span], span) for span in sorted(places)]
 
