@@ -74,7 +74,7 @@ class Loader:
     ) -> None:
         self.tree = tree
         self.pinned: dict[str, bytes] = {}
-        """Contents of files as read by :meth:`hold`."""
+        """Contents of files as read by :meth:`pin`."""
         self._original_tree = tree
         self.target = target
         self._context = target.context

@@ -232,15 +232,15 @@ class Workspace:
         return packages
 
     def called(self, name: str) -> tuple[Package, ...]:
-        """Return the packages with a name: the name in ``package.xml``, else the name that colcon uses."""
+        """Return the packages with this name in ``package.xml``; if there are none, those with this name in colcon."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
     def surely_lacks(self, owner: str, kind: ContentKind, name: str) -> bool:
         """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 
-        Packages of the workspace have been searched. A released package must be known to lack it: in every
-        distribution, unless the user chose one.
+        True for packages of the workspace, because they have been searched. A released package must lack ``name`` in
+        the distribution that the user chose, or in every distribution.
         """
         return owner in self.by_name or self.world.lacks(owner, kind, name, everywhere=not self.target.explicit)
 

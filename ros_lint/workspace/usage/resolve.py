@@ -332,7 +332,7 @@ class _Uses:
 
 
 def _files_with_optional_imports(source: PackageSource, roles: FileRoles) -> list[str]:
-    """Return the files of the package with optional imports, tests aside."""
+    """Return the files of the package, except for tests, that contain optional imports."""
     return [path for path, facts in source.facts.items() if facts.optional_modules and roles.role(path)[0] is not _TEST]
 
 

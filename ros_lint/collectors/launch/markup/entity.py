@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
-"""The requested type of an attribute; ``any`` is the type that YAML gives to the text."""
+"""The requested type of an attribute; ``any`` is the type that YAML infers from the text."""
 
 _make = tuple.__new__  # half the time of the constructor
 
@@ -74,7 +74,7 @@ class Entity:
         self._source = source
         self.tag = tag
         self.attributes = attributes
-        """In XML texts; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
+        """Texts in XML; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
         self.children = children
         """In YAML the items of ``children``, and of lists of mappings under other keys, whose tag is the key."""
         self.start = start
