@@ -27,8 +27,11 @@ class Violation(NamedTuple):
     attribute: str
     """Name of the attribute concerned as ``name`` or ``{namespace}name``, or ""."""
     message: str
-    """The message of libxml2, without a final full stop."""
+    """The words of libxml2, without a final full stop."""
 
+
+MOST_CHARACTERS: Final = 100_000
+"""Size limit of a validated manifest. libxml2 takes quadratic time for many errors; real manifests have 5,000 characters."""
 
 _UNEXPECTED = "ELEMENT_CONTENT"
 
@@ -39,17 +42,17 @@ TEXT: Final = "CVC_COMPLEX_TYPE_2_3"
 """The kind of a text where only elements are allowed."""
 
 BAD_VALUE: Final = ("CVC_PATTERN_VALID", "CVC_DATATYPE_VALID_1_2_1", "CVC_ENUMERATION_VALID")
-"""The kinds of a text or an attribute whose value does not match its type."""
+"""The kinds of a text or an attribute with a value that its type does not have."""
 
 
-def violations(source: Text, format_number: int) -> tuple[Violation, ...] | None:
-    """Return the violations of the schema of a format; empty exactly if xmllint accepts the file.
+def violations(source: Text, form: int) -> tuple[Violation, ...] | None:
+    """Return what the schema of a format does not allow in a manifest; empty exactly if xmllint accepts the file.
 
     xmllint stops at the first misplaced element. Here the elements after it are checked as well, as if all were
-    sorted. None if the file is not checked: it is not well-formed, declares an entity, is nested too deep, or is in
-    UTF-16, which versions of xmllint read differently.
+    sorted. None if the file is not checked: it is not well-formed, declares an entity, is too large or nested too deep,
+    or is in UTF-16, which versions of xmllint read differently.
     """
-    if source.codec.startswith("utf-16") or read(source).faults:
+    if len(source.text) > MOST_CHARACTERS or source.codec.startswith("utf-16") or read(source).faults:
         return None
     if message := _misdeclared_encoding(source):
         return (Violation("", -1, "", message),)
@@ -58,18 +61,18 @@ def violations(source: Text, format_number: int) -> tuple[Violation, ...] | None
     try:
         root = _parse(source.encode(source.text))
         children = [child for child in root if isinstance(child.tag, str)]
-        result = list(_errors(root, children, format_number))
-        if any(violation.kind == _UNEXPECTED for violation in result):
+        found = list(_errors(root, children, form))
+        if any(violation.kind == _UNEXPECTED for violation in found):
             root[:] = sorted(root, key=lambda child: schema_rank(child.tag) if isinstance(child.tag, str) else 0)
-            of_sorted = list(_errors(root, children, format_number))
-            result = [*of_sorted, *(_misplaced(violation) for violation in result if violation not in of_sorted)]
+            of_sorted = dict.fromkeys(_errors(root, children, form))
+            found = [*of_sorted, *(_misplaced(violation) for violation in found if violation not in of_sorted)]
     except etree.XMLSyntaxError as error:
         return (Violation("", -1, "", " ".join(error.msg.split())),)
     except etree.XMLSchemaValidateError as error:
         return (Violation("", -1, "", str(error).rstrip(".")),)
     # libxml2 reports some values twice, first the reason and then the type.
-    by_place = {(violation.child, violation.attribute): violation for violation in reversed(result)}
-    return tuple(sorted(by_place.values(), key=lambda violation: violation.child))
+    first = {(violation.child, violation.attribute): violation for violation in reversed(found)}
+    return tuple(sorted(first.values(), key=lambda violation: violation.child))
 
 
 def _misplaced(violation: Violation) -> Violation:
@@ -80,7 +83,7 @@ _DECLARED = re.compile(r"""<\?xml\b[^>]*?\bencoding\s*=\s*["']([^"']*)""")
 
 
 def _misdeclared_encoding(source: Text) -> str:
-    """Return the error in the declared encoding of a file in UTF-8 with a byte order mark, "" if there is none.
+    """Return what is wrong with the declared encoding of a file in UTF-8 with a byte order mark, or "".
 
     The xmllint of Ubuntu 22.04 and 24.04 reads such a file by its declaration, and newer versions ignore it.
     """
@@ -126,52 +129,46 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _entries(log: Any) -> Iterator[Any]:
-    """Yield the entries of an error log. The type stubs lack the iteration."""
+    """Yield the entries of an error log, whose type stubs lack the iteration."""
     yield from log
 
 
 @cache
-def _schema(format_number: int) -> etree.XMLSchema:
+def _schema(form: int) -> etree.XMLSchema:
     from lxml import etree  # noqa: PLC0415
 
     folder = os.path.dirname(os.path.abspath(__file__))
-    return etree.XMLSchema(etree.parse(os.path.join(folder, f"format{format_number}.xsd")))
+    return etree.XMLSchema(etree.parse(os.path.join(folder, f"format{form}.xsd")))
 
 
 _ATTRIBUTE = re.compile(r"Element '[^']*', attribute '([^']*)'")
 _STEP = re.compile(r"/[^/]+/([^/\[]+)(?:\[(\d+)\])?")
 
 
-def _errors(root: etree._Element, children: list[etree._Element], format_number: int) -> Iterator[Violation]:
+def _errors(root: etree._Element, children: list[etree._Element], form: int) -> Iterator[Violation]:
     """Yield the errors in a tree. ``children`` are the children of the root in the order of the file."""
-    schema = _schema(format_number)
+    schema = _schema(form)
     if schema.validate(root):
         return
+    positions = {child: position for position, child in enumerate(children)}
+    by_step: dict[str, list[int]] = {"*": []}
+    for child in root:
+        if child in positions:
+            by_step["*"].append(positions[child])
+            if (name := _written(child)) != "*":
+                by_step.setdefault(name, []).append(positions[child])
     for error in _entries(schema.error_log):
         attribute = _ATTRIBUTE.match(error.message)
-        child = _child_at(root, error.path or "")
+        step = _STEP.match(error.path or "")
         yield Violation(
             error.type_name.removeprefix("SCHEMAV_"),
-            -1 if child is None else children.index(child),
+            -1 if step is None else by_step[step[1]][int(step[2] or 1) - 1],
             attribute[1] if attribute else "",
             error.message.rstrip(". "),
         )
 
 
-def _child_at(root: etree._Element, path: str) -> etree._Element | None:
-    """Return the child of the root that contains the place of an error, None for the root itself.
-
-    libxml2 writes an element in a default namespace as ``*``.
-    """
-    step = _STEP.match(path)
-    if step is None:
-        return None
-    children = [child for child in root if isinstance(child.tag, str)]
-    matches = [child for child in children if step[1] in ("*", _path_name(child))]
-    return matches[int(step[2] or 1) - 1]
-
-
-def _path_name(element: etree._Element) -> str:
-    """Return the tag as libxml2 writes it in a path."""
+def _written(element: etree._Element) -> str:
+    """Return the tag as libxml2 writes it in a path: ``*`` in a default namespace."""
     name = str(element.tag).rpartition("}")[2]
     return f"{element.prefix}:{name}" if element.prefix else name if name == element.tag else "*"
