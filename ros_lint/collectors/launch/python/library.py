@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.launch.python.substitutions import conditions_of
-from ros_lint.collectors.python.interpreter import path_functions as launch_py_paths
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import INSTALLED, text_of
+from ros_lint.collectors.python.interpreter.path_calls import PATH_FUNCTIONS, new_path, on_path
 from ros_lint.collectors.python.interpreter.values import (
     FilePath,
     Guarded,
@@ -29,13 +29,15 @@ from ros_lint.collectors.python.interpreter.values import (
     environment,
     guarded_text,
     union,
+    written,
 )
+from ros_lint.collectors.python.methods import CONSTANTS
 from ros_lint.collectors.symbolic_text import UNKNOWN, joined, presence
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
-    from ros_lint.collectors.python.interpreter.values import Frame
+    from ros_lint.collectors.python.interpreter.values import Frame, Source
 
 
 def call_library(
@@ -48,7 +50,8 @@ def call_library(
 ) -> Value:
     """Return the result of a library function, or of a method of a library object."""
     if isinstance(what, Method):
-        return _method(Call(machine, what.name, arguments, keywords, node, frame), what.owner)
+        call = Call(machine, what.name, arguments, keywords, node, frame)
+        return _of_path(call, what.owner) if isinstance(what.owner, FilePath) else _method(call, what.owner)
     call = Call(machine, what, arguments, keywords, node, frame)
     last = what.rpartition(".")[2]
     rule = _BY_NAME.get(what) or (_BY_LAST.get(last) if not what.startswith(("os.", "builtins.")) else None)
@@ -112,6 +115,27 @@ def built_for(builder: LaunchObject) -> str:
     if package is None and of_robots and isinstance(robot, str):
         package = f"{robot}_moveit_config"
     return package if isinstance(package, str) and launch_text.is_plain(package) else ""
+
+
+def _of_path(call: Call, owner: FilePath) -> Value:
+    """Return the result of a method of a path that needs the file."""
+    match call.name:
+        case "resolve" | "absolute" | "expanduser":
+            return owner
+        case "open" | "read_text" | "read_bytes":
+            return call.machine.open_file(owner.text, call.node, call.frame.source)
+        case "exists" | "is_file":
+            return call.machine.ask((owner.text,))
+        case "write_text" | "write_bytes":
+            call.machine.ask((owner.text,))  # the file need not exist before
+    return Unknown(f"{call.name}() of a path")
+
+
+def member_of_library(name: str, node: ast.AST, source: Source) -> Value:
+    """Return the value of a dotted name of a library."""
+    if name == "sys.executable" and isinstance(node, ast.expr):
+        return written(UNKNOWN, node, source)
+    return CONSTANTS.get(name) or LibraryName(name)
 
 
 def attribute_of_library(owner: LaunchObject, name: str) -> Value:
@@ -214,27 +238,6 @@ def _prefix(call: Call) -> Value:
     return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.prefix(row[0])))
 
 
-def _join(call: Call) -> Value:
-    for argument in call.arguments:
-        call.machine.record_misuse(argument, "joined", call.node, call.frame)
-    rows = [call.texts(position) for position in range(len(call.arguments))]
-    return call.result(joined(rows, lambda row: posixpath.join("", *row)))
-
-
-def _on_path(function: Callable[[str], str]) -> Rule:
-    return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
-
-
-def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
-    return lambda call: union(guarded_text(text, function(text)) for text in call.texts(0))
-
-
-def _path(call: Call) -> Value:
-    rows = [call.texts(position) for position in range(len(call.arguments))]
-    paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
-    return union(guarded_text(text, FilePath(text)) for text in paths)
-
-
 def _variable(call: Call) -> Value:
     default = call.get(1, "default")
     names = call.texts(0, "key")
@@ -330,27 +333,14 @@ _STANDARD = frozenset(
 
 _BY_NAME: Mapping[str, Rule] = {
     **FUNCTIONS,
-    "os.path.join": _join,
-    "os.path.basename": _on_path(lambda path: launch_py_paths.split(path)[1]),
-    "os.path.dirname": _on_path(lambda path: launch_py_paths.split(path)[0]),
-    "os.path.normpath": _on_path(posixpath.normpath),
-    "os.path.split": _split(launch_py_paths.split),
-    "os.path.splitext": _split(launch_py_paths.split_suffix),
-    "os.path.abspath": _on_path(str),
-    "os.path.realpath": _on_path(str),
-    "os.path.expanduser": _on_path(str),
-    "os.path.expandvars": _on_path(str),
+    **PATH_FUNCTIONS,
+    **dict.fromkeys(("os.path.abspath", "os.path.realpath", "os.path.expanduser", "os.path.expandvars"), on_path(str)),
     "os.path.exists": _exists,
     "os.path.isfile": _exists,
-    "os.fspath": _on_path(str),
     "os.getenv": _variable,
     "os.environ.get": _variable,
     "os.getcwd": unknown_text,
     "os.makedirs": nothing,
-    "pathlib.Path": _path,
-    "pathlib.PurePath": _path,
-    "pathlib.PosixPath": _path,
-    "pathlib.PurePosixPath": _path,
     "pathlib.Path.cwd": lambda call: FilePath(UNKNOWN),
     "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
     "context.launch_configurations.get": _configured,
@@ -375,5 +365,5 @@ _BY_LAST: Mapping[str, Rule] = {
     "has_resource": _has_resource,
     "perform_substitutions": _perform(1),
     "normalize_to_list_of_substitutions": _first,
-    "Path": _path,
+    "Path": new_path,
 }

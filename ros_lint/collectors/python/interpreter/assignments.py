@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.methods import items, more
 from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -20,6 +20,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Value,
     Written,
     alternatives,
+    cause,
     plain,
     union,
 )
@@ -49,7 +50,7 @@ def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
         elements = items(machine, value)
         if elements is None:
             machine.escape(value)
-            elements = [Unknown("elements that are not known")]
+            elements = [more(value)]
         machine.spend(len(elements))
         target_value += [machine.guard(element) for element in elements]
         return
@@ -87,7 +88,7 @@ def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, fra
     if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
         machine.escape(value)
         for target in targets:
-            bind(machine, target, Unknown("part of what is not known"), frame)
+            bind(machine, target, cause(value, "part of what is not known"), frame)
         return
     if star >= 0:
         after = len(targets) - star - 1
@@ -109,7 +110,7 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
             else:
                 owner[name] = value
         elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
-            owner[key] = value
+            owner[key] = union([owner[key], machine.guard(value)]) if machine.conditions else value
         elif isinstance(owner, LibraryName) and owner.name == "os.environ":
             _set_variable(machine, target, key, value, frame)
         else:
@@ -128,7 +129,7 @@ def _store_slice(machine: Interpreter, owner: list[Value], key: slice, value: Va
     elements = items(machine, value)
     if elements is None:
         machine.escape(value)
-        elements = [Unknown("elements that are not known")]
+        elements = [more(value)]
     try:
         owner[key] = elements
     except ValueError:
@@ -159,13 +160,15 @@ def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> No
             frame.names.update(module.names if module is not None else {})
             continue
         if machine.library.is_substitution(alias.name):
-            frame.names[alias.asname or alias.name] = LibraryName(f"{name}.{alias.name}")
+            frame.names[alias.asname or alias.name] = machine.library.member(f"{name}.{alias.name}", node, frame.source)
             continue
         inner = module.names.get(alias.name) if module is not None else None
         if inner is None:
             full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
             inner = machine.module(full, frame.source, node)
-        frame.names[alias.asname or alias.name] = inner if inner is not None else LibraryName(f"{name}.{alias.name}")
+        if inner is None:
+            inner = machine.library.member(f"{name}.{alias.name}", node, frame.source)
+        frame.names[alias.asname or alias.name] = inner
 
 
 def _global(_machine: Interpreter, node: ast.Global, frame: Frame) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
 from ros_lint.collectors.python.interpreter.branches import LEAVE
@@ -228,7 +228,7 @@ class Machine(Interpreter):
             self.escape([arguments, keywords])
             return Unknown("calls that are nested too deeply")
         frame = Frame(source, function.frame, function.taking(arguments, keywords))
-        if not begin(self._under_way, function, frame.names, len(self.conditions)):
+        if not begin(self._under_way, function, frame.names, self):
             self.escape([arguments, keywords])
             return Unknown(f"the result of {getattr(node, 'name', 'a function')}() within itself")
         if isinstance(node, ast.Lambda):
@@ -291,6 +291,9 @@ class Machine(Interpreter):
             return unknown
         # The caller of the launch file can pass another path.
         return content if paths[0] == path else union([Guarded(content, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
+
+    def result(self, value: Value, operands: Iterable[Value]) -> Value:  # noqa: ARG002
+        return value
 
     def texts(self, value: Value) -> tuple[str, ...]:
         return self.library.texts(value, self.spend)
