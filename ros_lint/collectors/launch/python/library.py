@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -27,7 +27,6 @@ from ros_lint.collectors.python.interpreter.values import (
     alternatives,
     argument_of,
     environment,
-    guarded_text,
     union,
     written,
 )

@@ -67,7 +67,8 @@ def either(
 ) -> int:
     """Interpret both sides of a branch, and join their results.
 
-    ``test`` is the expression that decides. ``loop`` is True if the first side is the body of a loop that runs any number of times.
+    ``test`` is the expression that decides. ``loop`` is True if the first side is the body of a loop that runs any
+    number of times.
     """
     condition = machine.fresh(condition, test)
     before, start = machine.conditions, frame.names

@@ -157,9 +157,9 @@ def _chained(call: Call, parts: list[Value]) -> Value:
 
 
 def _product(call: Call) -> Value:
-    columns = [call.items(position) for position in range(len(call.arguments))]
-    size = prod([len(column or ()) for column in columns])
-    if None in columns or call.keywords or size * len(columns) > call.machine.most_items:
+    columns = [column for position in range(len(call.arguments)) if (column := call.items(position)) is not None]
+    size = prod(map(len, columns))
+    if len(columns) < len(call.arguments) or call.keywords or size * len(columns) > call.machine.most_items:
         return unknown(call)
     call.machine.spend(size)
     rows = [([plain(part) for part in row], [each for part in row for each in around(part)]) for row in product(*columns)]

@@ -12,6 +12,7 @@ from ros_lint.collectors.symbolic_text import BRACKETS, UNKNOWN, expression, is_
 
 if TYPE_CHECKING:
     import ast
+
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 

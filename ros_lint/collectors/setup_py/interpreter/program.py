@@ -23,7 +23,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Unknown,
     Value,
     alternatives,
-    cause,
     written,
 )
 from ros_lint.collectors.setup_py.interpreter.expression_text import at
