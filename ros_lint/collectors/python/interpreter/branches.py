@@ -215,6 +215,7 @@ class _Loop:
         """Interpret an iteration, which runs under the conditions ``guards``."""
         machine, frame = self._machine, self._frame
         around = machine.conditions = (*self._before, *self._bars, *guards)
+        before = dict(frame.names) if guards else {}
         signal = machine.execute(body, frame)
         exits = frame.exits[self._known :]
         del frame.exits[self._known :]
@@ -228,6 +229,8 @@ class _Loop:
             self.exits.append(way_out)
             self.ended = self.ended or not taken
             self._bars.append(_complement(machine, taken))
+        if guards:
+            _join(machine, frame, guards, before, (_complement(machine, guards),))
         machine.conditions = (*self._before, *self._bars)
 
     def end(self, orelse: Sequence[ast.stmt]) -> int:

@@ -98,7 +98,8 @@ def _length(call: Call) -> Value:
 def _length_of(machine: Interpreter, value: Value) -> Value:
     value = plain(value)
     if isinstance(value, list):
-        return len(machine.present(value))
+        elements = machine.present(value)
+        return Unknown("a length") if machine.any_perhaps(elements) else len(elements)
     if isinstance(value, (tuple, dict, range)) or (isinstance(value, str) and launch_text.is_plain(value)):
         return len(value)
     return Unknown("a length")

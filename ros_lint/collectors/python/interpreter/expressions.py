@@ -245,7 +245,7 @@ def _subscript(machine: Interpreter, node: ast.Subscript, frame: Frame) -> Value
             plain(machine.evaluate(part, frame)) if part is not None else None
             for part in (node.slice.lower, node.slice.upper, node.slice.step)
         ]
-        return machine.result(each(owner, lambda alternative: sliced(alternative, parts)), (owner, *parts))
+        return machine.result(each(owner, lambda alternative: sliced(machine, alternative, parts)), (owner, *parts))
     key = machine.evaluate(node.slice, frame)
     result = each(owner, lambda alternative: each(key, lambda key_alternative: subscript(machine, alternative, key_alternative)))
     return machine.result(result, (owner, key))

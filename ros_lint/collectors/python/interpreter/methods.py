@@ -146,7 +146,7 @@ def call_method(
     if isinstance(owner, str):
         return _of_text(machine, owner, name, arguments, keywords, node, frame)
     if isinstance(owner, list) and name == "sort":
-        owner[:] = arranged(machine, list(owner), keywords, node, frame)
+        replace(machine, owner, slice(None), arranged(machine, machine.present(owner), keywords, node, frame))
         return None
     if isinstance(owner, (list, tuple)) and name in ("index", "count"):
         return _position(owner, name, arguments)
@@ -290,17 +290,20 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
         case "copy":
             return list(owner)
         case "reverse":
-            owner.reverse()
+            replace(machine, owner, slice(None), machine.present(owner)[::-1])
             return None
         case "clear":
-            owner[:] = [machine.removed(element) for element in owner] if machine.conditions else []
+            replace(machine, owner, slice(None), [])
             return None
         case "remove" | "discard":
             equal = [index for index, element in enumerate(owner) if same(plain(element), plain(first))]
             equal = [index for index in equal if machine.is_here(owner[index])]
-            if equal:
-                _take(machine, owner, equal[0])
-            elif name == "remove" and all(map(is_known, (*owner, first))):
+            certain = bool(equal) and not machine.any_perhaps([owner[equal[0]]])
+            for index in equal[:1] if certain else equal:
+                owner[index] = machine.removed(owner[index]) if machine.conditions else Guarded(owner[index], (PERHAPS,))
+            if certain and not machine.conditions:
+                del owner[equal[0]]
+            elif not equal and name == "remove" and all(map(is_known, (*machine.present(owner), first))):
                 raise ProgramRaised("ValueError")
             return None
     return Unknown(f"{name}() of a list")
@@ -308,22 +311,35 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
 
 def _popped(machine: Interpreter, owner: list[Value], position: Value) -> Value:
     index = -1 if position is None else plain(position)
-    present = [place for place, element in enumerate(owner) if machine.is_here(element)]
+    present = machine.present(owner)
     if isinstance(index, int) and -len(present) <= index < len(present):
-        return plain(_take(machine, owner, present[index]))
-    if not isinstance(index, int) or may_have_more([owner[place] for place in present]):
+        element = plain(present[index]) if machine.is_at(present, index) else union(present)
+        replace(machine, owner, index, [])
+        return element
+    if not isinstance(index, int) or may_have_more(present):
         return Unknown("pop() from a place that is not known")
     raise ProgramRaised("IndexError")
 
 
-def _take(machine: Interpreter, owner: list[Value], index: int) -> Value:
-    """Remove an element under the present conditions, and return it."""
-    element = owner[index]
-    if machine.conditions:
-        owner[index] = machine.removed(element)
-    else:
-        del owner[index]
-    return element
+def replace(machine: Interpreter, owner: list[Value], key: int | slice, values: list[Value]) -> None:
+    """Replace the elements at an index or slice under the present conditions. Raises IndexError and ValueError.
+
+    If an element may be missing, each element may be at another position.
+    """
+    present = machine.present(owner)
+    part = key
+    if isinstance(key, int):
+        present[key]  # raises IndexError
+        part = slice(key % len(present), key % len(present) + 1)
+    known = part == slice(None) or machine.is_at(present, key)
+    if known and not machine.conditions:
+        owner[part] = values
+        return
+    places = [place for place, element in enumerate(owner) if machine.is_here(element)]
+    first = next(iter(places[part] or places[part.start :]), len(owner))
+    for place in places[part] if known else places:
+        owner[place] = machine.removed(owner[place]) if known else Guarded(owner[place], (PERHAPS,))
+    owner[first:first] = [machine.guard(value) for value in values]
 
 
 def _of_dict(

@@ -370,9 +370,13 @@ def opposite_of(condition: LaunchCondition) -> LaunchCondition:
     return condition._replace(wanted=not condition.wanted)
 
 
-def sliced(owner: Value, parts: list[Value]) -> Value:
+def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
     """Return a slice of a value; ``parts`` are start, stop and step."""
     known = all(part is None or isinstance(part, int) for part in parts)
+    if isinstance(owner, (list, tuple)):
+        owner = machine.present(owner) if isinstance(owner, list) else owner
+        if machine.any_perhaps(owner) and any(part is not None for part in parts[:2]):
+            return [Guarded(element, (PERHAPS,)) for element in owner]
     if known and (isinstance(owner, (list, tuple)) or (isinstance(owner, str) and is_plain(owner))):
         try:
             return owner[slice(*parts)]
@@ -429,7 +433,7 @@ def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:
         raise ProgramRaised("KeyError")
     if isinstance(owner, (list, tuple)):
         owner = machine.present(owner)
-        if isinstance(key, int) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
+        if isinstance(key, int) and machine.is_at(owner, key) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
             try:
                 return plain(owner[key])
             except IndexError:

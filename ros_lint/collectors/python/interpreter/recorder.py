@@ -47,6 +47,8 @@ class Recorder:
     def __init__(self) -> None:
         self._branches = 0
         self._variables: dict[str, Value] = {}
+        self._removed: dict[tuple[str, ...], frozenset[LaunchCondition]] = {}
+        """The conditions under which elements were removed, by the texts of the conditions under which they remain."""
         self.conditions: Conditions = ()
         self.tests: dict[tuple[str, ...], ast.expr] = {}
         """The expressions that are tested, by the texts of their conditions."""
@@ -107,16 +109,35 @@ class Recorder:
 
     def is_here(self, value: Value) -> bool:
         """Return whether an element of a collection may exist under the present conditions."""
-        return not isinstance(value, Guarded) or are_consistent((*self.conditions, *around(value)))
+        if not isinstance(value, Guarded):
+            return True
+        conditions = around(value)
+        if any(self._removed[condition.texts].issubset(self.conditions) for condition in conditions if condition.texts in self._removed):
+            return False
+        return are_consistent((*self.conditions, *conditions))
 
     def present(self, values: Sequence[Value]) -> list[Value]:
         """Return the elements that may exist under the present conditions."""
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
 
+    def any_perhaps(self, values: Iterable[Value]) -> bool:
+        """Return whether any element may be missing under the present conditions."""
+        return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
+
+    def is_at(self, values: Sequence[Value], key: int | slice) -> bool:
+        """Return whether it is certain which of some elements are at an index or slice."""
+        if isinstance(key, slice):
+            return not self.any_perhaps(values)
+        return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
+
     def removed(self, value: Value) -> Value:
-        """Return an element that is removed under the present conditions. It remains under the opposite of the last one."""
-        last = self.conditions[-1]
-        return Guarded(value, (last._replace(wanted=not last.wanted),))
+        """Return an element that is removed under the present conditions. It remains if any of them does not hold."""
+        first, *others = self.conditions
+        remains = first._replace(wanted=not first.wanted)
+        if others:
+            remains = self.fresh(PERHAPS)
+            self._removed[remains.texts] = frozenset(self.conditions)
+        return Guarded(value, (remains,))
 
     def joined(self, values: Sequence[Guarded]) -> Value:
         """Return the union of values. If these are too many, they escape."""
