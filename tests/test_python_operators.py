@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import random
 from itertools import product
 
@@ -121,7 +120,7 @@ def _expressions(seed: int, count: int) -> list[tuple[str, str]]:
     while len(results) < count:
         expression = _any(dice, dice.randint(1, 3))
         try:
-            value = eval(expression)  # noqa: S307  (made above)
+            value = eval(expression)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
             continue
         if len(str(value)) < 2000:
@@ -152,18 +151,22 @@ def _block(dice: random.Random, depth: int, indent: str) -> list[str]:
         if kind <= 2:
             lines.append(indent + _change(dice, element))
         elif kind == 3:
-            lines.append(f"{indent}{dice.choice(['other', 'names'])} = {dice.choice(['[*values]', repr([element]), 'values[1:]'])}")
+            value = dice.choice(["[*values]", f"['{element}']", "values[1:]"])
+            lines.append(f"{indent}{dice.choice(['other', 'names'])} = {value}")
         elif kind == 4:
-            tests = [f"os.environ.get('{key}')", f"not os.environ.get('{key}')", f"'{element}' in values", "values", "len(other) > 1"]
-            lines.append(f"{indent}if {dice.choice(tests)}:")
+            known = [f"'{element}' in values", "values", "len(other) > 1"]
+            test = dice.choice([f"os.environ.get('{key}')", f"not os.environ.get('{key}')", *known])
+            lines.append(f"{indent}if {test}:")
             lines += _block(dice, depth - 1, indent + "    ")
             if dice.randint(0, 1):
                 lines += [f"{indent}else:", *_block(dice, depth - 1, indent + "    ")]
         else:
-            lines.append(f"{indent}for name in {dice.choice(['list(values)', 'list(other)', repr([element, 'b']), 'list(names)'])}:")
+            elements = dice.choice(["list(values)", "list(other)", f"['{element}', 'b']", "list(names)"])
+            lines.append(f"{indent}for name in {elements}:")
             lines += _block(dice, depth - 1, indent + "    ")
             if dice.randint(0, 1):
-                lines += [f"{indent}    if os.environ.get('{key}'): {dice.choice(['break', 'continue'])}", f"{indent}    values.append('c')"]
+                lines.append(f"{indent}    if os.environ.get('{key}'): {dice.choice(['break', 'continue'])}")
+                lines.append(f"{indent}    values.append('c')")
     return lines
 
 

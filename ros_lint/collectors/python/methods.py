@@ -1,6 +1,6 @@
-"""Methods of texts, functions on paths and constants of Python that every evaluator treats alike.
+"""Methods of texts and constants of Python that every evaluator treats alike.
 
-Their results are no longer than their arguments. Each evaluator decides by itself about unknown values and about
+The results are no longer than the arguments. Each evaluator decides by itself about unknown values and about
 further methods.
 """
 

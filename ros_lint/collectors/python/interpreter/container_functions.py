@@ -162,8 +162,10 @@ def _product(call: Call) -> Value:
     if len(columns) < len(call.arguments) or call.keywords or size * len(columns) > call.machine.most_items:
         return unknown(call)
     call.machine.spend(size)
-    rows = [([plain(part) for part in row], [each for part in row for each in around(part)]) for row in product(*columns)]
-    return [_under(tuple(conditions), tuple(row)) for row, conditions in rows]
+    return [
+        _under(tuple([condition for part in row for condition in around(part)]), tuple([plain(part) for part in row]))
+        for row in product(*columns)
+    ]
 
 
 FUNCTIONS: Mapping[str, Rule] = {

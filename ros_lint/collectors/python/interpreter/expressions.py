@@ -206,7 +206,8 @@ def _compare(machine: Interpreter, node: ast.Compare, frame: Frame) -> Value:
             for side, opposite_side in ((left, right), (right, left)):
                 if isinstance(opposite_side, str):
                     machine.record_misuse(side, "compared", node, frame)
-        result = machine.result(compared(op, left, right), (left, right))
+        container = machine.present(right) if isinstance(op, (ast.In, ast.NotIn)) and isinstance(right, list) else right
+        result = machine.result(compared(op, left, container), (left, right))
         if len(node.ops) == 1:
             return result
         answer, _ = truth(machine, result)

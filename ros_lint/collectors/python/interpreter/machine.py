@@ -1,5 +1,7 @@
 """The interpreter of modules and calls: it evaluates programs symbolically and runs nothing.
 
+It interprets launch files; a subclass with another policy on unknown values interprets setup.py.
+
 If a condition is unknown, both sides of a branch are interpreted on the same objects, each under its condition. A
 name with different values afterwards has both as alternatives. Steps, depth and sizes are limited; values beyond the
 limits are unknown.
@@ -56,7 +58,7 @@ _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
 class Machine(Interpreter):
-    """Interprets one launch file and the modules that it imports."""
+    """Interprets one program and the modules that it imports."""
 
     def __init__(self, modules: Modules, files: Callable[[str], Value], library: Library) -> None:
         """Start an interpreter.

@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
 
+
 def items(machine: Interpreter, value: Value) -> list[Value] | None:
     """Return the elements of a value in a new list, conditional ones guarded; None if they are unknown."""
     value = plain(value)
@@ -327,10 +328,11 @@ def replace(machine: Interpreter, owner: list[Value], key: int | slice, values: 
     If an element may be missing, each element may be at another position.
     """
     present = machine.present(owner)
-    part = key
     if isinstance(key, int):
-        present[key]  # raises IndexError
-        part = slice(key % len(present), key % len(present) + 1)
+        index = range(len(present))[key]
+        part = slice(index, index + 1)
+    else:
+        part = key
     known = part == slice(None) or machine.is_at(present, key)
     if known and not machine.conditions:
         owner[part] = values

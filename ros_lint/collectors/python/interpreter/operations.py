@@ -345,8 +345,10 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
         return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
     elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
         inner = [plain(item) for item in right]
-        if any(isinstance(item, (str, *_NUMBERS, type(None))) and item == left for item in inner):
-            return wanted
+        equal = [isinstance(item, (str, *_NUMBERS, type(None))) and item == left for item in inner]
+        if any(equal):
+            certain = any(match and not isinstance(item, Guarded) for match, item in zip(equal, right, strict=True))
+            return wanted if certain else Unknown("membership that is not known")
         known = all(isinstance(item, (*_NUMBERS, type(None))) or (isinstance(item, str) and is_plain(item)) for item in inner)
         if known and (not isinstance(left, str) or is_plain(left)):
             return not wanted

@@ -112,9 +112,10 @@ class Recorder:
         if not isinstance(value, Guarded):
             return True
         conditions = around(value)
-        if any(self._removed[condition.texts].issubset(self.conditions) for condition in conditions if condition.texts in self._removed):
-            return False
-        return are_consistent((*self.conditions, *conditions))
+        removals = [self._removed[condition.texts] for condition in conditions if condition.texts in self._removed]
+        return not any(removal.issubset(self.conditions) for removal in removals) and are_consistent(
+            (*self.conditions, *conditions)
+        )
 
     def present(self, values: Sequence[Value]) -> list[Value]:
         """Return the elements that may exist under the present conditions."""

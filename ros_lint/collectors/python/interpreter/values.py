@@ -1,4 +1,4 @@
-"""The values of names while a Python launch file is interpreted.
+"""The values of names while a program is interpreted: a launch file, or a setup.py.
 
 Texts, numbers, lists and dictionaries are Python's own. This module has classes for the other values: objects of the
 launch libraries, functions and classes of the program, alternatives, and unknown values.
