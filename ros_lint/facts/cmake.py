@@ -12,11 +12,15 @@ class BuildTarget(NamedTuple):
     """An executable or a library that CMake builds."""
 
     name: str
+    """Name of the target."""
     kind: Literal["executable", "library", "interface", "other"]
+    """"interface" for an interface library, "other" for custom targets."""
     sources: tuple[str, ...]
     """Source files, relative to the package."""
     test: bool
+    """True if the target is built only when tests are built."""
     span: Span
+    """Place of the name in the command that creates the target."""
     links: tuple[tuple[str, Span], ...] = ()
     """Names that the target links in every build, each with the place of the name."""
     optional_sources: tuple[str, ...] = ()
@@ -40,19 +44,23 @@ class Call(NamedTuple):
     name: str
     """Name in lower case."""
     path: str
+    """Path of the file, relative to the base of the run."""
     args: tuple[tuple[str, int, int, int], ...]
-    """Arguments as :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, start and end offset."""
+    """Arguments: text, kind, start and end offset. Rules use :attr:`texts` and :meth:`span`."""
     start: int
+    """Offset of the name in the file."""
     end: int
     """Offset after the closing parenthesis."""
     line: int
+    """Line of the name."""
     column: int
+    """Column of the name."""
     breaks: tuple[int, ...]
     """Offsets at which the second and later lines of the command begin."""
     blocks: tuple[str, ...]
     """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro"."""
     test: bool
-    """True if an enclosing condition asks whether tests are built."""
+    """True if an enclosing condition depends on whether tests are built."""
 
     @property
     def texts(self) -> tuple[str, ...]:
@@ -66,6 +74,7 @@ class Call(NamedTuple):
 
     @property
     def extent(self) -> Span:
+        """Span of the whole command."""
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
     def span(self, index: int) -> Span:
@@ -82,5 +91,5 @@ def position(offset: int, start: int, line: int, column: int, breaks: tuple[int,
 
     ``breaks`` are the offsets at which further lines of the text begin.
     """
-    passed = bisect_right(breaks, offset)
-    return (line + passed, offset - breaks[passed - 1] + 1) if passed else (line, column + offset - start)
+    lines = bisect_right(breaks, offset)
+    return (line + lines, offset - breaks[lines - 1] + 1) if lines else (line, column + offset - start)

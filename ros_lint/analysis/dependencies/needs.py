@@ -20,28 +20,28 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 class Need(NamedTuple):
-    """A package or key that the sources of a package need."""
+    """A package or rosdep key that a package needs, with all its uses."""
 
     name: str
     """The name to declare."""
     uses: tuple[Use, ...]
     """The places where it is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
-    """Declared names that satisfy the need, in any tag, except names that only provide the best one."""
+    """Declared names that satisfy the need, in whatever tag. () if it is not declared."""
     brought: bool
-    """True if a declared dependency provides a name that satisfies the need."""
+    """True if a declared dependency provides the need transitively."""
 
     @property
     def sure(self) -> bool:
-        """Return whether the best evidence is certain: the file is in use and the name is known."""
+        """True if the best evidence is certain: the file is in use and the name is known."""
         return self.uses[0].certain
 
     @property
     def role(self) -> Role:
-        """Return all roles of the certain uses, or of all uses if no use is certain."""
-        alive = [use for use in self.uses if use.certain] or self.uses
+        """All roles of the certain uses, or of all uses if no use is certain."""
+        uses = [use for use in self.uses if use.certain] or self.uses
         role = Role(0)
-        for use in alive:
+        for use in uses:
             role |= use.role
         return role
 
@@ -85,9 +85,13 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
             uses_by_package[use.package] = [use]
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
-    bring = workspace.world.closure
-    only_runs = workspace.world.only_runs
-    result = [need for name, uses in uses_by_package.items() for need in _needs(name, uses, declared, closure, bring, only_runs)]
+    closure_of = workspace.world.closure
+    is_runtime_library = workspace.world.is_runtime_library
+    result = [
+        need
+        for name, uses in uses_by_package.items()
+        for need in _needs(name, uses, declared, closure, closure_of, is_runtime_library)
+    ]
     result.sort(key=_place)
     return tuple(result)
 
@@ -103,13 +107,13 @@ def _needs(
     uses: list[Use],
     declared: frozenset[str],
     closure: Closure,
-    bring: Callable[[tuple[str, ...]], Closure],
-    only_runs: Callable[[str], bool],
+    closure_of: Callable[[tuple[str, ...]], Closure],
+    is_runtime_library: Callable[[str], bool],
 ) -> Iterator[Need]:
     """Yield the needs that some uses of a name result in. ``uses`` is sorted by place.
 
     Each use has to be satisfied by its own providers. Examples: find_package(Eigen3) by its find module, a header of
-    Eigen by the library. A key that ``only_runs`` does not satisfy a build use.
+    Eigen by the library. A key that ``is_runtime_library`` does not satisfy a build use.
     """
     if len(uses) > 1:
         uses.sort(key=_rank)
@@ -117,43 +121,43 @@ def _needs(
     vendors = (
         []
         if name in declared
-        else [provider for provider in declared if provider.endswith(VENDOR) and name in bring((provider,))]
+        else [provider for provider in declared if provider.endswith(VENDOR) and name in closure_of((provider,))]
     )
     if not vendors and answers.keys() == {(name,)}:  # the common case
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
     matches = {
-        names: [provider for provider in names if provider in declared and _is_meant(provider, names[0], bring)]
+        names: [provider for provider in names if provider in declared and _is_meant(provider, names[0], closure_of)]
         for names in answers
     }
     for names, direct in matches.items():
         direct += [provider for provider in sorted(vendors) if provider not in direct and is_vendor(provider, names[0])]
     for names in {use.providers for use in uses if use.role & Role.BUILD}:
-        if matches[names] and all(map(only_runs, matches[names])) and not only_runs(name):
+        if matches[names] and all(map(is_runtime_library, matches[names])) and not is_runtime_library(name):
             matches[names] = []
-    lacking = [
+    unprovided = [
         names
         for names, direct in matches.items()
         if not direct
-        and not any(provider in closure and not (provider in declared and only_runs(provider)) for provider in names)
+        and not any(provider in closure and not (provider in declared and is_runtime_library(provider)) for provider in names)
     ]
-    brought = [names for names, direct in matches.items() if not direct and names not in lacking]
+    provided = [names for names, direct in matches.items() if not direct and names not in unprovided]
     if names := tuple(dict.fromkeys([provider for direct in matches.values() for provider in direct])):
-        covered_elsewhere = {*lacking, *brought}
+        covered_elsewhere = {*unprovided, *provided}
         yield Need(name, tuple([use for use in uses if use.providers not in covered_elsewhere]), names, True)
-    if lacking:
-        yield Need(name, tuple([use for use in uses if not names or use.providers in lacking]), (), False)
-    elif brought:
-        yield Need(name, tuple([use for use in uses if use.providers in brought]), (), True)
+    if unprovided:
+        yield Need(name, tuple([use for use in uses if not names or use.providers in unprovided]), (), False)
+    elif provided:
+        yield Need(name, tuple([use for use in uses if use.providers in provided]), (), True)
 
 
-def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure]) -> bool:
+def _is_meant(name: str, best: str, closure_of: Callable[[tuple[str, ...]], Closure]) -> bool:
     """Return whether a declared name satisfies the need by itself and not only by its dependencies.
 
     True for a vendor package of a library, which provides it where the system has none, and for a library with its
     parts.
     """
-    return name == best or best not in bring((name,)) or is_vendor(name, best) or is_part(best, name)
+    return name == best or best not in closure_of((name,)) or is_vendor(name, best) or is_part(best, name)
 
 
 def _rank(use: Use) -> int:

@@ -30,12 +30,12 @@ class Remedy(NamedTuple):
 
     @property
     def ending(self) -> str:
-        """Return the end of a message that has named the undeclared dependency."""
+        """End of a message: ": add <depend>x</depend>", or why the name cannot be declared."""
         return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
 def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
-    """Return the remedy for a needed package or key that is not declared. The package has a manifest."""
+    """Return the remedy for a needed package or key that is not declared. The package must have a manifest."""
     tag = tag_for(package, workspace, name, role)
     written = " and ".join(f"<{needed_tag}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
@@ -61,8 +61,8 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
 def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
     """Return the fix that writes a name into a dependency tag, or None if there are no edits.
 
-    All such fixes are made here. A fix is safe only if rosdep resolves the name wherever the workspace has to build,
-    see :func:`availability_remark`.
+    Call this for every such fix. The fix is safe only if rosdep resolves the name in every distribution in which the
+    workspace has to build, see :func:`availability_remark`.
     """
     return Fix.of(title, *edits, safe=safe and not availability_remark(workspace, name))
 
@@ -70,27 +70,27 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 def availability_remark(workspace: Workspace, name: str) -> str:
     """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
 
-    It has to resolve in the stated distribution, or in every active one if none was stated. Packages of the workspace
-    and of underlays resolve in all of them; any other name must be a released package or a rosdep key.
+    The name has to resolve in the distribution that the user chose, or in every active one if the user chose none.
+    Packages of the workspace and of underlays resolve in all of them.
     """
     world, target = workspace.world, workspace.target
     if world.layer(name) in ("workspace", "underlay"):
         return ""
     knowledge = world.knowledge
-    here = knowledge.rosdep_resolves(name, target.distro)
-    if here and target.explicit:
+    resolves = knowledge.rosdep_resolves(name, target.distro)
+    if resolves and target.explicit:
         return ""
     if not knowledge.covered:
         return f" (there are no data about {target.distro})"
-    there = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
-    lacking = [distro for distro in knowledge.active if distro not in there]
-    if not there:
+    distros = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
+    without = [distro for distro in knowledge.active if distro not in distros]
+    if not distros:
         return " (no distribution has it)"
-    if not here:
-        return f" (not in {target.distro}, only in {', '.join(there)})"
-    if len(lacking) < len(there):
-        return f" (not in {', '.join(lacking)})" if lacking else ""
-    return f" (only in {', '.join(there)})"
+    if not resolves:
+        return f" (not in {target.distro}, only in {', '.join(distros)})"
+    if len(without) < len(distros):
+        return f" (not in {', '.join(without)})" if without else ""
+    return f" (only in {', '.join(distros)})"
 
 
 def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
@@ -103,9 +103,9 @@ def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[st
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
         from ros_lint.base.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
 
-        return paths(lambda package_name: sorted(graph.arcs[package_name]), name, package.colcon_name, 1).found[0]
+        return paths(lambda package_name: sorted(graph.arcs[package_name]), name, package.colcon_name, 1).paths[0]
     world = workspace.world
-    if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
+    if not world.is_package(name) and world.knowledge.provides_elsewhere(name, package.name):
         return (name, package.name)
     return world.path((name,), package.name)
 
@@ -124,7 +124,7 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
     world, knowledge = workspace.world, workspace.world.knowledge
     if world.is_package(name) or not world.is_key(name) or knowledge.resolves(name) is not False:
         return False
-    return workspace.target.explicit or not knowledge.resolving(name)
+    return workspace.target.explicit or not knowledge.distros_resolving(name)
 
 
 def is_of_pip(workspace: Workspace, name: str) -> bool:
@@ -135,4 +135,4 @@ def is_of_pip(workspace: Workspace, name: str) -> bool:
 
 def _where(workspace: Workspace, name: str) -> str:
     knowledge = workspace.world.knowledge
-    return f" on {knowledge.platform}, the platform of {workspace.target.distro}" if knowledge.resolving(name) else ""
+    return f" on {knowledge.platform}, the platform of {workspace.target.distro}" if knowledge.distros_resolving(name) else ""

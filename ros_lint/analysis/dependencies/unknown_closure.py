@@ -26,11 +26,11 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
     tool = "cmake" in name or (name.startswith("ament_") and not name.startswith("ament_index"))
     released = workspace.world.released(name)
     messages = bool(released and released.interfaces)
-    strange = []
+    unexplained = []
     library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith(VENDOR)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for unknown_name in unknown:
-        brings = workspace.world.knowledge.brings_elsewhere(unknown_name, name)
+        brings = workspace.world.knowledge.provides_elsewhere(unknown_name, name)
         if brings:
             return True
         if brings is None and (
@@ -45,8 +45,8 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
             continue
         if workspace.world.knowledge.elsewhere(unknown_name):
             return True
-        strange.append(unknown_name)
-    return bool(strange) and (tool or not _is_far(strange, name, workspace))
+        unexplained.append(unknown_name)
+    return bool(unexplained) and (tool or not _is_far(unexplained, name, workspace))
 
 
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
@@ -61,12 +61,12 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     if any(words & _words(unknown_name) for unknown_name in unknown):
         return False
     world = workspace.world
-    if world.standing(name) == "elsewhere":
+    if world.resolution(name) == "elsewhere":
         return False  # packages of that distribution provide it
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
     if most < 1 or any(name in world.closure((local,)) for local in workspace.by_name if local != name):
         return False
-    return world.knowledge.index.bringing(name, most) <= most
+    return world.knowledge.index.count_providers(name, most) <= most
 
 
 _CHANCE = 0.05
@@ -105,8 +105,8 @@ def _is_no_package(name: str, workspace: Workspace) -> bool:
     if not may_be_package(name) or name == "ament_python" or workspace.world.group_members(name):
         return True
     names = workspace.world.knowledge.names
-    gone = names.end_of_life(name)
-    if gone:
+    old_distros = names.end_of_life(name)
+    if old_distros:
         ported = name in _found(workspace) and not names.successor(name)
-        return not ported and all(distro.startswith("ROS 1 ") for distro in gone)
+        return not ported and all(distro.startswith("ROS 1 ") for distro in old_distros)
     return workspace.world.meant(name) is not None or resembles_ament_package(name, workspace)

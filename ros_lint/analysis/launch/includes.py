@@ -20,7 +20,9 @@ class InstalledLaunchFile(NamedTuple):
     """A launch file of the workspace at its install path."""
 
     package: Package
+    """The package that installs it."""
     file: LaunchFile
+    """The launch file."""
     path: str
     """The path below share/<package>."""
 
@@ -82,29 +84,32 @@ class IncludeResolver:
         return candidates[0] if len(candidates) == 1 else None
 
     def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
-        """Return the configurations that a file sets and that are no arguments that callers can change."""
+        """Return the configurations that a file sets, without its launch arguments, which callers can change."""
         done = self._sets.get(file.path)
         if done is None:
-            asked = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
-            arguments = {name for target in asked for name in target.texts}
+            targets = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
+            arguments = {name for target in targets for name in target.texts}
             done = {name: texts for name, texts in assigned_configurations(file).items() if name not in arguments}
             self._sets[file.path] = done
         return done
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
-        """Return the package, and the path in its share folder, to which a path in a launch file refers."""
+        """Return the package and the path below its share folder to which a path in a launch file refers.
+
+        None if the path is unknown or elsewhere.
+        """
         if not is_settled(text):
             return None
         if text.startswith(f"{OWN_FOLDER}/"):
-            own = self._places.get(source.path)
-            if own is None:
+            installed = self._places.get(source.path)
+            if installed is None:
                 return None
-            return own.package.name, resolve(parent(own.path), text[len(OWN_FOLDER) + 1 :])
+            return installed.package.name, resolve(parent(installed.path), text[len(OWN_FOLDER) + 1 :])
         place = installed_place(text)
         return (place.package, place.share) if place is not None and place.share else None
 
     def place(self, file: LaunchFile) -> InstalledLaunchFile | None:
-        """Return where a launch file is installed, or None if it is not installed."""
+        """Return a launch file with its install path, or None if it is not installed."""
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
@@ -118,14 +123,14 @@ class IncludeResolver:
         return self._own(file).includes
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
-        """Return the configurations that a file and its includes accept. Each file is read once."""
+        """Return the launch configurations that a file and its includes accept."""
         done = self._takes.get(file.path)
         if done is not None:
             return done
-        own = self._own(file)
-        known, complete = set(own.known), own.complete
+        record = self._own(file)
+        known, complete = set(record.known), record.complete
         seen = {file.path}
-        waiting = list(own.includes)
+        waiting = list(record.includes)
         while waiting:
             inner = waiting.pop()
             if inner.path not in seen:
@@ -134,7 +139,7 @@ class IncludeResolver:
                 known |= own_of_inner.known
                 complete = complete and own_of_inner.complete
                 waiting += own_of_inner.includes
-        takes = self._takes[file.path] = AcceptedArguments(own.required, frozenset(known), complete)
+        takes = self._takes[file.path] = AcceptedArguments(record.required, frozenset(known), complete)
         return takes
 
     def _own(self, file: LaunchFile) -> _Own:
@@ -152,8 +157,8 @@ class IncludeResolver:
                 inner = self.target(action.target, file)
                 complete = complete and inner is not None
                 includes += [inner.file] if inner is not None else []
-        own = self._owns[file.path] = _Own(dict(_required(file.actions)), known, complete, includes)
-        return own
+        record = self._owns[file.path] = _Own(dict(_required(file.actions)), known, complete, includes)
+        return record
 
 
 def configurations_read(file: LaunchFile) -> set[str]:
@@ -168,7 +173,7 @@ def configurations_read(file: LaunchFile) -> set[str]:
 
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
-    """Return the launch arguments and configurations that a file sets, each with all its values."""
+    """Return the launch configurations that a file sets or declares with a default, each with all its values."""
     result: dict[str, tuple[str, ...]] = {}
     for action in walk_actions(file.actions):
         if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
@@ -178,7 +183,10 @@ def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the possible values if launch configurations have some values, or () if there is no value."""
+    """Return the possible values of a text if launch configurations have the values in ``defaults``.
+
+    () if there is no text.
+    """
     if value is None:
         return ()
     if all(map(is_settled, value.texts)):

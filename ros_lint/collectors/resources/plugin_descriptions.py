@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
+from ros_lint.base.xml_tree import XmlElement, XmlError, attribute_places, parse
 from ros_lint.collectors.cpp.registrations import class_name
 from ros_lint.facts.build import PluginClass, PluginFile, PluginLibrary
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 _DECLARATION = re.compile(r"<\?xml\b.*?\?>", re.DOTALL)
 _TEMPLATE = re.compile(r"""=\s*(?:"[^"]*<[^"]*"|'[^']*<[^']*')""")
-_STAND_IN = "\ue000"
+_PLACEHOLDER = "\ue000"
 _ROOT = "<_>"
 
 
-def roots(text: str) -> list[Element]:
+def roots(text: str) -> list[XmlElement]:
     """Return the top-level elements, as tinyxml2 reads them for pluginlib; [] for a text that it rejects.
 
     There may be several roots, and values of attributes may contain "<", as template types do.
@@ -29,19 +29,19 @@ def roots(text: str) -> list[Element]:
     except XmlError:
         pass
     plain = _DECLARATION.sub(lambda match: " " * len(match[0]), text)
-    plain = _TEMPLATE.sub(lambda match: match[0].replace("<", _STAND_IN), plain)
+    plain = _TEMPLATE.sub(lambda match: match[0].replace("<", _PLACEHOLDER), plain)
     try:
         root = parse(f"{_ROOT}{plain}</{_ROOT[1:]}")
     except XmlError:
         return []
     for element in root.walk():
         element.start -= len(_ROOT)
-        element.attributes = {name: value.replace(_STAND_IN, "<") for name, value in element.attributes.items()}
+        element.attributes = {name: value.replace(_PLACEHOLDER, "<") for name, value in element.attributes.items()}
     return root.children
 
 
 def collect(path: str, source: Text) -> PluginFile | None:
-    """Return a plugin description, or None if the text is none. ``path`` is relative to the package."""
+    """Return a plugin description, None for any other text. ``path`` is relative to the package."""
     if "<library" not in source.text and "<class" not in source.text:
         return None
     elements = roots(source.text)
@@ -58,21 +58,21 @@ def collect(path: str, source: Text) -> PluginFile | None:
     return PluginFile(path, tuple(_library(source, element) for element in libraries), place)
 
 
-def _library(source: Text, element: Element) -> PluginLibrary:
+def _library(source: Text, element: XmlElement) -> PluginLibrary:
     classes = tuple(_classes(source, element))
     return PluginLibrary(element.attributes.get("path", ""), _place(source, element, "path"), classes)
 
 
-def _classes(source: Text, library: Element) -> Iterator[PluginClass]:
+def _classes(source: Text, library: XmlElement) -> Iterator[PluginClass]:
     for element in library.children:
         if element.tag == "class":
             get = element.attributes.get
-            written = get("type", "")
+            class_type = get("type", "")
             place = _place(source, element, "type")
-            yield PluginClass(get("name", written), class_name(written), class_name(get("base_class_type", "")), place)
+            yield PluginClass(get("name", class_type), class_name(class_type), class_name(get("base_class_type", "")), place)
 
 
-def _place(source: Text, element: Element, attribute: str) -> Span:
+def _place(source: Text, element: XmlElement, attribute: str) -> Span:
     places = attribute_places(source.text, element)
     start, end = places.get(attribute, (element.start, element.start + 1 + len(element.tag)))
     return source.span(start, end)

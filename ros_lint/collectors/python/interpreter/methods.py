@@ -53,7 +53,7 @@ from ros_lint.collectors.symbolic_text import (
     is_plain,
     is_settled,
     joined,
-    names_places,
+    may_contain_place,
     quoted,
 )
 from ros_lint.facts.launch import LaunchCondition
@@ -191,7 +191,14 @@ def _of_text(
             raise ProgramRaised(type(error).__name__) from None
         machine.spend(len(result) if isinstance(result, list) else 0)
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
-    if known and not named and name in LENGTH_PRESERVING and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
+    if (
+        known
+        and not named
+        and name in LENGTH_PRESERVING
+        and len(owner) <= LONGEST
+        and waits(owner)
+        and not may_contain_place(owner)
+    ):
         later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
         return Unknown("a truth", LaunchCondition((later,), None)) if name in TRUTHS else written(later, node, frame.source)
     if name in TRUTHS or name in NUMBERS:
