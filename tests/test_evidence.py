@@ -249,7 +249,7 @@ def test_rarely_provided_packages_are_not_provided_by_unresolved_names() -> None
 
 def test_packages_of_other_distributions_are_known() -> None:
     workspace = loaded(cmake("talker", "", ""), "lyrical")
-    assert workspace.world.standing("gazebo_ros") == "elsewhere"
+    assert workspace.world.resolution("gazebo_ros") == "elsewhere"
     assert may_provide(("gazebo_ros",), "rclpy", workspace)
     assert not may_provide(("gazebo_ros",), "rviz_common", workspace)
     assert may_provide(("gazebo_ros",), "gazebo", workspace)

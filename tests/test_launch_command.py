@@ -8,8 +8,8 @@ import pytest
 
 from ros_lint.base.tree import MemoryTree
 from ros_lint.cli import main as cli
-from ros_lint.cli.commands.launch.launch import Asked, answer, understood
-from ros_lint.cli.commands.launch.lookup import LookUp
+from ros_lint.cli.commands.launch.launch import LaunchRequest, answer, parse_launch_request
+from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.session import UsageError
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
@@ -39,9 +39,9 @@ def ask(
     underlay_tree = MemoryTree({f"opt/{path}": content for path, content in (underlay or {}).items()})
     underlays = (in_tree(underlay_tree, "opt", "jazzy"),) if underlay else ()
     loader = Loader(tree, ("",), TargetDistro("jazzy", "--distro"), underlays=underlays)
-    request = understood(words, lambda path: path in files)
+    request = parse_launch_request(words, lambda path: path in files)
     workspace = loader.load()
-    return answer(workspace, LookUp(workspace, tree), request, "" if request.package else request.file, form)
+    return answer(workspace, LaunchFileLookup(workspace, tree), request, "" if request.package else request.file, form)
 
 
 def launch(body: str, *arguments: str) -> list[str]:
@@ -52,8 +52,9 @@ def launch(body: str, *arguments: str) -> list[str]:
 
 
 def test_command_line_words_are_parsed() -> None:
-    assert understood(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == Asked("", "a.py", {"x": "1", "y": "", "z": "a:=b"})
-    assert understood(["p", "x:=1", "a.py"], lambda _: False) == Asked("p", "a.py", {"x": "1"})
+    arguments = {"x": "1", "y": "", "z": "a:=b"}
+    assert parse_launch_request(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == LaunchRequest("", "a.py", arguments)
+    assert parse_launch_request(["p", "x:=1", "a.py"], lambda _: False) == LaunchRequest("p", "a.py", {"x": "1"})
 
 
 @pytest.mark.parametrize(
@@ -68,7 +69,7 @@ def test_command_line_words_are_parsed() -> None:
 )
 def test_invalid_command_line_words_are_rejected(words: list[str], message: str) -> None:
     with pytest.raises(UsageError, match=message.replace("?", r"\?")):
-        understood(words, lambda path: path == "there.py")
+        parse_launch_request(words, lambda path: path == "there.py")
 
 
 def test_settings_of_a_group_apply_to_its_nodes() -> None:
@@ -140,7 +141,7 @@ def generate_launch_description():
     output, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
     assert [line.strip() for line in output.splitlines()[1:5]] == [
         "node p x",
-        "conditional: the condition is not known",
+        "conditional: the condition is unknown",
         "unknown parameters",
         "? it is computed in a way that ros-lint cannot follow",
     ]

@@ -99,8 +99,8 @@ BOMB = "launch:\n- group: &x0\n  - node: {pkg: a, exec: b}\n" + "".join(
     ("text", "reason", "line"),
     [
         (BOMB, "aliases repeat more than 200,000 values", 44),
-        ("launch: &a\n- group: *a\n- group: *a\n", "a value holds itself by an alias", 1),
-        ("launch:\n- let:\n    name: a\n    value: &v [*v]\n", "a value holds itself by an alias", 4),
+        ("launch: &a\n- group: *a\n- group: *a\n", "a value contains itself through an alias", 1),
+        ("launch:\n- let:\n    name: a\n    value: &v [*v]\n", "a value contains itself through an alias", 4),
         ("launch:\n- &v0 [a, b]\n" + doubled(30), "aliases repeat more than 200,000 values", 18),
         ("launch:\n- " + "[" * 3_000, "nested more than 100 levels deep", 2),
         ("launch:\n- " + "- " * 3_000, "nested more than 100 levels deep", 2),

@@ -17,7 +17,7 @@ from ros_lint.collectors.comments import comments
 from ros_lint.collectors.suppressions import collect
 from ros_lint.engine import edits
 from ros_lint.engine.report import Issue
-from ros_lint.engine.suppressions import apply
+from ros_lint.engine.suppressions import apply_suppressions
 from ros_lint.facts.suppressions import Suppression
 
 RULES = tuple(
@@ -256,8 +256,8 @@ def test_ignore_file_after_code_is_a_problem(path: str, source: str) -> None:
 def test_invalid_suppressions_are_problems(comment: str, problem: str) -> None:
     suppressions = single("a.py", f"import foo  # {comment}\n")
     assert problem in suppressions.problem
-    assert apply([issue("missing-file", "a.py", 1)], [suppressions], RULES, NAMES).use.malformed == (suppressions,)
-    assert len(apply([issue("unused-dependency", "a.py", 1)], [suppressions], RULES, NAMES).kept) == 1
+    assert apply_suppressions([issue("missing-file", "a.py", 1)], [suppressions], RULES, NAMES).use.malformed == (suppressions,)
+    assert len(apply_suppressions([issue("unused-dependency", "a.py", 1)], [suppressions], RULES, NAMES).kept) == 1
 
 
 @pytest.mark.parametrize("comment", ["run ros-lint: it helps", "ros-lint: 5 lines", "as ros-lint: rules", "ros-lint:"])
@@ -283,7 +283,7 @@ def test_suppressed_findings_are_removed() -> None:
         issue("unused-dependency", "a.py", 1),
         issue("undeclared-dependency", "a.py", 2),
     )
-    outcome = apply([wanted, other_issue, elsewhere], suppressions, RULES, NAMES)
+    outcome = apply_suppressions([wanted, other_issue, elsewhere], suppressions, RULES, NAMES)
     assert outcome.kept == (other_issue, elsewhere)
     assert outcome.suppressed == ((wanted, suppressions[0]),)
     assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["Missing-File"]]
@@ -296,12 +296,12 @@ def test_suppressed_findings_are_removed() -> None:
 
 def test_a_suppression_of_a_rule_that_did_not_run_is_not_unused() -> None:
     suppressions = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
-    assert apply([], suppressions, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
+    assert apply_suppressions([], suppressions, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
 
 
 def test_two_suppressions_for_one_finding_are_both_used() -> None:
     suppressions = collect(Text("a.py", "# ros-lint: ignore-file[ROS201]\nx\ny  # ros-lint: ignore[ROS201]\n"))
-    outcome = apply([issue("undeclared-dependency", "a.py", 3)], suppressions, RULES, NAMES)
+    outcome = apply_suppressions([issue("undeclared-dependency", "a.py", 3)], suppressions, RULES, NAMES)
     assert (outcome.use.unused, outcome.kept) == ((), ())
 
 
@@ -311,10 +311,10 @@ def test_findings_about_suppressions_can_be_suppressed() -> None:
     names = NAMES | {judge.name}
     for mark in ("x  # {}", "# {}\nx"):
         suppressions = collect(Text("a.py", mark.format("ros-lint: ignore[ROS201, ROS901] so\n")))
-        outcome = apply([], suppressions, known, names)
+        outcome = apply_suppressions([], suppressions, known, names)
         assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["ROS201"]]
         about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.use.unused]
-        assert apply(about, suppressions, known, names).kept == ()
+        assert apply_suppressions(about, suppressions, known, names).kept == ()
 
 
 LINES = st.sampled_from(
@@ -329,7 +329,7 @@ def test_remaining_findings_are_not_covered_by_a_suppression(lines: list[str]) -
     issues = [issue("unused-dependency", "a.py", first, last) for first, last in ends]
     covering = [issue for issue in suppressions if any(name.text == "ROS204" for name in issue.names)]
     remaining = tuple([issue for issue in issues if not any(single.covers(issue.finding.span) for single in covering)])
-    outcome = apply(issues, suppressions, RULES, NAMES)
+    outcome = apply_suppressions(issues, suppressions, RULES, NAMES)
     assert outcome.kept == remaining
     unused = {issue.suppression for issue in outcome.use.unused if issue.names[0].text == "ROS204"}
     idle_by_place = {issue for issue in covering if not any(issue.covers(covered_lines.finding.span) for covered_lines in issues)}
@@ -340,7 +340,7 @@ def test_remaining_findings_are_not_covered_by_a_suppression(lines: list[str]) -
 def test_thousands_of_comments_take_linear_time(lines: str) -> None:
     started = time.process_time()
     suppressions = collect(Text("a.py", lines.format(mark=MARK)))
-    apply([issue("missing-file", "a.py", line) for line in range(4000)], suppressions, RULES, NAMES)
+    apply_suppressions([issue("missing-file", "a.py", line) for line in range(4000)], suppressions, RULES, NAMES)
     assert time.process_time() - started < 5
 
 

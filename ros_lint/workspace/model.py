@@ -21,7 +21,7 @@ from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
-    from ros_lint.knowledge.provides import Offer
+    from ros_lint.knowledge.provides import ContentKind
     from ros_lint.knowledge.world import World
 
 
@@ -236,13 +236,13 @@ class Workspace:
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
-    def surely_lacks(self, owner: str, offer: Offer, name: str) -> bool:
+    def surely_lacks(self, owner: str, kind: ContentKind, name: str) -> bool:
         """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 
         True for packages of the workspace, because they have been searched. A released package must lack ``name`` in
         the distribution that the user chose, or in every distribution.
         """
-        return owner in self.by_name or self.world.lacks(owner, offer, name, everywhere=not self.target.explicit)
+        return owner in self.by_name or self.world.lacks(owner, kind, name, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
         """Return whether a file of the package, or of the workspace if None, could not be read.

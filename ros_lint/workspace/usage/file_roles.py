@@ -84,7 +84,7 @@ class FileRoles:
         """
         folder, _, name = path.rpartition("/")
         folders = folder.split("/")
-        if not auxiliary_files.EDITORS_COPIES.isdisjoint(folders):
+        if not auxiliary_files.EDITOR_COPY_FOLDERS.isdisjoint(folders):
             return True
         looks_unrelated = any(part in name for part in _TEMPLATE_MARKS) or (name.startswith("setup.py.") and folder)
         if not looks_unrelated and name.endswith(".py"):

@@ -10,7 +10,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from ros_lint.base.text import Span
-from ros_lint.base.xml_tree import Element, attribute_places
+from ros_lint.base.xml_tree import XmlElement, attribute_places
 from ros_lint.collectors.launch.markup.tags import ROS_1
 from ros_lint.facts.visibility import Problem
 
@@ -117,7 +117,7 @@ class Entity:
                 start = text.find(name, at)
                 gap = text[at:start]
                 if not (text.startswith(plain, start) and gap.isspace()):
-                    return self._from_spots(attribute_places(text, Element(self.tag, {}, self.start - 1)))
+                    return self._from_spots(attribute_places(text, XmlElement(self.tag, {}, self.start - 1)))
                 if not gap.isascii() or "\r" in gap:
                     _, line, column, _, _ = source.span(start, start)
                     line_offset = start - column

@@ -9,7 +9,7 @@ import ast
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_lint.base.python_parser import compiled
+from ros_lint.base.python_parser import compile_error
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.launch.detect import entries
 from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
@@ -80,7 +80,7 @@ def collect(
 
 def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
     """Yield the errors of the Python compiler, such as a repeated keyword argument."""
-    if (error := compiled(tree)) is not None:
+    if (error := compile_error(tree)) is not None:
         from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
 
         yield from misplaced(error, tree, source)
