@@ -1,5 +1,6 @@
 """Build scripts: what a package builds, installs and does not install."""
 
+from ros_lint.analysis.build.build_types import build_types
 from ros_lint.analysis.build.commands import (
     ENDS,
     EXPORTING_PLUGINS,
@@ -12,8 +13,11 @@ from ros_lint.analysis.build.commands import (
     installed_targets,
     opaque_except_undefined_targets,
     stops_early,
+    unconditional_calls,
     unguarded_tests,
 )
+from ros_lint.analysis.build.entry_points import entry_point_target
+from ros_lint.analysis.build.plugins import Plugins, plugin_loaders, plugins
 from ros_lint.analysis.build.targets import (
     files_using_client_library,
     has_header,
@@ -41,7 +45,10 @@ __all__ = [
     "FINDS_TESTS",
     "LINTERS",
     "REGISTERING",
+    "Plugins",
+    "build_types",
     "config_names",
+    "entry_point_target",
     "evaluated_name",
     "files_using_client_library",
     "generated_from",
@@ -61,9 +68,12 @@ __all__ = [
     "node_targets",
     "opaque_except_undefined_targets",
     "partly_installed_nodes",
+    "plugin_loaders",
+    "plugins",
     "programs_built",
     "stem",
     "stops_early",
+    "unconditional_calls",
     "unguarded_tests",
     "uninstalled_resources",
 ]
