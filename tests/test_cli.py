@@ -112,6 +112,7 @@ def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str]
             ["--select", "undeclared-dependancy"],
             r"unknown rule 'undeclared-dependancy'; did you mean '?undeclared-dependency'?\?",
         ),
+        (["--ignore", "ROS507"], "rule 'ROS507' was divided into 'launch-missing-argument', "),
         (["--distro", "jazy"], r"--distro: unknown distribution 'jazy'; did you mean '?jazzy'?\? \(available: humble, "),
         (["--distro", "foxy"], r"--distro: end-of-life distribution 'foxy' \(available: humble, "),
         (["chek"], r"chek: no such file or directory; did you mean the command 'check'\?"),

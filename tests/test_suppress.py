@@ -294,6 +294,14 @@ def test_apply() -> None:
     ]
 
 
+@pytest.mark.parametrize("name", ["launch-argument", "ROS507"])
+def test_the_name_of_a_divided_rule_names_the_new_rules(name: str) -> None:
+    (unknown,) = apply([], collect(Text("a.py", f"x  # ros-lint: ignore[{name}]\n")), RULES, NAMES).use.unknown
+    assert unknown.suggestion == ""
+    assert unknown.fate.startswith("was divided into 'launch-missing-argument', ")
+    assert unknown.fate.endswith(" and 'launch-unused-argument'")
+
+
 def test_a_rule_that_did_not_run_leaves_nothing_unused() -> None:
     found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
     assert apply([], found, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()

@@ -69,6 +69,8 @@ class Unknown(NamedTuple):
     name: Name
     suggestion: str
     """The nearest name or code, or ""."""
+    fate: str = ""
+    """What became of a former rule of this name, or ""."""
 
 
 def lines_of(span: Span) -> tuple[int, int]:
