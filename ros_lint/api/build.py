@@ -17,6 +17,7 @@ from ros_lint.analysis.build.commands import (
     unguarded_tests,
 )
 from ros_lint.analysis.build.entry_points import entry_point_target
+from ros_lint.analysis.build.interfaces import GENERATING, interface_generation
 from ros_lint.analysis.build.plugins import Plugins, plugin_loaders, plugins
 from ros_lint.analysis.build.targets import (
     files_using_client_library,
@@ -43,6 +44,7 @@ __all__ = [
     "ENDS",
     "EXPORTING_PLUGINS",
     "FINDS_TESTS",
+    "GENERATING",
     "LINTERS",
     "REGISTERING",
     "Plugins",
@@ -58,6 +60,7 @@ __all__ = [
     "installed_targets",
     "installed_to_bin_only",
     "installs_built",
+    "interface_generation",
     "is_declared_shared",
     "is_optional_target",
     "libraries_in_libexec",

@@ -25,6 +25,8 @@ class FormerRule(NamedTuple):
 
 
 FORMER = (
+    FormerRule("dead-group", "ROS118"),
+    FormerRule("flattened-duplicates", "ROS414"),
     FormerRule(
         "cmake-hygiene",
         "ROS310",
