@@ -7,7 +7,7 @@ from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.launch import detect as launch
 from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.symbolic_text import share
-from ros_lint.facts.build import BuildScript, InstalledFile
+from ros_lint.facts.build import BuildProducts, BuildScript, InstalledFile
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.workspace import launch_modules as launch_around
 
@@ -23,11 +23,8 @@ def _package(
     name: str, files: dict[str, str], provides: dict[str, str], modules: tuple[str, ...] = ()
 ) -> launch_around.LaunchPackage:
     here = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
-    script = BuildScript(
-        f"{name}/CMakeLists.txt",
-        installs=tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items()),
-        python_packages=modules,
-    )
+    installs = tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items())
+    script = BuildScript(f"{name}/CMakeLists.txt", products=BuildProducts(installs=installs, python_packages=modules))
     found = []
     for path, text in files.items():
         language = launch.is_launch_file(path, text)
@@ -157,7 +154,7 @@ def generate_launch_description():
     }
     alone = _completed((_package("app", files, {}), files))["app/launch/a.launch.py"]
     assert [opaque.reason for opaque in alone.opaque] == [
-        "what is launched is not known: AgentLaunchDescription() cannot be followed"
+        "the launched actions are not known: AgentLaunchDescription() cannot be followed"
     ]
     packages = [(_package("app", files, {}), files), (_package("bringup", library, {}), library)]
     after = _completed(*packages)["app/launch/a.launch.py"]

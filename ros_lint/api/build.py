@@ -37,6 +37,7 @@ from ros_lint.analysis.build.targets import (
     programs_built,
     stem,
 )
+from ros_lint.analysis.build.xmllint import runs_xmllint
 from ros_lint.workspace.build_scripts.resources import uninstalled_resources
 from ros_lint.workspace.usage.unused_find_package import generated_from
 
@@ -74,6 +75,7 @@ __all__ = [
     "plugin_loaders",
     "plugins",
     "programs_built",
+    "runs_xmllint",
     "stem",
     "stops_early",
     "unconditional_calls",

@@ -30,6 +30,7 @@ class InstalledFile(NamedTuple):
     conditional: bool
     """True if the installation depends on a condition whose value is unknown."""
     span: Span
+    """Place of the command or list element that installs the file."""
     target: str = ""
     """Name of the CMake target that builds the file."""
     test: bool = False
@@ -45,8 +46,11 @@ class Component(NamedTuple):
     """A class that can be loaded into a component container (rclcpp_components)."""
 
     name: str
+    """Name of the class, with its namespaces."""
     conditional: bool
+    """True if the registration depends on a condition whose value is unknown."""
     span: Span
+    """Place of the registration."""
     lost: bool = False
     """True if ament_package() does not see the registration: it is in a function or in a subdirectory."""
 
@@ -59,6 +63,7 @@ class PluginClass(NamedTuple):
     type: str
     """C++ type of the class, without blanks and without a leading ``::``, as in the facts of sources."""
     base: str
+    """C++ type of the base class, written like ``type``."""
     span: Span
     """Span of the type."""
 
@@ -67,9 +72,11 @@ class PluginLibrary(NamedTuple):
     """A ``<library>`` of a plugin description."""
 
     path: str
+    """Path or name of the library as written, "" if there is none."""
     span: Span
     """Span of the path, or of the element if it has no path."""
     classes: tuple[PluginClass, ...]
+    """The plugins in the library."""
 
 
 class PluginFile(NamedTuple):
@@ -78,6 +85,7 @@ class PluginFile(NamedTuple):
     path: str
     """Path relative to the package."""
     libraries: tuple[PluginLibrary, ...]
+    """The libraries that the file describes."""
     span: Span
     """Span of the root element."""
 
@@ -113,9 +121,11 @@ class UninstalledImport(NamedTuple):
     program: str
     """Install path such as ``lib/<package>/talker.py``, or the dotted module of an entry point."""
     module: str
+    """Dotted name of the module."""
     source: str
     """File, or folder with a slash at the end, relative to the package."""
     span: Span
+    """Place of the import."""
     sure: bool
     """True if the program does not change ``sys.path``."""
 
@@ -124,13 +134,149 @@ REPOSITORIES: Final[Mapping[str, str]] = {"gtest": "googletest", "gmock": "googl
 """Upstream project of a library, where targets and header folders have a different name."""
 
 
-class Exported(NamedTuple):
+class ExportedTarget(NamedTuple):
     """A target that install(TARGETS ... EXPORT) puts into a set."""
 
     target: str
+    """Name of the target."""
     export_set: str
+    """Name of the set."""
     reaches_dependents: bool
     """True if each package that finds this one gets the target: ament_export_targets() names the set."""
+
+
+class BuildProject(NamedTuple):
+    """The project as the build script names it: the arguments of project() or setup()."""
+
+    name: str = ""
+    """Name, "" if unknown."""
+    name_span: Span | None = None
+    """Place of the name; None if it is unknown."""
+    version: str = ""
+    """Version, "" if unknown."""
+    version_span: Span | None = None
+    """Place of the version; None if it is unknown."""
+
+
+class BuildProducts(NamedTuple):
+    """What the script builds and installs."""
+
+    targets: tuple[BuildTarget, ...] = ()
+    """Executables and libraries that CMake builds."""
+    installs: tuple[InstalledFile, ...] = ()
+    """Installed files, also built and generated ones."""
+    components: tuple[Component, ...] = ()
+    """Registered classes (rclcpp_components)."""
+    entry_points: tuple[EntryPoint, ...] = ()
+    """Entry points of a setup.py; those of the group "console_scripts" are programs."""
+    python_packages: tuple[str, ...] = ()
+    """Dotted names of importable modules and packages that the build installs."""
+    interfaces: tuple[str, ...] = ()
+    """Generated interfaces, as ``msg/Name``."""
+
+    @property
+    def installed(self) -> frozenset[str]:
+        """Installed files by their path in the package, without generated files."""
+        return frozenset([provided.source for provided in self.installs if provided.source])
+
+
+class BuildFiles(NamedTuple):
+    """Files of the package that rules compare with what the script installs."""
+
+    plugin_files: tuple[PluginFile, ...] = ()
+    """Plugin descriptions of the package."""
+    scripts: tuple[ScriptFile, ...] = ()
+    """Scripts installed to lib/<package> or bin, their neighbours, and scripts in folders for scripts."""
+    referenced_resources: tuple[tuple[str, Span], ...] = ()
+    """Resources that are not installed, each with the place where a text of the package refers to it.
+
+    A reference is the name of the file after the name of its folder: ``meshes/arm.stl`` or ``"meshes", "arm.stl"``.
+    """
+    build_inputs: tuple[str, ...] = ()
+    """Resources that CMake files name without installing them, because the build reads them.
+
+    Folders end with a slash.
+    """
+
+
+class BuildExports(NamedTuple):
+    """What the CMake script passes on to each package that finds this one."""
+
+    config_extras: tuple[str, ...] = ()
+    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
+    packages: tuple[tuple[Mention, bool], ...] = ()
+    """Packages that the CMake configuration of this package finds for its dependents.
+
+    The second value is True if the search is unconditional.
+    """
+    targets: tuple[ExportedTarget, ...] = ()
+    """Targets that the script puts into an export set."""
+
+
+class CMakeCommands(NamedTuple):
+    """The commands of the CMake files, and the place for a new one."""
+
+    names: tuple[str, ...] = ()
+    """Names of the commands that ran: lower case, sorted, without duplicates."""
+    calls: tuple[Call, ...] = ()
+    """Commands as written, file by file."""
+    insertion: Span | None = None
+    """Place for a new install rule: an empty span before ament_package(), or None."""
+    insertion_after: Span | None = None
+    """End of the command before ``insertion``, if only blank lines separate the two."""
+
+
+class CMakeBuild(NamedTuple):
+    """Facts that only a CMakeLists.txt has."""
+
+    subdirectories: tuple[str, ...] = ()
+    """Folders whose CMakeLists.txt is part of every build, relative to the package."""
+    test_subdirectories: tuple[str, ...] = ()
+    """Folders whose CMakeLists.txt is part of the build when tests are built, relative to the package."""
+    bundled_projects: tuple[str, ...] = ()
+    """Names of projects built along with the package: fetched projects and vendored folders."""
+    unused_optional_finds: tuple[Span, ...] = ()
+    """Places of find_package() calls that are optional and whose results are not used."""
+    commented_interfaces: tuple[str, ...] = ()
+    """Interfaces listed only in comments, as ``msg/Name``: they were removed."""
+    errors: tuple[Problem, ...] = ()
+    """Errors of CMake in commands whose effect is still known, so that they hide nothing.
+
+    The kind is "undefined-target" for a missing target and "no-package" for a missing package; the subject is the
+    name of the target or package.
+    """
+    interpreted_tests: tuple[str, ...] | None = None
+    """Files and folders that an interpreter runs as tests, relative to the package.
+
+    "" means any file; None means unknown.
+    """
+    runs_tests: bool = False
+    """True if the script calls a command that runs tests by an interpreter.
+
+    The name of the command decides.
+    """
+    includes_outside_package: bool = False
+    """True if the script adds include directories of the source tree outside the package."""
+    makes_nothing: bool = False
+    """True if the script builds and installs nothing and tests at most the style of the sources."""
+
+
+class SetupScript(NamedTuple):
+    """Facts that only a setup.py with its setup.cfg has."""
+
+    editable_lists: tuple[EditableList, ...] = ()
+    """Lists that a fix can add an element to."""
+    editable_texts: tuple[WrittenText, ...] = ()
+    """Places where a fix can change a text."""
+    entry_point_modules: tuple[PythonModule, ...] = ()
+    """Modules that the entry points name."""
+    relocated_modules: tuple[str, ...] = ()
+    """Installed Python files and folders whose place in the sources differs from their module name.
+
+    The cause is ``package_dir`` of a setup.py. Paths are relative to the package; folders end with a slash.
+    """
+    newer_syntax: tuple[NewerSyntax, ...] = ()
+    """Constructs that older versions of Python reject."""
 
 
 class BuildScript(NamedTuple):
@@ -140,96 +286,27 @@ class BuildScript(NamedTuple):
     """
 
     path: str
-    name: str = ""
-    """Name given to project() or setup(name=), "" if unknown."""
-    name_span: Span | None = None
-    version: str = ""
-    version_span: Span | None = None
+    """Path of the CMakeLists.txt or setup.py, relative to the base of the run; "" if there is none."""
+    project: BuildProject = BuildProject()
+    """Name and version."""
     mentions: tuple[Mention, ...] = ()
-    targets: tuple[BuildTarget, ...] = ()
-    installs: tuple[InstalledFile, ...] = ()
-    components: tuple[Component, ...] = ()
-    entry_points: tuple[EntryPoint, ...] = ()
-    python_packages: tuple[str, ...] = ()
-    """Dotted names of importable modules and packages that the build installs."""
-    interfaces: tuple[str, ...] = ()
-    """Generated interfaces, as ``msg/Name``."""
-    command_names: tuple[str, ...] = ()
-    """Names of the CMake commands that ran: lower case, sorted, without duplicates."""
+    """Names of other packages and of their contents."""
+    products: BuildProducts = BuildProducts()
+    """Targets, installed files and other products."""
+    files: BuildFiles = BuildFiles()
+    """Files that are not necessarily installed: scripts, plugin descriptions, resources."""
+    exports: BuildExports = BuildExports()
+    """What dependents get."""
+    commands: CMakeCommands = CMakeCommands()
+    """Commands of CMake as written."""
+    cmake: CMakeBuild = CMakeBuild()
+    """Further facts about a CMakeLists.txt; empty for a setup.py."""
+    python: SetupScript = SetupScript()
+    """Further facts about a setup.py; empty for a CMakeLists.txt."""
     opaque: tuple[Opaque, ...] = ()
+    """Places that could not be evaluated."""
     problems: tuple[Problem, ...] = ()
-    insertion: Span | None = None
-    """Place for a new install rule: an empty span before ament_package(), or None."""
-    config_extras: tuple[str, ...] = ()
-    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
-    calls: tuple[Call, ...] = ()
-    """Commands of the CMake files as written, file by file."""
-    entry_point_modules: tuple[PythonModule, ...] = ()
-    """Modules that the entry points name."""
-    plugin_files: tuple[PluginFile, ...] = ()
-    """Plugin descriptions of the package."""
-    editable_lists: tuple[EditableList, ...] = ()
-    referenced_resources: tuple[tuple[str, Span], ...] = ()
-    """Resources that are not installed, each with the place where a text of the package refers to it.
-
-    A reference is the name of the file after the name of its folder: ``meshes/arm.stl`` or ``"meshes", "arm.stl"``.
-    """
-    scripts: tuple[ScriptFile, ...] = ()
-    """Scripts installed to lib/<package> or bin, their neighbours, and scripts in folders for scripts."""
-    build_inputs: tuple[str, ...] = ()
-    """Resources that CMake files name without installing them, because the build reads them.
-
-    Folders end with a slash.
-    """
-    editable_texts: tuple[WrittenText, ...] = ()
-    subdirectories: tuple[str, ...] = ()
-    """Folders whose CMakeLists.txt is part of every build, relative to the package."""
-    test_subdirectories: tuple[str, ...] = ()
-    """Folders whose CMakeLists.txt is part of the build when tests are built, relative to the package."""
-    exported_packages: tuple[tuple[Mention, bool], ...] = ()
-    """Packages that the CMake configuration of this package finds for its dependents.
-
-    The second value is True if the search is unconditional.
-    """
-    unused_optional_finds: tuple[Span, ...] = ()
-    """Places of find_package() calls that are optional and whose results are not used."""
-    bundled_projects: tuple[str, ...] = ()
-    """Names of projects built along with the package: fetched projects and vendored folders."""
-    interpreted_tests: tuple[str, ...] | None = None
-    """Files and folders that an interpreter runs as tests, relative to the package.
-
-    "" means any file; None means unknown.
-    """
-    relocated_modules: tuple[str, ...] = ()
-    """Installed Python files and folders whose place in the sources differs from their module name.
-
-    The cause is ``package_dir`` of a setup.py. Paths are relative to the package; folders end with a slash.
-    """
-    exported: tuple[Exported, ...] = ()
-    failed: bool = False
-    """True if evaluation failed because of a bug in ros-lint, which ``opaque`` then describes."""
-    insertion_after: Span | None = None
-    """End of the command before ``insertion``, if only blank lines separate the two."""
-    runs_tests: bool = False
-    """True if a CMake script calls a command that runs tests by an interpreter.
-
-    The name of the command decides.
-    """
-    includes_outside_package: bool = False
-    """True if a CMake script adds include directories of the source tree outside the package."""
-    makes_nothing: bool = False
-    """True if a CMake script builds and installs nothing and tests at most the style of the sources."""
-    commented_interfaces: tuple[str, ...] = ()
-    """Interfaces listed only in comments of CMake files, as ``msg/Name``: they were removed."""
-
-    syntax: tuple[NewerSyntax, ...] = ()
-    """Constructs in setup.py that older versions of Python reject."""
-    cmake_errors: tuple[Problem, ...] = ()
-    """Errors of CMake in commands whose effect is still known, so that they hide nothing.
-
-    The kind is "undefined-target" for a missing target and "no-package" for a missing package; the subject is the
-    name of the target or package.
-    """
+    """Errors of the script."""
 
     @property
     def of_cmake(self) -> bool:
@@ -237,14 +314,9 @@ class BuildScript(NamedTuple):
         return self.path.endswith("CMakeLists.txt")
 
     @property
-    def installed(self) -> frozenset[str]:
-        """Installed files by their path in the package, without generated files."""
-        return frozenset([provided.source for provided in self.installs if provided.source])
-
-    @property
     def is_empty(self) -> bool:
         """True if the script is a CMakeLists.txt without commands: empty, or only comments."""
-        return self.of_cmake and not (self.command_names or self.problems or self.opaque)
+        return self.of_cmake and not (self.commands.names or self.problems or self.opaque)
 
     def hides(self, facet: Facet) -> bool:
         """Return whether a part of the script that cannot be evaluated hides ``facet``.

@@ -63,9 +63,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     macros = [macro for macro in package.registrations if macro.kind == "component"]
     macros = [macro for macro in macros if not files.is_auxiliary(package.relative(macro.span.path))]
     all_names = {macro.name for macro in macros}
-    registered = {component.name.removeprefix("::") for component in script.components}
+    registered = {component.name.removeprefix("::") for component in script.products.components}
     unregistered = [macro for macro in macros if macro.name not in registered]
-    lacking = [component for component in script.components if component.name.removeprefix("::") not in all_names]
+    lacking = [component for component in script.products.components if component.name.removeprefix("::") not in all_names]
     if not macros and not _forgets_macro(package):
         lacking = []  # a macro of another package may expand to RCLCPP_COMPONENTS_REGISTER_NODE
     # One component without a macro and one compiled macro without a component belong together, whatever their names.
@@ -120,7 +120,7 @@ def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Fin
         macro.span,
         macro.name,
         fix=fix,
-        confidence=Confidence.HIGH if library and (script.components or loaded) else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if library and (script.products.components or loaded) else Confidence.MEDIUM,
         severity=Severity.WARNING,
     )
 

@@ -25,9 +25,9 @@ from ros_lint.api import EntryPoint, Finding, Package, Related, Rule, Severity, 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.built
-    always = {(p.path.rpartition("/")[2], p.span) for p in script.installs if p.program and not p.conditional}
+    always = {(p.path.rpartition("/")[2], p.span) for p in script.products.installs if p.program and not p.conditional}
     first: dict[tuple[str, str], EntryPoint] = {}
-    for entry in script.entry_points:
+    for entry in script.products.entry_points:
         if (entry.name, entry.span) not in always:
             continue
         earlier = first.setdefault((entry.group, entry.name), entry)

@@ -56,7 +56,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    wrong = (problem for problem in script.cmake_errors if problem.kind == "no-package")
+    wrong = (problem for problem in script.cmake.errors if problem.kind == "no-package")
     yield from (Finding(problem.message, problem.span, problem.subject) for problem in wrong)
     if not (build.stops_early(script) or script.hides(Facet.USES)):
         yield from _no_packages(package, dependencies.names_searched(package, script), workspace)
@@ -71,7 +71,7 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     script = package.script
     assert script is not None
     world = workspace.world
-    targets = {target.name for target in script.targets}
+    targets = {target.name for target in script.products.targets}
     spelt = {name.lower() for name in found}.union(
         name.lower() for name in dependencies.misspelled_names(package, workspace).values()
     )

@@ -32,7 +32,7 @@ _GLUED = re.compile(r"[:=].*=")
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.built
-    for entry in script.entry_points:
+    for entry in script.products.entry_points:
         if build.entry_point_target(entry) is None:
             yield _malformed(script, entry)
     for problem in script.problems:
@@ -43,7 +43,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
     if _GLUED.search(entry.target):
         message = f"'{entry.name} = {entry.target}' looks like two entries; is a comma missing between them?"
-        gaps = [Edit(text.span, ",") for text in script.editable_texts if text.kind == "gap" and entry.span.covers(text.span)]
+        gaps = [
+            Edit(text.span, ",") for text in script.python.editable_texts if text.kind == "gap" and entry.span.covers(text.span)
+        ]
         return Finding(message, entry.span, entry.name, fix=Fix.of("add the missing comma", *gaps))
     if entry.target.rstrip().endswith("()"):
         message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"

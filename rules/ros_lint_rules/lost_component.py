@@ -27,8 +27,8 @@ from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Sev
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
-    seen = {component.name for component in package.built.components if not component.lost}
-    lost = {component.name: component for component in package.built.components if component.name not in seen}
+    seen = {component.name for component in package.built.products.components if not component.lost}
+    lost = {component.name: component for component in package.built.products.components if component.name not in seen}
     if not lost:
         return
     first, *others = lost.values()

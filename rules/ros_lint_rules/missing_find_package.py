@@ -106,7 +106,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
     if any(text.startswith("/") or ".." in text for text in folders):
         return  # the headers may be in the sources or install folder of another package
     world = workspace.world
-    targets = package.built.targets
+    targets = package.built.products.targets
     compiled = {source for target in targets for source in target.sources if source not in target.optional_sources}
     places: dict[str, list[Use]] = {}
     for use in package.uses:

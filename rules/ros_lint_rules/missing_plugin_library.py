@@ -47,8 +47,8 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
         yield Finding("<library> without path makes pluginlib loop forever; add the path", library.span, plugin.path)
         return
     script = package.built
-    installed = {_plain(p.path) for p in script.installs if not p.source and p.path.endswith((".so", ".a"))}
-    built = {target.name for target in script.targets if target.kind == "library"}
+    installed = {_plain(p.path) for p in script.products.installs if not p.source and p.path.endswith((".so", ".a"))}
+    built = {target.name for target in script.products.targets if target.kind == "library"}
     name = _plain(library.path)
     if name in installed or "$" in library.path or not built:
         return

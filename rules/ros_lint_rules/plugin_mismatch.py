@@ -82,7 +82,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     last = entry.type.rpartition("::")[2]
     described = {
         described_class.type
-        for file in package.built.plugin_files
+        for file in package.built.files.plugin_files
         for library in file.libraries
         for described_class in library.classes
     }

@@ -66,7 +66,7 @@ def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
     """Yield the descriptions that are not exported, although they list a registered class that no installed one lists."""
     exported = {text for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True) for text in call.texts}
     script = package.built
-    installed = [plugin for plugin in script.plugin_files if plugin.path in script.installed]
+    installed = [plugin for plugin in script.files.plugin_files if plugin.path in script.products.installed]
     described = {entry.type for plugin in installed for library in plugin.libraries for entry in library.classes}
     lacking = {macro.name for macro in plugins.registered} - described
     for plugin in plugins.uninstalled if exported else ():
@@ -84,7 +84,7 @@ def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
 
 def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterator[Finding]:
     """Yield findings for registered classes that no description lists, if all descriptions can be read."""
-    descriptions = {plugin.path: plugin for plugin in package.built.plugin_files}
+    descriptions = {plugin.path: plugin for plugin in package.built.files.plugin_files}
     calls = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
     if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
         return
@@ -92,7 +92,7 @@ def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterat
     known = {name.rpartition("::")[2] for entry in classes for name in (entry.type, entry.name.replace("/", "::"))}
     # A class next to a described one, or in a library that others link, may be a base class or a copy.
     needed = {build.library_registering(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
-    needed.update(name for target in package.built.targets for name, _ in target.links)
+    needed.update(name for target in package.built.products.targets for name, _ in target.links)
     for macro in registered:
         library = build.library_registering(package, macro)
         if library and library not in needed:
@@ -118,7 +118,7 @@ def _unexported(package: Package, workspace: Workspace, registered: Sequence[Reg
     first, *others = registered
     related = first_related(Related("also registered here", macro.span) for macro in others)
     types = {macro.name for macro in registered}
-    files = package.built.plugin_files
+    files = package.built.files.plugin_files
     plugin = next((p for p in files if any(c.type in types for library in p.libraries for c in library.classes)), None)
     if plugin is None and (base := _unloaded_base(registered, workspace)):
         message = f"'{first.name}' is registered, but nothing loads plugins of '{base}'; remove the macro or export a description"
@@ -148,7 +148,7 @@ def _unloaded_base(registered: Sequence[Registration], workspace: Workspace) -> 
 
 
 def _builds_libraries(package: Package) -> bool:
-    return any(target.kind == "library" and target.sources for target in package.built.targets)
+    return any(target.kind == "library" and target.sources for target in package.built.products.targets)
 
 
 def _export(package: Package, plugin: PluginFile) -> Fix | None:

@@ -64,17 +64,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.INTERFACES):
         return
     calls = list(package.calls(_GENERATE, anywhere=True))
-    if not calls or not script.interfaces:
+    if not calls or not script.products.interfaces:
         return
     plain: dict[str, list[str]] = {}
     for file in package.files:
         interface = names.interfaces.defined_in(file) if file.count("/") == 1 else ""
         kind, _, name = interface.partition("/")
-        if interface in script.interfaces or not name.isidentifier():
+        if interface in script.products.interfaces or not name.isidentifier():
             continue
         required = "" if file.endswith(".idl") or names.interfaces.is_message(name) else names.interfaces.camel(name)
         rejection = next(iter(_rejections(package, file)), "")
-        commented_out = interface in script.commented_interfaces
+        commented_out = interface in script.cmake.commented_interfaces
         if required or rejection or commented_out:
             yield _finding(package, calls, file, required, rejection, commented_out=commented_out)
         else:
@@ -122,7 +122,7 @@ def _finding(
     ``rejection``: why rosidl rejects the file, "" if it does not. ``commented_out``: a comment has it in place of a list element.
     """
     remedy = f"rename it to '{required}', as rosidl requires, and add it" if required else "add it or remove the file"
-    if required and f"{names.interfaces.defined_in(file).partition('/')[0]}/{required}" in package.built.interfaces:
+    if required and f"{names.interfaces.defined_in(file).partition('/')[0]}/{required}" in package.built.products.interfaces:
         remedy = f"'{required}' replaces it, so remove the file"
     elif rejection and not required:
         remedy = f"correct or remove it, because rosidl rejects it: {rejection}"

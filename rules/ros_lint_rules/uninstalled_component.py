@@ -28,10 +28,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS | Facet.LIBRARIES):
         return
-    paths = {provided.path.rpartition("/")[2] for provided in script.installs}
-    listed = build.install_arguments(package).union(provided.target for provided in script.installs)
+    paths = {provided.path.rpartition("/")[2] for provided in script.products.installs}
+    listed = build.install_arguments(package).union(provided.target for provided in script.products.installs)
     elsewhere = build.libraries_in_libexec(package, (".so",))
-    targets = {target.name: target for target in reversed(script.targets)}
+    targets = {target.name: target for target in reversed(script.products.targets)}
     reported: set[str] = set()
     for call in package.calls(*build.REGISTERING):
         name = build.evaluated_name(package, call.texts[0]) if call.args else None

@@ -93,7 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         wrong = _wrong_released(used, workspace) if not makers else _wrong(used, maker, workspace) if maker else None
         if wrong is None:
             continue
-        if maker and not maker.built.interfaces:  # one finding for all uses of the package
+        if maker and not maker.built.products.interfaces:  # one finding for all uses of the package
             reported.add(used.maker)
             places = [place for (name, *_), same in places_by_use.items() if name == used.maker for place in same]  # noqa: PLW2901
         if used.bare:
@@ -134,7 +134,7 @@ def _used(package: Package) -> Iterator[_Used]:
 
 def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     """Return the message about a use of a package of the workspace; None if it is right or cannot be decided."""
-    generated = maker.built.interfaces
+    generated = maker.built.products.interfaces
     if maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
     if not generated:
@@ -158,7 +158,7 @@ def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace)
         return f"'{used.maker}' does not generate code for '{file}'; add it to {_GENERATE}()"
     if any(path.endswith((f"{kind}.py", f"{kind}/__init__.py", f".{kind}", ".idl")) for path in maker.files):
         return None
-    owners = [package.name for package in workspace.packages if interface in package.built.interfaces]
+    owners = [package.name for package in workspace.packages if interface in package.built.products.interfaces]
     remedy = f"; did you mean the one of '{owners[0]}'?" if owners else "; correct the name"
     return f"'{used.maker}' does not generate interfaces, so '{interface}' does not exist{remedy}"
 
@@ -209,7 +209,7 @@ def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
 
 def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
     """Return the interfaces that a package of the workspace generates."""
-    return next((package.built.interfaces for package in workspace.by_name.get(name, ())), ())
+    return next((package.built.products.interfaces for package in workspace.by_name.get(name, ())), ())
 
 
 @cached_by_package
@@ -219,8 +219,8 @@ def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool]
     Includes files for which no code is generated, because another finding reports them.
     """
     interfaces = [names.interfaces.defined_in(file) for file in maker.files]
-    ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.commented_interfaces]
-    everything = frozenset([*maker.built.interfaces, *ungenerated])
+    ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.cmake.commented_interfaces]
+    everything = frozenset([*maker.built.products.interfaces, *ungenerated])
     return {
         (kind, header): _names(everything, kind, header) for kind in ("", *names.interfaces.KINDS) for header in (False, True)
     }

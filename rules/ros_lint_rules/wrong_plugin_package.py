@@ -30,7 +30,7 @@ from ros_lint.api import Call, Finding, Fix, Package, Related, Rule, Severity, W
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if build.plugins(package) is None:
         return
-    described = {plugin.path: plugin for plugin in package.built.plugin_files}
+    described = {plugin.path: plugin for plugin in package.built.files.plugin_files}
     for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True):
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue

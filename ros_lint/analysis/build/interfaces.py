@@ -26,11 +26,15 @@ GENERATING = "rosidl_generate_interfaces"
 def interface_generation(package: Package) -> InterfaceGeneration | None:
     """Return how a package generates its interfaces; None if it installs none or its manifest has errors."""
     script, manifest = package.script, package.manifest
-    if script is None or manifest is None or manifest.problems or GENERATING not in script.command_names:
+    if script is None or manifest is None or manifest.problems or GENERATING not in script.commands.names:
         return None
     place = next((m for m in script.mentions if m.via == "macro" and m.purpose == "interfaces"), None)
     kinds = tuple(f"share/{package.name}/{kind}/" for kind in ("msg", "srv", "action"))
-    if place is None or not script.interfaces or not any(file.path.startswith(kinds) for file in script.installs):
+    if (
+        place is None
+        or not script.products.interfaces
+        or not any(file.path.startswith(kinds) for file in script.products.installs)
+    ):
         return None
     folders = folders_of(package.relative(place.span.path))
     own = any(f"{folder}/package.xml" in package.files for folder in folders)

@@ -41,13 +41,13 @@ def plugins(package: Package) -> Plugins | None:
     registered = [
         macro for macro in macros if not (is_auxiliary(package.relative(macro.span.path)) or _needs_no_description(macro))
     ]
-    used = [plugin for plugin in script.plugin_files if not is_auxiliary(plugin.path)]
+    used = [plugin for plugin in script.files.plugin_files if not is_auxiliary(plugin.path)]
     return Plugins(
         macros,
         registered,
-        [plugin for plugin in used if plugin.path in script.installed],
-        [plugin for plugin in used if plugin.path not in script.installed],
-        EXPORTING_PLUGINS in script.command_names or any(package.calls(EXPORTING_PLUGINS, anywhere=True)),
+        [plugin for plugin in used if plugin.path in script.products.installed],
+        [plugin for plugin in used if plugin.path not in script.products.installed],
+        EXPORTING_PLUGINS in script.commands.names or any(package.calls(EXPORTING_PLUGINS, anywhere=True)),
     )
 
 

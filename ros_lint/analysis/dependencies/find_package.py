@@ -18,9 +18,9 @@ _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 
 
 def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the names in calls of find_package(), also of macros that find declared dependencies."""
+    """Return the names that CMake searches by find_package(), called directly or by a macro."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
-    calls = frozenset(script.command_names)
+    calls = frozenset(script.commands.names)
     if calls & _FIND_DECLARED:
         names.update(declared.name for declared in package.declared if declared.depend.tag in _AT_BUILD)
     if calls & FINDS_TESTS:
@@ -30,11 +30,11 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
 
 def finds_declared(package: Package) -> bool:
     """Return whether CMake finds all declared build dependencies and links them to every target."""
-    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.command_names)
+    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.commands.names)
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
-    """Return the packages that find_package() finds for some names, directly and transitively.
+    """Return the packages that find_package() finds for some names, with their transitive dependencies.
 
     None if a name cannot be resolved, or if the dependencies of its package are unknown.
     """
@@ -43,7 +43,7 @@ def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozense
 
 
 def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
-    """Return the known packages that find_package() finds for some names, directly and transitively."""
+    """Return the packages that find_package() finds for some names, as far as they are known."""
     starts: set[str] = set()
     for name in names:
         providers = workspace.world.by_cmake(name)
@@ -53,7 +53,7 @@ def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
 
 
 def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
-    """Yield the package arguments of macros with a purpose, such as ament_export_dependencies()."""
+    """Yield the packages that macros such as ament_export_dependencies() name for one of the purposes."""
     for mention in script.mentions:
         if mention.via == "target" and mention.purpose in purposes:
             yield mention
