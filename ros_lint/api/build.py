@@ -38,16 +38,20 @@ from ros_lint.analysis.build.targets import (
     stem,
 )
 from ros_lint.analysis.build.xmllint import runs_xmllint
+from ros_lint.analysis.headers import EXPORTING_LIBRARIES, Includes, OwnHeaders, own_headers, related_includes
 from ros_lint.workspace.build_scripts.resources import uninstalled_resources
 from ros_lint.workspace.usage.unused_find_package import generated_from
 
 __all__ = [
     "ENDS",
+    "EXPORTING_LIBRARIES",
     "EXPORTING_PLUGINS",
     "FINDS_TESTS",
     "GENERATING",
     "LINTERS",
     "REGISTERING",
+    "Includes",
+    "OwnHeaders",
     "Plugins",
     "build_types",
     "config_names",
@@ -71,10 +75,12 @@ __all__ = [
     "never_installed_nodes",
     "node_targets",
     "opaque_except_undefined_targets",
+    "own_headers",
     "partly_installed_nodes",
     "plugin_loaders",
     "plugins",
     "programs_built",
+    "related_includes",
     "runs_xmllint",
     "stem",
     "stops_early",
