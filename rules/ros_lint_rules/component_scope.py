@@ -27,11 +27,11 @@ from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Sev
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
-    seen = {component.name for component in package.built.products.components if not component.lost}
-    lost = {component.name: component for component in package.built.products.components if component.name not in seen}
-    if not lost:
+    seen = {component.name for component in package.built.products.components if not component.unregistered}
+    outside = {component.name: component for component in package.built.products.components if component.name not in seen}
+    if not outside:
         return
-    first, *others = lost.values()
+    first, *others = outside.values()
     more = f" and {len(others)} more" if others else ""
     yield Finding(
         f"'{first.name}'{more}: registered in the scope of a function or subfolder, so ament_package() does not write it to the "
@@ -44,9 +44,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 RULE = Rule(
-    name="lost-component",
+    name="component-scope",
     code="ROS423",
-    summary="components are registered where ament_package() finds them",
+    summary="components are registered in the scope of ament_package()",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
