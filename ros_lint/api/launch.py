@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.launch.arguments import ArgumentUse, SimilarRead, argument_use
-from ros_lint.analysis.launch.configurations import include_tree
+from ros_lint.analysis.launch.configurations import IncludeTree, include_tree
 from ros_lint.analysis.launch.files import (
     InstalledPrograms,
     PackageLaunchFile,
@@ -22,7 +22,7 @@ from ros_lint.analysis.launch.files import (
 from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
 from ros_lint.analysis.launch.parameter_files import NodeParameterFile, ParameterFiles
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
-from ros_lint.analysis.launch.scopes import PlacedInclude, includes, scope_leaks
+from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
 from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
 from ros_lint.facts.launch import LAUNCH_RUNTIME, values_of_action, walk_actions
@@ -36,12 +36,14 @@ __all__ = [
     "ArgumentUse",
     "FailingExpression",
     "IncludeResolver",
+    "IncludeTree",
     "InstalledPrograms",
     "NodeParameterFile",
     "PackageLaunchFile",
     "ParameterFiles",
     "PassedFile",
     "PlacedInclude",
+    "ScopeLeaks",
     "SimilarRead",
     "are_consistent",
     "argument_use",

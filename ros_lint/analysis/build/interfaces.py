@@ -21,6 +21,7 @@ class InterfaceGeneration(NamedTuple):
 
 
 GENERATING = "rosidl_generate_interfaces"
+"""The command that generates code for interfaces."""
 
 
 def interface_generation(package: Package) -> InterfaceGeneration | None:

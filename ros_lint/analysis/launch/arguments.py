@@ -20,6 +20,7 @@ class SimilarRead(NamedTuple):
     """A configuration that is read with a default but never declared."""
 
     span: Span
+    """The first place where it is read."""
     declared: str
     """The declared argument with a similar name."""
 
