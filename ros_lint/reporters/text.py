@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
     from ros_lint.analysis.finding import Fix
     from ros_lint.engine.report import Issue, Report
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
 
 _PLAIN = Style()
 _RELATED = 8
 """Number of related places to show; the json format has all."""
 _FILES = 2
-"""Number of files to show lines of: a third use adds nothing. All steps of a cycle are shown."""
+"""Number of files to show lines of, except for cycles, of which all steps are shown."""
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:
+def render(report: Report, texts: SourceTexts, style: Style) -> str:
     """Return the report as text."""
     texts = cache(texts)
     packages: dict[str, list[Issue]] = {}
@@ -37,12 +37,12 @@ def render(report: Report, texts: Texts, style: Style) -> str:
     return "".join(parts) + summary(report, style)
 
 
-def render_issues(issues: Iterable[Issue], texts: Texts, style: Style = _PLAIN) -> str:
+def render_issues(issues: Iterable[Issue], texts: SourceTexts, style: Style = _PLAIN) -> str:
     """Return issues as text, separated by empty lines."""
     return "\n".join("".join(f"{row}\n" for row in _issue(issue, texts, style)) for issue in issues)
 
 
-def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
+def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
     finding, level = issue.finding, str(issue.severity)
     head = paint(style, level, f"{level}[{issue.rule.code} {issue.rule.name}]")
     marks = [Mark(finding.span, "", level, "^")]
@@ -70,23 +70,23 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
     ]
 
 
-def _preview(fix: Fix, texts: Texts, style: Style, gutter: str) -> Iterator[str]:
-    """Yield the changes of a fix as a diff, next to the gutter of a frame."""
+def _preview(fix: Fix, texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:
+    """Yield the changes of a fix as a diff below a frame, which has this gutter."""
     from ros_lint.base.diff import unified  # noqa: PLC0415
     from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (only for diffs)
 
     sources = {edit.span.path: texts(edit.span.path) for edit in fix.edits}
-    known = {path: source for path, source in sources.items() if source is not None}
-    if len(known) < len(sources):
+    readable = {path: source for path, source in sources.items() if source is not None}
+    if len(readable) < len(sources):
         return
     bar = paint(style, "gutter", f"{gutter} |")
     try:
-        texts_after = apply([fix], known.__getitem__)
+        changed_texts = apply([fix], readable.__getitem__)
     except EditError:  # the file has changed in the meantime
         return
-    for path, changed in texts_after.items():
+    for path, changed in changed_texts.items():
         yield f"{gutter}{paint(style, 'gutter', ':::')} {safe(path, style)}"
-        for line in unified(path, known[path].text, changed).splitlines()[2:]:
+        for line in unified(path, readable[path].text, changed).splitlines()[2:]:
             color = {"+": "added", "-": "removed"}.get(line[:1], "")
             shown = safe(line, style)
             yield f"{bar} {paint(style, color, shown) if color else shown}".rstrip()
