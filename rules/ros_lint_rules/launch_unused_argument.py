@@ -23,7 +23,7 @@ Not reported:
 - Arguments of a file that only contains arguments, because it sets them for files that include it.
 - Arguments with an empty default that another launch file of the same folder requires, because this file may replace the other
   one.
-- Arguments that a configuration with a similar name stands for: `launch-undeclared-configuration` reports it.
+- Arguments with nearly the name of an undeclared configuration: `launch-undeclared-configuration` reports the configuration.
 """
 
 from __future__ import annotations
