@@ -127,6 +127,13 @@ setup(name='pkg', version=version, packages=['pkg', *more()],
     assert [opaque.hides for opaque in found.opaque] == [Facet.PYTHON, Facet.SHARE, Facet.SHARE | Facet.EXECUTABLES]
 
 
+@pytest.mark.parametrize("failing", ["'a' + 1", "['a'] + ('b',)", "1 / 0", "[][0]", "{}['a']", "int('a')", "[].index(1)"])
+def test_a_failing_expression_is_unknown_and_the_rest_stays_known(failing: str) -> None:
+    found = script(f"x = {failing}\ny = 'a'\ny += None\nsetup(name='pkg', version=x, scripts=['scripts/tool.py'])")
+    assert (found.project.name, found.project.version) == ("pkg", "")
+    assert [item.path for item in found.products.installs] == ["bin/tool.py"]
+
+
 def test_an_unknown_condition_makes_conditional() -> None:
     found = script(
         """
