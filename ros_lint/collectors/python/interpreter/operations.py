@@ -237,7 +237,13 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
     if all(isinstance(operand, _KNOWN) and (not isinstance(operand, str) or is_plain(operand)) for operand in (left, right)):
         numbers = isinstance(left, _NUMBERS) and isinstance(right, _NUMBERS)
         # Outside of try, the rest of the program is interpreted as if the types were right.
-        if machine.caught and type(op) in _OPERATORS and not numbers and not isinstance(left, SetOf) and not isinstance(right, SetOf):
+        if (
+            machine.caught
+            and type(op) in _OPERATORS
+            and not numbers
+            and not isinstance(left, SetOf)
+            and not isinstance(right, SetOf)
+        ):
             raise ProgramRaised("TypeError")
         return Unknown("the result of an operator")
     for operand in (left, right):
