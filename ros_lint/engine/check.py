@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
 from ros_lint.engine import run as engine
-from ros_lint.engine.report import BlindSpot, HiddenCount, Report
+from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.selection import Selection, show
 
 if TYPE_CHECKING:
@@ -31,8 +31,12 @@ class Context(NamedTuple):
 
 def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: Context) -> Report:
     """Return the report of the selected rules, with suppressions and settings applied."""
+    suppressions = tuple(suppressions)
     checked = engine.check(workspace, selection.rules, suppressions, context.rules)
     shown, hidden = show(checked.issues, selection)
+    of_others = engine.check(workspace, selection.off, suppressions, context.rules).issues
+    if off := [issue for issue in of_others if not selection.ignores_path(issue)]:
+        hidden = (*hidden, HiddenCount.of(OFF, off))
     if checked.suppressed:
         hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
     return Report(

@@ -18,7 +18,7 @@ _LISTED = 10
 """Number of entries of a list to show; the json format has all."""
 
 _NAMED = 5
-"""Number of packages to name in a sentence; the others are only counted."""
+"""Number of packages or rules to name in a sentence; the others are only counted."""
 
 _FEW = 10
 """Number of findings that need no table of rules."""
@@ -46,8 +46,13 @@ def some(packages: Sequence[str]) -> str:
 
 def blind_spots(report: Report) -> Iterator[str]:
     """Yield sentences without a full stop about everything that was not analysed or not shown."""
-    if report.hidden:
-        yield f"Hidden: {'; '.join(map(hidden_findings, report.hidden))}"
+    if more := Counter({name: number for hidden in report.hidden for name, number in hidden.rules}):
+        by_rule = [f"{name} {number}" for name, number in more.most_common(_NAMED)]
+        if others := sum(number for _, number in more.most_common()[_NAMED:]):
+            by_rule.append(f"other rules {others}")
+        yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
+    if hidden := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
+        yield f"Hidden: {'; '.join(hidden)}"
     if report.unseen:
         sides: dict[tuple[str, ...], list[str]] = {}
         for unseen in report.unseen:

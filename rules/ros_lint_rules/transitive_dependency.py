@@ -40,43 +40,66 @@ distribution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, dependencies, first_related
+from ros_lint.api import Confidence, Finding, Package, Related, Role, Rule, Severity, Workspace, dependencies, first_related
 
 _LAUNCHER = "ros2launch"
+_LINTERS = "ament_lint_common"
+_TEST_TOOLS = dependencies.TEST_LIBRARIES | {
+    "ament_cmake_pytest", "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake",
+    "launch_testing_ros", "python3-pytest",
+}  # fmt: skip
+"""Packages and keys that tests use and that usually come with a package for a kind of tests."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
-    declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     unused = {mention.name for mention in dependencies.unused_find_packages(package, workspace)}
     misnamed = dependencies.intended_names(package, workspace)
+    misplaced = {lack.need.name for lack in dependencies.misplaced(package, workspace)}
     for need in dependencies.needs(package, workspace):
-        if need.declared or not need.brought or need.name in unused or _is_command(need):
+        if need.declared or not need.brought or need.name in unused or need.name in misplaced or _is_command(need):
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
-        if not (_LAUNCHER in declared and dependencies.is_part_of_launch(package, need.uses)):
-            yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
+        if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
+            yield _finding(package, workspace, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
         if wish.brought and not _is_command(wish):
-            yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
+            yield _finding(package, workspace, wish, Confidence.LOW)._replace(fix=None)
 
 
 def _is_command(need: dependencies.Need) -> bool:
     return all(use.via == "macro" for use in need.uses)
 
 
-def _finding(
-    package: Package, workspace: Workspace, declared: Sequence[str], need: dependencies.Need, confidence: Confidence
-) -> Finding:
+def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, carrier: str) -> bool:
+    """Return whether packages rarely declare such a use, because the purpose of ``carrier`` is to provide it.
+
+    This holds for launch in launch files, tools that run tests, linters, and what launch files use of a metapackage.
+    """
+    if need.role is Role.TEST and (need.name in _TEST_TOOLS or carrier == _LINTERS):
+        return True
+    if all(use.via in ("launch", "package") for use in need.uses) and dependencies.only_brings(workspace.world, carrier):
+        return True
+    outside_tests = [use for use in need.uses if use.role is not Role.TEST]
+    return bool(outside_tests) and dependencies.is_part_of_launch(package, outside_tests)
+
+
+def _is_found_by_cmake(need: dependencies.Need) -> bool:
+    """Return whether find_package() needs the package outside of tests."""
+    return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
+
+
+def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:
     """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
     best, *others = need.uses
-    paths = (workspace.world.path(declared, name) for name in best.providers)
-    path = next((path for path in paths if path), (need.name,))
+    path = _path(package, workspace, need)
     name = path[-1]
+    if _comes_by_design(package, workspace, need, path[0]):
+        confidence = Confidence.LOW
     between = " > ".join(f"'{package_between}'" for package_between in path[:-1])
     proposal = dependencies.remedy(package, workspace, name, need.role)
     return Finding(
@@ -86,7 +109,23 @@ def _finding(
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
+        None if _is_found_by_cmake(need) else Severity.INFO,
     )
+
+
+def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
+    """Return the dependencies that lead to a need, from a declared one that serves the same purpose if possible."""
+    best = need.uses[0]
+    purpose = next((roles for roles in _PURPOSES if best.role & roles), ~Role(0))
+    same = [declared.name for declared in package.declared if declared.role & purpose]
+    for starts in (dict.fromkeys(same), dict.fromkeys(declared.name for declared in package.declared)):
+        for name in best.providers:
+            if path := workspace.world.path(starts, name):
+                return path
+    return (need.name,)
+
+
+_PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT)
 
 
 RULE = Rule(
@@ -96,7 +135,6 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
-    default=False,
     fixable=True,
     package=check,
 )

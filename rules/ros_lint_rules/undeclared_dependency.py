@@ -89,7 +89,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
     undeclared_needs = dependencies.undeclared(package, workspace)
-    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, need.uses)}
+    misplaced = dependencies.misplaced(package, workspace)
+    every = [*(need for need, _ in undeclared_needs), *(need.need._replace(uses=need.uses) for need in misplaced)]
+    with_launch = {need.name for need in every if dependencies.is_part_of_launch(package, need.uses)}
     for need, sure in undeclared_needs:
         certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # launch_ros provides launch
         problem = "is used here, but package.xml does not declare it"
@@ -99,6 +101,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
             finding = finding._replace(message=message, fix=None)
         yield finding._replace(severity=severity)
+    for lack in misplaced:
+        tag = lack.depend.tag
+        problem = f"is used here, but comes only with <{tag}>{lack.depend.name}</{tag}>, which is not installed {lack.purpose}"
+        uses = (*lack.uses, *(use for use in lack.need.uses if use not in lack.uses))
+        finding = _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
+        yield finding._replace(severity=Severity.INFO if lack.need.name in with_launch else None)
     for wish in dependencies.optional_needs(package, workspace):
         if not wish.brought:
             problem = "is used here if it is available, but package.xml does not declare it"

@@ -19,9 +19,10 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
     return declared_closure(package, workspace, _ANY)
 
 
-def declared_closure(package: Package, workspace: Workspace, role: Role) -> Closure:
-    """Return the closure of all dependencies declared for any part of a role, members of groups included."""
+def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
+    """Return the closure of all dependencies declared for any part of a role, of ``others`` and of members of groups."""
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
+    starts += others
     for group in package.group_depends:
         starts += workspace.world.group_members(group.name)
     return workspace.world.closure(starts)
