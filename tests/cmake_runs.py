@@ -31,7 +31,7 @@ def run(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: ob
 
 def paths(script: BuildScript) -> dict[str, bool]:
     """Installed paths, and whether they are conditional."""
-    return {provided.path: provided.conditional for provided in script.installs}
+    return {provided.path: provided.conditional for provided in script.products.installs}
 
 
 def mentioned(script: BuildScript) -> dict[tuple[str, str], Mention]:

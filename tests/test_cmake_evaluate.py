@@ -12,14 +12,14 @@ from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 def test_project() -> None:
     script = evaluate(sources('set(name pkg)\nproject("${name}" VERSION 1.2.3 LANGUAGES CXX)\n'))
-    assert (script.name, script.version) == ("pkg", "1.2.3")
-    assert script.name_span is not None
-    assert str(script.name_span) == "src/pkg/CMakeLists.txt:1:10"
+    assert (script.project.name, script.project.version) == ("pkg", "1.2.3")
+    assert script.project.name_span is not None
+    assert str(script.project.name_span) == "src/pkg/CMakeLists.txt:1:10"
 
 
 def test_an_unknown_name_is_none() -> None:
-    assert run("").name == "pkg"
-    assert evaluate(sources("find_package(x)\nproject(${x_NAME})\n")).name == ""
+    assert run("").project.name == "pkg"
+    assert evaluate(sources("find_package(x)\nproject(${x_NAME})\n")).project.name == ""
 
 
 @pytest.mark.parametrize(
@@ -87,9 +87,9 @@ def test_programs() -> None:
     files = ("scripts/a.py", "scripts/b.py")
     text = "install(DIRECTORY scripts/ DESTINATION lib/pkg {})\n"
     plain = run(text.format(""), files, executables=frozenset({"scripts/a.py"}))
-    assert [provided.program for provided in plain.installs] == [False, False]
+    assert [provided.program for provided in plain.products.installs] == [False, False]
     kept = run(text.format("USE_SOURCE_PERMISSIONS"), files, executables=frozenset({"scripts/a.py"}))
-    assert [provided.program for provided in kept.installs] == [True, False]
+    assert [provided.program for provided in kept.products.installs] == [True, False]
 
 
 @pytest.mark.parametrize(
@@ -280,7 +280,7 @@ def test_modules_in_c_plus_plus() -> None:
     text = "pybind11_add_module(_core core.cpp)\ninstall(TARGETS _core DESTINATION ${PYTHON_INSTALL_DIR}/pkg)\n"
     script = run(text, ("core.cpp",))
     assert paths(script) == {"lib/python/site-packages/pkg/_core.so": False}
-    assert script.python_packages == ("pkg._core",)
+    assert script.products.python_packages == ("pkg._core",)
     assert not hidden(script)
 
 

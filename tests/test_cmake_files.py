@@ -30,7 +30,7 @@ FILES = (
     "src/a.cpp", "src/b.cpp", "src/b.hpp", "src/sub/c.cpp", "src/sub/deep/d.cpp", "src/a-1.cpp", "src/.hidden.cpp", "src/[x].cpp",
     "launch/a.launch.py", "launch/B.launch.py", "launch/é.launch.py", "a.txt", "b.c.txt", "a b/c.txt", "script",
 )  # fmt: skip
-AROUND = ("config/a.yaml", "config/deep/b.yaml", "other/src/z.cpp", "top.txt", "pack/x.txt")
+OUTSIDE = ("config/a.yaml", "config/deep/b.yaml", "other/src/z.cpp", "top.txt", "pack/x.txt")
 """Files beside the folder of the package, ``package``."""
 
 
@@ -77,7 +77,7 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
     lines = list(dict.fromkeys(_line(choice) for _ in range(800)))
     tree = tmp_path / "tree"
     folder = tree / "package"
-    for path in (*(folder / path for path in FILES), *(tree / path for path in AROUND)):
+    for path in (*(folder / path for path in FILES), *(tree / path for path in OUTSIDE)):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("")
     script = tmp_path / "script.cmake"
@@ -93,11 +93,11 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
 
     wrong = []
     unknown = 0
-    around = Surroundings(DiskTree(str(tree))).of("package")
+    outside = Surroundings(DiskTree(str(tree))).of("package")
     for number, line in enumerate(lines):
-        run = Run(Sources("p", "package", sorted(FILES), {}, around=around), "", {}, lambda *_: None)
-        run.versions = (3, 20)
-        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.named("CMakeLists.txt")))
+        run = Run(Sources("p", "package", sorted(FILES), {}, outside=outside), "", {}, lambda *_: None)
+        run.policy_version = (3, 20)
+        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.named("CMakeLists.txt")))
         value = run.get("V") or ""
         unknown += HOLE in value
         if is_fixed(value) and value.replace(TREE, str(tree)) != real[str(number)]:
@@ -117,5 +117,5 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
 )
 def test_a_backslash_parts_folders_where_a_path_is_made_a_whole_one(line: str, expected: str) -> None:
     run = Run(Sources("p", "", (), {}), "", {}, lambda *_: None)
-    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.named("CMakeLists.txt")))
+    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.named("CMakeLists.txt")))
     assert run.get("V") == expected

@@ -127,5 +127,5 @@ def test_what_targets_are_linked_with() -> None:
     endif()
     """
     script = run(f"find_package(UNKNOWN)\n{text}", ("a.cpp", "b.cpp", "e.cpp"))
-    links = {target.name: [name for name, _ in target.links] for target in script.targets}
+    links = {target.name: [name for name, _ in target.links] for target in script.products.targets}
     assert links == {"e": ["a", "b"], "a": [], "b": []}

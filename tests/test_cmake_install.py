@@ -171,12 +171,12 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
 
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
     executables = frozenset(path for path, executable in FILES.items() if executable)
-    around = Surroundings(DiskTree(str(tmp_path / "tree"))).of("p")
+    outside = Surroundings(DiskTree(str(tmp_path / "tree"))).of("p")
     own = sorted(path for path in FILES if not path.startswith("../"))
-    result = evaluate(Sources("p", "p", own, parsed, executables, around=around))
-    found = {provided.path: provided.program for provided in result.installs}
+    result = evaluate(Sources("p", "p", own, parsed, executables, outside=outside))
+    found = {provided.path: provided.program for provided in result.products.installs}
     assert not result.opaque
-    assert not any(provided.conditional for provided in result.installs)
+    assert not any(provided.conditional for provided in result.products.installs)
     differing = {path.partition("/")[0] for path in found.keys() ^ real.keys()}
     differing |= {path.partition("/")[0] for path in found.keys() & real.keys() if found[path] != real[path]}
     shown = [
@@ -225,7 +225,7 @@ def test_headers_of_targets_are_those_of_cmake(tmp_path: Path) -> None:
 
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
     result = evaluate(Sources("p", "p", sorted(_HEADERS), parsed, frozenset()))
-    assert {provided.path for provided in result.installs} == real
+    assert {provided.path for provided in result.products.installs} == real
     assert len(real) == 8
     assert not result.opaque
 

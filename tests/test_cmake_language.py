@@ -45,12 +45,12 @@ def evaluated(script: Script) -> Outcome:
             raise AssertionError(name)
         if not run.muted:
             traces[args[0]] += 1
-            certain[args[0]] += not run.unsure
+            certain[args[0]] += not run.uncertain_conditions
 
     parsed = parse(Text("CMakeLists.txt", script.text))
     assert not parsed.problems, parsed.problems
     run = Run(Sources("p", "", (), {}), "", {}, trace)
-    run.versions = (3, 20)
+    run.policy_version = (3, 20)
     run.scopes.append(Variables(ARGC="0", ARGN="", ARGV=""))  # the scripts run within a function
     for name in UNKNOWN:
         run.set(name, HOLE)

@@ -35,7 +35,8 @@ def _result(script: str) -> BuildScript:
     parsed = {"CMakeLists.txt": parse(Text("CMakeLists.txt", text))}
     depends = ("rclcpp", "std_msgs")
     found = evaluate(Sources("pkg", "", FILES, parsed, build_depends=depends, test_depends=("ament_lint_auto",)))
-    return found._replace(command_names=tuple(name for name in found.command_names if name != "cmake_parse_arguments"))
+    names = tuple(name for name in found.commands.names if name != "cmake_parse_arguments")
+    return found._replace(commands=found.commands._replace(names=names))
 
 
 def _script(choice: random.Random, names: list[str]) -> str:

@@ -20,15 +20,15 @@ def test_macros_mention_the_package_that_brings_them() -> None:
     script = run("if(BUILD_TESTING)\n  ament_add_gtest(t test/t.cpp)\nendif()\nament_package()\n", ("test/t.cpp",))
     mention = mentioned(script)[("macro", "ament_cmake_gtest")]
     assert (mention.what, mention.test, mention.span.line, mention.span.column) == ("ament_add_gtest()", True, 4, 3)
-    assert [(target.name, target.sources, target.test) for target in script.targets] == [("t", ("test/t.cpp",), True)]
-    assert {"ament_add_gtest", "ament_package"} <= set(script.command_names)
+    assert [(target.name, target.sources, target.test) for target in script.products.targets] == [("t", ("test/t.cpp",), True)]
+    assert {"ament_add_gtest", "ament_package"} <= set(script.commands.names)
 
 
 def test_the_place_for_install_rules_is_before_ament_package() -> None:
     script = run("\n  ament_package()\n")
-    assert str(script.insertion) == "src/pkg/CMakeLists.txt:4:3"
-    assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").insertion is not None
-    assert run("").insertion is None
+    assert str(script.commands.insertion) == "src/pkg/CMakeLists.txt:4:3"
+    assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").commands.insertion is not None
+    assert run("").commands.insertion is None
 
 
 def test_ament_auto() -> None:
@@ -45,11 +45,11 @@ def test_ament_auto() -> None:
         "include/pkg/core.hpp", "lib/libcore.so", "lib/pkg/talker", "lib/pkg/node", "share/pkg/launch/a.launch.py",
         "share/pkg/package.xml", "share/ament_index/resource_index/packages/pkg",
     }  # fmt: skip
-    assert [(component.name, component.span.line) for component in script.components] == [("ns::Node", 7)]
-    assert {target.name: target.sources for target in script.targets} == {
+    assert [(component.name, component.span.line) for component in script.products.components] == [("ns::Node", 7)]
+    assert {target.name: target.sources for target in script.products.targets} == {
         "core": ("src/core.cpp",), "talker": ("src/core.cpp", "src/main.cpp"), "node": (),
     }  # fmt: skip
-    assert {provided.path: provided.span.line for provided in script.installs}["lib/pkg/node"] == 7
+    assert {provided.path: provided.span.line for provided in script.products.installs}["lib/pkg/node"] == 7
 
 
 def test_macros_that_build_and_install_nothing_hide_nothing() -> None:
@@ -58,7 +58,7 @@ def test_macros_that_build_and_install_nothing_hide_nothing() -> None:
     assert {("macro", "ecl_build"), ("macro", "ros_industrial_cmake_boilerplate")} <= mentioned(script).keys()
     known = "if(ECL_PLATFORM_HAS_POSIX_THREADS)\nadd_library(a a.cpp)\nendif()"
     detected = run(f"ecl_detect_threads()\necl_detect_filesystem()\n{known}")
-    assert [target.name for target in detected.targets] == ["a"]
+    assert [target.name for target in detected.products.targets] == ["a"]
     assert not detected.opaque
 
 
@@ -68,8 +68,8 @@ def test_interfaces() -> None:
         'rosidl_generate_interfaces(${PROJECT_NAME} ${msgs} "srv/C.srv" DEPENDENCIES std_msgs)\n',
         ("msg/A.msg", "msg/B.msg", "srv/C.srv"),
     )
-    assert script.interfaces == ("msg/A", "msg/B", "srv/C")
-    assert script.python_packages == ("pkg",)
+    assert script.products.interfaces == ("msg/A", "msg/B", "srv/C")
+    assert script.products.python_packages == ("pkg",)
     assert {"share/pkg/msg/A.msg", "share/pkg/msg/A.idl", "share/pkg/srv/C.srv"} <= paths(script).keys()
     assert mentioned(script)[("target", "std_msgs")].purpose == "interfaces"
     assert mentioned(script)[("macro", "rosidl_default_generators")].purpose == "interfaces"
@@ -82,7 +82,7 @@ def test_interfaces_go_by_the_project_that_generates_them() -> None:
     }
     script = run("add_subdirectory(inner)\nrosidl_generate_interfaces(pkg msg/B.msg)\n", {**inner, "msg/B.msg": ""})
     assert {path for path in paths(script) if path.endswith(".msg")} == {"share/inner_msgs/msg/A.msg", "share/pkg/msg/B.msg"}
-    assert script.python_packages == ("inner_msgs", "pkg")
+    assert script.products.python_packages == ("inner_msgs", "pkg")
 
 
 def test_definitions_keep_their_last_folder_and_what_is_made_of_them_goes_by_its_kind() -> None:
@@ -126,7 +126,7 @@ def test_python_packages() -> None:
     texts = {"setup.cfg": "[options.entry_points]\nconsole_scripts =\n    tool = pkg_py.sub.x:main\n"}
     text = "ament_python_install_package(pkg_py SCRIPTS_DESTINATION lib/${PROJECT_NAME})\n"
     script = run(text, files, texts=texts)
-    assert script.python_packages == ("pkg_py", "pkg_py.sub")
+    assert script.products.python_packages == ("pkg_py", "pkg_py.sub")
     assert paths(script).keys() >= {"lib/python/site-packages/pkg_py/sub/x.py", "lib/pkg/tool"}
     assert not script.opaque
     assert hidden(run(text, files)) == Facet.EXECUTABLES
@@ -157,13 +157,13 @@ def test_macros_of_the_workspace_are_followed(name: str) -> None:
         "project(tools)\ninstall(FILES cmake/install_all.cmake DESTINATION share/tools/cmake)\n"
         "ament_package(CONFIG_EXTRAS cmake/tools-extras.cmake.in)\n",
     )
-    assert tools.script.config_extras == ("cmake/tools-extras.cmake.in",)
+    assert tools.script.exports.config_extras == ("cmake/tools-extras.cmake.in",)
     found = sources(HEAD + "find_package(tools REQUIRED)\ninstall_all(launch)\n", ("launch/a.launch.py",))
     script = evaluate(found, helpers={"tools": tools})
     assert not script.opaque
     assert paths(script) == {"share/pkg/launch/a.launch.py": False}
     assert [(mention.name, mention.via) for mention in script.mentions] == [("tools", "cmake")]
-    assert str(script.installs[0].span) == "src/pkg/CMakeLists.txt:4:13"
+    assert str(script.products.installs[0].span) == "src/pkg/CMakeLists.txt:4:13"
     assert (
         hidden(evaluate(found))
         == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
@@ -219,13 +219,13 @@ def test_code_for_other_distributions_counts_as_possible(kept: str) -> None:
 def test_components_are_registered_where_ament_package_sees_them(around: str, lost: bool) -> None:
     """A function's variables are gone when it ends, those in which rclcpp_components notes its components among them."""
     script = run(around.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
-    assert [component.lost for component in script.components] == [lost]
+    assert [component.lost for component in script.products.components] == [lost]
     assert any("/rclcpp_components/" in path for path in paths(script)) is not lost
 
 
 def test_the_name_of_components_until_dashing() -> None:
     script = run('add_library(c SHARED c.cpp)\nrclcpp_register_node_plugins(c "pkg::A" "pkg::B")\n', ("c.cpp",))
-    assert [component.name for component in script.components] == ["pkg::A", "pkg::B"]
+    assert [component.name for component in script.products.components] == ["pkg::A", "pkg::B"]
 
 
 def test_headers_of_ament_auto_package() -> None:

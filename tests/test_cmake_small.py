@@ -500,7 +500,9 @@ def test_projects_have_the_values_that_they_have_for_cmake(text: str, tmp_path: 
     files = {**FILES, "CMakeLists.txt": _project(text)}
     parsed = {path: parse(Text(path, content)) for path, content in files.items() if not path.startswith(("sub", "x"))}
     mine = Run(Sources("p", "", sorted(files), parsed), "", {}, lambda run, name, args: None)
-    cmake_flow.run_file(mine, parsed["CMakeLists.txt"].commands, Frame(True, "CMakeLists.txt", mine.named("CMakeLists.txt")))
+    cmake_flow.run_file(
+        mine, parsed["CMakeLists.txt"].commands, Frame(True, "CMakeLists.txt", mine.paths.named("CMakeLists.txt"))
+    )
     known = {name: value or "" for name in "ABC" if (value := mine.get(name)) is None or is_known(value)}
     real = _configured(text, tmp_path)
     assert known == {name: real.get(name, "") for name in known}
@@ -561,7 +563,7 @@ find_package(pkg REQUIRED)
 def test_what_code_for_others_finds() -> None:
     """A condition that only asks whether something is there already is none; macros ask when they are called."""
     script = run("ament_package(CONFIG_EXTRAS cmake/x.cmake)\n", {"cmake/x.cmake": EXTRAS})
-    found = {mention.name: (certain, mention.optional) for mention, certain in script.exported_packages}
+    found = {mention.name: (certain, mention.optional) for mention, certain in script.exports.packages}
     assert found == {
         "a": (True, False),
         "b": (True, False),

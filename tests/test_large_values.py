@@ -124,5 +124,5 @@ def test_integers_of_many_digits(value: str, use: str) -> None:
 )
 def test_projects_of_another_shape(text: str) -> None:
     cfg, project = Text("a/setup.cfg", "[metadata]\nname = a\n"), Text("a/pyproject.toml", text + "\n")
-    assert setup_py.evaluate("a", "a", ["setup.cfg"], None, cfg, project).name == "a"
+    assert setup_py.evaluate("a", "a", ["setup.cfg"], None, cfg, project).project.name == "a"
     assert colcon_python.from_setup_py(Text("a/setup.py", "setup(a=1)\n"), None, project).name == ""

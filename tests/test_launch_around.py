@@ -7,7 +7,7 @@ from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.launch import detect as launch
 from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.symbolic_text import share
-from ros_lint.facts.build import BuildScript, InstalledFile
+from ros_lint.facts.build import BuildProducts, BuildScript, InstalledFile
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.workspace import launch_modules as launch_around
 
@@ -23,11 +23,8 @@ def _package(
     name: str, files: dict[str, str], provides: dict[str, str], modules: tuple[str, ...] = ()
 ) -> launch_around.LaunchPackage:
     here = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
-    script = BuildScript(
-        f"{name}/CMakeLists.txt",
-        installs=tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items()),
-        python_packages=modules,
-    )
+    installs = tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items())
+    script = BuildScript(f"{name}/CMakeLists.txt", products=BuildProducts(installs=installs, python_packages=modules))
     found = []
     for path, text in files.items():
         language = launch.is_launch_file(path, text)

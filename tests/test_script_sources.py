@@ -32,7 +32,7 @@ def installed(script: BuildScript) -> dict[str, str]:
     """Return the sources of what is installed for sure, by where it is; that the script is seen through is part of it."""
     assert not script.opaque
     assert not script.problems
-    return {one.path: one.source for one in script.installs if not one.conditional}
+    return {one.path: one.source for one in script.products.installs if not one.conditional}
 
 
 CONFIG = {"ws/config/a.yaml": "", "ws/config/deep/b.yaml": "", "ws/config/c.txt": ""}
@@ -75,14 +75,14 @@ def test_a_folder_keeps_its_name_where_it_is_known() -> None:
     assert installed(run(f"{lines[:-1]} FILES_MATCHING PATTERN *.yaml)", {})) == {"share/q/p/own.yaml": "own.yaml"}
     at_the_base = {"package.xml": manifest_text("p"), "CMakeLists.txt": HEAD + lines, "own.yaml": ""}
     script = script_of(MemoryTree(at_the_base), "")
-    assert (script.installs, [opaque.below for opaque in script.opaque]) == ((), ["share/q"])
+    assert (script.products.installs, [opaque.below for opaque in script.opaque]) == ((), ["share/q"])
 
 
 def test_programs_keep_their_permissions() -> None:
     files = {"ws/scripts/run.py": "", "ws/scripts/data.py": ""}
     lines = "install(DIRECTORY ../scripts/ DESTINATION lib/p USE_SOURCE_PERMISSIONS)"
     script = run(lines, files, frozenset({"ws/scripts/run.py"}))
-    assert {one.path: one.program for one in script.installs} == {"lib/p/run.py": True, "lib/p/data.py": False}
+    assert {one.path: one.program for one in script.products.installs} == {"lib/p/run.py": True, "lib/p/data.py": False}
 
 
 INSTALL = "install(DIRECTORY {} DESTINATION share/p)\n"
@@ -118,7 +118,7 @@ def test_a_folder_is_built_where_the_script_says() -> None:
     inner = "configure_file(a.in made/b.yaml)\ninstall(DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/made DESTINATION share/p)\n"
     lines = "add_subdirectory(../lib deep/lib)\ninstall(DIRECTORY ${CMAKE_BINARY_DIR}/deep DESTINATION share/q)"
     script = run(lines, {LIB: inner})
-    assert {one.path for one in script.installs} == {"share/p/made/b.yaml", "share/q/deep/lib/made/b.yaml"}
+    assert {one.path for one in script.products.installs} == {"share/p/made/b.yaml", "share/q/deep/lib/made/b.yaml"}
 
 
 def test_what_a_script_around_a_package_needs_is_told_where_it_is_included() -> None:
@@ -158,7 +158,7 @@ def test_a_link_out_of_the_tree_is_not_followed(tmp_path: Path) -> None:
     for folder, paths in (("kept", {"share/p/config/a.yaml"}), ("link", set())):
         (package / "CMakeLists.txt").write_text(HEAD + INSTALL.format(f"../{folder}/config"))
         script = script_of(DiskTree(str(tmp_path / "tree")))
-        assert ({one.path for one in script.installs}, bool(script.opaque)) == (paths, not paths)
+        assert ({one.path for one in script.products.installs}, bool(script.opaque)) == (paths, not paths)
 
 
 def test_a_script_that_is_a_link_out_of_the_tree_is_not_read(tmp_path: Path) -> None:
@@ -180,4 +180,4 @@ def test_around_a_package_that_is_reached_by_a_link_nothing_is_known(tmp_path: P
     script = script_of(DiskTree(str(tmp_path)), "ws/p")
     assert script.path == "ws/p/CMakeLists.txt"
     assert script.opaque
-    assert not script.installs
+    assert not script.products.installs

@@ -31,7 +31,7 @@ def installed(workspace: Workspace) -> set[str]:
     script = workspace.by_name["p"][0].script
     assert script is not None
     assert not script.opaque
-    return {provided.path for provided in script.installs}
+    return {provided.path for provided in script.products.installs}
 
 
 def test_an_included_file_may_have_any_name() -> None:

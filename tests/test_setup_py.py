@@ -54,7 +54,7 @@ from tests.setup_scripts import FILES, HEAD, script
 def test_what_is_not_known_is_opaque(body: str, hidden: Facet, reason: str) -> None:
     found = script(body)
     assert any(hidden in opaque.hides and reason in opaque.reason for opaque in found.opaque), found.opaque
-    assert not any(item.path.startswith("share") for item in found.installs)
+    assert not any(item.path.startswith("share") for item in found.products.installs)
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_a_format_does_not_read_the_environment_of_the_machine(monkeypatch: pyte
     monkeypatch.setenv("SECRET", ">12")
     found = script(f"setup(name='pkg', data_files=[('share/pkg', ['x{template}'.format('a', text='a')])])")
     assert any(Facet.SHARE in opaque.hides for opaque in found.opaque), found
-    assert not any(item.path.startswith("share") for item in found.installs)
+    assert not any(item.path.startswith("share") for item in found.products.installs)
 
 
 @pytest.mark.parametrize(
@@ -110,7 +110,7 @@ def test_a_format_that_reads_parts_or_widths_is_unknown(expression: str, reason:
 def test_what_takes_too_long_ends(body: str) -> None:
     found = script(f"{body}\nsetup(name='pkg', data_files=x)")
     assert found.opaque
-    assert not found.installs
+    assert not found.products.installs
 
 
 def test_the_rest_stays_known() -> None:
@@ -121,9 +121,9 @@ setup(name='pkg', version=version, packages=['pkg', *more()],
       data_files=[('share/pkg', ['package.xml']), ('share/pkg/x', files()), *more()])
 """
     )
-    assert (found.name, found.version) == ("pkg", "")
-    assert [item.path for item in found.installs] == ["share/pkg/package.xml"]
-    assert found.python_packages == ("pkg", "pkg.node")
+    assert (found.project.name, found.project.version) == ("pkg", "")
+    assert [item.path for item in found.products.installs] == ["share/pkg/package.xml"]
+    assert found.products.python_packages == ("pkg", "pkg.node")
     assert [opaque.hides for opaque in found.opaque] == [Facet.PYTHON, Facet.SHARE, Facet.SHARE | Facet.EXECUTABLES]
 
 
@@ -145,8 +145,8 @@ data_files.append(('share/pkg/launch', sources))
 setup(name='pkg', version='1' if os.environ.get('X') else '1', data_files=data_files, scripts=scripts)
 """
     )
-    assert found.version == "1"
-    assert [(item.path, item.conditional) for item in found.installs] == [
+    assert found.project.version == "1"
+    assert [(item.path, item.conditional) for item in found.products.installs] == [
         ("share/pkg/package.xml", False),
         ("share/pkg/x.yaml", True),
         ("share/pkg/more/y.yml", True),
@@ -168,8 +168,8 @@ else:
     setup(name='pkg')
 """
     )
-    assert found.name == "pkg"
-    assert [(item.path, item.conditional) for item in found.installs] == [("bin/tool.py", True)]
+    assert found.project.name == "pkg"
+    assert [(item.path, item.conditional) for item in found.products.installs] == [("bin/tool.py", True)]
 
 
 def test_keys_that_are_not_known_may_be_there() -> None:
@@ -180,34 +180,34 @@ scripts = ['scripts/tool.py'] if options.get('b', '') == 'x' or 'b' in options e
 setup(name='pkg', version=options.get('a'), scripts=scripts)
 """
     )
-    assert found.version == "y"
-    assert [(item.path, item.conditional) for item in found.installs] == [("bin/tool.py", True)]
+    assert found.project.version == "y"
+    assert [(item.path, item.conditional) for item in found.products.installs] == [("bin/tool.py", True)]
 
 
 def test_two_calls_are_both_conditional() -> None:
     found = script("if os.environ.get('X'): setup(name='a', scripts=['scripts/tool.py'])\nelse: setup(name='a')")
-    assert found.name == "a"
-    assert [(item.path, item.conditional) for item in found.installs] == [("bin/tool.py", True)]
+    assert found.project.name == "a"
+    assert [(item.path, item.conditional) for item in found.products.installs] == [("bin/tool.py", True)]
 
 
 def test_no_setup_py() -> None:
     cfg = Text("ws/pkg/setup.cfg", "[metadata]\nname = pkg\n[options]\npackages = pkg\n")
     found = evaluate("pkg", "ws/pkg", sorted(FILES), None, cfg, None)
-    assert (found.path, found.name, found.python_packages) == ("ws/pkg/setup.cfg", "pkg", ("pkg", "pkg.node"))
+    assert (found.path, found.project.name, found.products.python_packages) == ("ws/pkg/setup.cfg", "pkg", ("pkg", "pkg.node"))
     assert evaluate("pkg", "", [], None, None, None).path == "setup.py"
 
 
 def test_a_generator_of_parameters_adds_its_module() -> None:
     head = "from generate_parameter_library_py.setup_helper import generate_parameter_module\n"
     found = script(f"{head}generate_parameter_module('params', 'config/x.yaml')\nsetup(name='pkg', packages=['pkg'])")
-    assert "pkg.params" in found.python_packages
+    assert "pkg.params" in found.products.python_packages
     assert not found.opaque
 
 
 def test_imports_are_mentions() -> None:
     found = script("from catkin_pkg.python_setup import generate_distutils_setup as g\nsetup(**g(packages=['pkg']))")
     assert [mention.name for mention in found.mentions] == ["setuptools", "glob", "os", "glob", "catkin_pkg.python_setup"]
-    assert (found.name, found.python_packages, found.opaque) == ("pkg", ("pkg", "pkg.node"), ())
+    assert (found.project.name, found.products.python_packages, found.opaque) == ("pkg", ("pkg", "pkg.node"), ())
 
 
 @pytest.mark.parametrize(
@@ -262,9 +262,9 @@ setup(name=package_name, version=version, data_files=data, scripts=['scripts/too
 """
     source = Text("ws/pkg/setup.py", HEAD + body)
     found = script(body)
-    assert found.name_span is not None
-    assert found.version_span is not None
-    spans = [found.name_span, found.version_span, *(item.span for item in found.installs)]
+    assert found.project.name_span is not None
+    assert found.project.version_span is not None
+    spans = [found.project.name_span, found.project.version_span, *(item.span for item in found.products.installs)]
     assert [source.slice(span) for span in spans] == [
         "'pkg'",
         "'1.0'",
@@ -277,12 +277,15 @@ setup(name=package_name, version=version, data_files=data, scripts=['scripts/too
 
 def test_executables_keep_their_bit() -> None:
     found = script("setup(name='pkg', data_files=[('lib/pkg', ['scripts/tool.py', 'config/x.yaml'])])")
-    assert [(item.path, item.program) for item in found.installs] == [("lib/pkg/tool.py", True), ("lib/pkg/x.yaml", False)]
+    assert [(item.path, item.program) for item in found.products.installs] == [
+        ("lib/pkg/tool.py", True),
+        ("lib/pkg/x.yaml", False),
+    ]
 
 
 def test_an_unknown_folder_of_scripts() -> None:
     found = script("setup(name='pkg', scripts=['scripts/tool.py'])", "[install]\ninstall_scripts = $HOME/bin\n")
-    assert not found.installs
+    assert not found.products.installs
     assert [(item.hides, str(item.span)) for item in found.opaque] == [(Facet.EXECUTABLES, "ws/pkg/setup.cfg:2:1")]
 
 
@@ -298,7 +301,7 @@ glob("**",recursive=True) [[["pkg"]]] __import__("x") (lambda:(yield))() "{:9999
 def test_odd_options_are_survived(option: str) -> None:
     for odd in ODD.split():
         found = script(f"setup({option}={odd}, **{{}})")
-        assert all(isinstance(item.path, str) for item in found.installs)
+        assert all(isinstance(item.path, str) for item in found.products.installs)
         script(f"x = {odd}\nfor y in x: x.append(y)\nif x: x, y = x\nx += x\nsetup({option}=x)")
         script(f"setup({option}=[{odd}])")
         script(f"setup(**{odd})")

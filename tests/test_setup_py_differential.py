@@ -83,7 +83,7 @@ def _version(program: str) -> str:
     """Return the values, joined, as the version that setup() is given; "" if the interpreter does not know them."""
     found = script(f"{program}\nsetup(name='pkg', version='|'.join([str(value) for value in values]))", head=HEAD)
     assert not found.problems
-    return found.version
+    return found.project.version
 
 
 @pytest.mark.parametrize("program", ALL)

@@ -212,16 +212,16 @@ def entry_points(given: Mapping[str, object] | str) -> set[tuple[str, str, str]]
 def test_same_as_setuptools(variant: str, truth: dict[str, dict[str, object]]) -> None:
     given, found = truth[variant], script(VARIANTS[variant])
     assert not found.opaque
-    assert (found.name, found.version) == (given["name"], given.get("version", ""))
-    provides = sorted((item.path, item.source) for item in found.installs if not item.path.startswith("bin/"))
+    assert (found.project.name, found.project.version) == (given["name"], given.get("version", ""))
+    provides = sorted((item.path, item.source) for item in found.products.installs if not item.path.startswith("bin/"))
     assert provides == installed(given.get("data_files", []))  # type: ignore[arg-type]
-    assert not any(item.conditional for item in found.installs)
-    assert {tuple(item[:3]) for item in found.entry_points} == entry_points(given.get("entry_points", {}))  # type: ignore[arg-type]
-    assert {item.source for item in found.installs if item.path == "bin/tool.py"} == set(given.get("scripts", []))  # type: ignore[call-overload]
+    assert not any(item.conditional for item in found.products.installs)
+    assert {tuple(item[:3]) for item in found.products.entry_points} == entry_points(given.get("entry_points", {}))  # type: ignore[arg-type]
+    assert {item.source for item in found.products.installs if item.path == "bin/tool.py"} == set(given.get("scripts", []))  # type: ignore[call-overload]
     packages = {*given.get("packages", []), *given.get("py_modules", [])}  # type: ignore[misc, call-overload]
     if packages:
-        assert packages <= set(found.python_packages)
-        assert {name.rpartition(".")[0] for name in set(found.python_packages) - packages} <= packages
+        assert packages <= set(found.products.python_packages)
+        assert {name.rpartition(".")[0] for name in set(found.products.python_packages) - packages} <= packages
 
 
 BUILT = """
@@ -243,7 +243,7 @@ def test_same_modules_as_build_py(tmp_path: Path) -> None:
     given: object = run_python(BUILT, tmp_path / "pkg", {"packages": lists})
     for packages, paths in zip(lists, given, strict=True):  # type: ignore[call-overload]
         modules = {path.removesuffix(".py").replace("/", ".").removesuffix(".__init__") for path in paths}
-        assert set(script(f"setup(name='pkg', packages={packages})").python_packages) == modules, packages
+        assert set(script(f"setup(name='pkg', packages={packages})").products.python_packages) == modules, packages
 
 
 # What setup.cfg and pyproject.toml add to setup(name='pkg').
@@ -348,16 +348,16 @@ def test_same_configuration_as_setuptools(name: str, configured: dict[str, dict[
     given = configured[name]
     found = script(setup_py, cfg or None, pyproject or None, head="from setuptools import setup\n")
     assert not found.opaque
-    assert (found.name, found.version) == (given["name"], given["version"])
-    programs = [item for item in found.installs if item.path.startswith("bin/")]
-    data = sorted((item.path, item.source) for item in found.installs if item not in programs)
+    assert (found.project.name, found.project.version) == (given["name"], given["version"])
+    programs = [item for item in found.products.installs if item.path.startswith("bin/")]
+    data = sorted((item.path, item.source) for item in found.products.installs if item not in programs)
     assert data == installed(given["data_files"])  # type: ignore[arg-type]
-    assert {tuple(item[:3]) for item in found.entry_points} == entry_points(given["entry_points"])  # type: ignore[arg-type]
+    assert {tuple(item[:3]) for item in found.products.entry_points} == entry_points(given["entry_points"])  # type: ignore[arg-type]
     assert {item.source for item in programs if item.source} == set(given["scripts"])  # type: ignore[call-overload]
     packages = {*given["packages"], *given["py_modules"]}  # type: ignore[misc]
     if packages:
-        assert packages <= set(found.python_packages)
-        assert {name.rpartition(".")[0] for name in set(found.python_packages) - packages} <= packages
+        assert packages <= set(found.products.python_packages)
+        assert {name.rpartition(".")[0] for name in set(found.products.python_packages) - packages} <= packages
 
 
 SCRIPT_FOLDER = "[develop]\nscript_dir=$base/lib/pkg\n[install]\ninstall_scripts=$base/lib/pkg\n"
@@ -388,8 +388,8 @@ setup(name='pkg', version='1.0', packages=find_packages(exclude=['test']), scrip
     }
     found = script(body, cfg)
     assert not found.opaque
-    assert {item.path: item.program for item in found.installs} == real
+    assert {item.path: item.program for item in found.products.installs} == real
     modules = {path.relative_to(prefix) for path in prefix.rglob("*.py") if "site-packages" in path.parts}
     dotted = {str(path).partition("site-packages/")[2][:-3].replace("/", ".").removesuffix(".__init__") for path in modules}
-    assert set(found.python_packages) == dotted
+    assert set(found.products.python_packages) == dotted
     assert {problem.kind for problem in found.problems} == ({"dashed-key"} if cfg and "-" in cfg else set())

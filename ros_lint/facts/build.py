@@ -124,13 +124,137 @@ REPOSITORIES: Final[Mapping[str, str]] = {"gtest": "googletest", "gmock": "googl
 """Upstream project of a library, where targets and header folders have a different name."""
 
 
-class Exported(NamedTuple):
+class ExportedTarget(NamedTuple):
     """A target that install(TARGETS ... EXPORT) puts into a set."""
 
     target: str
     export_set: str
     reaches_dependents: bool
     """True if each package that finds this one gets the target: ament_export_targets() names the set."""
+
+
+class BuildProject(NamedTuple):
+    """The project as the build script names it: the arguments of project() or setup()."""
+
+    name: str = ""
+    """Name, "" if unknown."""
+    name_span: Span | None = None
+    version: str = ""
+    version_span: Span | None = None
+
+
+class BuildProducts(NamedTuple):
+    """What the script builds and installs."""
+
+    targets: tuple[BuildTarget, ...] = ()
+    installs: tuple[InstalledFile, ...] = ()
+    components: tuple[Component, ...] = ()
+    entry_points: tuple[EntryPoint, ...] = ()
+    python_packages: tuple[str, ...] = ()
+    """Dotted names of importable modules and packages that the build installs."""
+    interfaces: tuple[str, ...] = ()
+    """Generated interfaces, as ``msg/Name``."""
+
+    @property
+    def installed(self) -> frozenset[str]:
+        """Installed files by their path in the package, without generated files."""
+        return frozenset([provided.source for provided in self.installs if provided.source])
+
+
+class BuildFiles(NamedTuple):
+    """Files of the package that rules compare with what the script installs."""
+
+    plugin_files: tuple[PluginFile, ...] = ()
+    """Plugin descriptions of the package."""
+    scripts: tuple[ScriptFile, ...] = ()
+    """Scripts installed to lib/<package> or bin, their neighbours, and scripts in folders for scripts."""
+    referenced_resources: tuple[tuple[str, Span], ...] = ()
+    """Resources that are not installed, each with the place where a text of the package refers to it.
+
+    A reference is the name of the file after the name of its folder: ``meshes/arm.stl`` or ``"meshes", "arm.stl"``.
+    """
+    build_inputs: tuple[str, ...] = ()
+    """Resources that CMake files name without installing them, because the build reads them.
+
+    Folders end with a slash.
+    """
+
+
+class BuildExports(NamedTuple):
+    """What the CMake script passes on to each package that finds this one."""
+
+    config_extras: tuple[str, ...] = ()
+    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
+    packages: tuple[tuple[Mention, bool], ...] = ()
+    """Packages that the CMake configuration of this package finds for its dependents.
+
+    The second value is True if the search is unconditional.
+    """
+    targets: tuple[ExportedTarget, ...] = ()
+
+
+class CMakeCommands(NamedTuple):
+    """The commands of the CMake files, and the place for a new one."""
+
+    names: tuple[str, ...] = ()
+    """Names of the commands that ran: lower case, sorted, without duplicates."""
+    calls: tuple[Call, ...] = ()
+    """Commands as written, file by file."""
+    insertion: Span | None = None
+    """Place for a new install rule: an empty span before ament_package(), or None."""
+    insertion_after: Span | None = None
+    """End of the command before ``insertion``, if only blank lines separate the two."""
+
+
+class CMakeBuild(NamedTuple):
+    """Facts that only a CMakeLists.txt has."""
+
+    subdirectories: tuple[str, ...] = ()
+    """Folders whose CMakeLists.txt is part of every build, relative to the package."""
+    test_subdirectories: tuple[str, ...] = ()
+    """Folders whose CMakeLists.txt is part of the build when tests are built, relative to the package."""
+    bundled_projects: tuple[str, ...] = ()
+    """Names of projects built along with the package: fetched projects and vendored folders."""
+    unused_optional_finds: tuple[Span, ...] = ()
+    """Places of find_package() calls that are optional and whose results are not used."""
+    commented_interfaces: tuple[str, ...] = ()
+    """Interfaces listed only in comments, as ``msg/Name``: they were removed."""
+    errors: tuple[Problem, ...] = ()
+    """Errors of CMake in commands whose effect is still known, so that they hide nothing.
+
+    The kind is "undefined-target" for a missing target and "no-package" for a missing package; the subject is the
+    name of the target or package.
+    """
+    interpreted_tests: tuple[str, ...] | None = None
+    """Files and folders that an interpreter runs as tests, relative to the package.
+
+    "" means any file; None means unknown.
+    """
+    runs_tests: bool = False
+    """True if the script calls a command that runs tests by an interpreter.
+
+    The name of the command decides.
+    """
+    includes_outside_package: bool = False
+    """True if the script adds include directories of the source tree outside the package."""
+    makes_nothing: bool = False
+    """True if the script builds and installs nothing and tests at most the style of the sources."""
+
+
+class SetupScript(NamedTuple):
+    """Facts that only a setup.py with its setup.cfg has."""
+
+    editable_lists: tuple[EditableList, ...] = ()
+    editable_texts: tuple[WrittenText, ...] = ()
+    entry_point_modules: tuple[PythonModule, ...] = ()
+    """Modules that the entry points name."""
+    relocated_modules: tuple[str, ...] = ()
+    """Installed Python files and folders whose place in the sources differs from their module name.
+
+    The cause is ``package_dir`` of a setup.py. Paths are relative to the package; folders end with a slash.
+    """
+    newer_syntax: tuple[NewerSyntax, ...] = ()
+    """Constructs that older versions of Python reject."""
 
 
 class BuildScript(NamedTuple):
@@ -140,96 +264,16 @@ class BuildScript(NamedTuple):
     """
 
     path: str
-    name: str = ""
-    """Name given to project() or setup(name=), "" if unknown."""
-    name_span: Span | None = None
-    version: str = ""
-    version_span: Span | None = None
+    project: BuildProject = BuildProject()
     mentions: tuple[Mention, ...] = ()
-    targets: tuple[BuildTarget, ...] = ()
-    installs: tuple[InstalledFile, ...] = ()
-    components: tuple[Component, ...] = ()
-    entry_points: tuple[EntryPoint, ...] = ()
-    python_packages: tuple[str, ...] = ()
-    """Dotted names of importable modules and packages that the build installs."""
-    interfaces: tuple[str, ...] = ()
-    """Generated interfaces, as ``msg/Name``."""
-    command_names: tuple[str, ...] = ()
-    """Names of the CMake commands that ran: lower case, sorted, without duplicates."""
+    products: BuildProducts = BuildProducts()
+    files: BuildFiles = BuildFiles()
+    exports: BuildExports = BuildExports()
+    commands: CMakeCommands = CMakeCommands()
+    cmake: CMakeBuild = CMakeBuild()
+    python: SetupScript = SetupScript()
     opaque: tuple[Opaque, ...] = ()
     problems: tuple[Problem, ...] = ()
-    insertion: Span | None = None
-    """Place for a new install rule: an empty span before ament_package(), or None."""
-    config_extras: tuple[str, ...] = ()
-    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
-    calls: tuple[Call, ...] = ()
-    """Commands of the CMake files as written, file by file."""
-    entry_point_modules: tuple[PythonModule, ...] = ()
-    """Modules that the entry points name."""
-    plugin_files: tuple[PluginFile, ...] = ()
-    """Plugin descriptions of the package."""
-    editable_lists: tuple[EditableList, ...] = ()
-    referenced_resources: tuple[tuple[str, Span], ...] = ()
-    """Resources that are not installed, each with the place where a text of the package refers to it.
-
-    A reference is the name of the file after the name of its folder: ``meshes/arm.stl`` or ``"meshes", "arm.stl"``.
-    """
-    scripts: tuple[ScriptFile, ...] = ()
-    """Scripts installed to lib/<package> or bin, their neighbours, and scripts in folders for scripts."""
-    build_inputs: tuple[str, ...] = ()
-    """Resources that CMake files name without installing them, because the build reads them.
-
-    Folders end with a slash.
-    """
-    editable_texts: tuple[WrittenText, ...] = ()
-    subdirectories: tuple[str, ...] = ()
-    """Folders whose CMakeLists.txt is part of every build, relative to the package."""
-    test_subdirectories: tuple[str, ...] = ()
-    """Folders whose CMakeLists.txt is part of the build when tests are built, relative to the package."""
-    exported_packages: tuple[tuple[Mention, bool], ...] = ()
-    """Packages that the CMake configuration of this package finds for its dependents.
-
-    The second value is True if the search is unconditional.
-    """
-    unused_optional_finds: tuple[Span, ...] = ()
-    """Places of find_package() calls that are optional and whose results are not used."""
-    bundled_projects: tuple[str, ...] = ()
-    """Names of projects built along with the package: fetched projects and vendored folders."""
-    interpreted_tests: tuple[str, ...] | None = None
-    """Files and folders that an interpreter runs as tests, relative to the package.
-
-    "" means any file; None means unknown.
-    """
-    relocated_modules: tuple[str, ...] = ()
-    """Installed Python files and folders whose place in the sources differs from their module name.
-
-    The cause is ``package_dir`` of a setup.py. Paths are relative to the package; folders end with a slash.
-    """
-    exported: tuple[Exported, ...] = ()
-    failed: bool = False
-    """True if evaluation failed because of a bug in ros-lint, which ``opaque`` then describes."""
-    insertion_after: Span | None = None
-    """End of the command before ``insertion``, if only blank lines separate the two."""
-    runs_tests: bool = False
-    """True if a CMake script calls a command that runs tests by an interpreter.
-
-    The name of the command decides.
-    """
-    includes_outside_package: bool = False
-    """True if a CMake script adds include directories of the source tree outside the package."""
-    makes_nothing: bool = False
-    """True if a CMake script builds and installs nothing and tests at most the style of the sources."""
-    commented_interfaces: tuple[str, ...] = ()
-    """Interfaces listed only in comments of CMake files, as ``msg/Name``: they were removed."""
-
-    syntax: tuple[NewerSyntax, ...] = ()
-    """Constructs in setup.py that older versions of Python reject."""
-    cmake_errors: tuple[Problem, ...] = ()
-    """Errors of CMake in commands whose effect is still known, so that they hide nothing.
-
-    The kind is "undefined-target" for a missing target and "no-package" for a missing package; the subject is the
-    name of the target or package.
-    """
 
     @property
     def of_cmake(self) -> bool:
@@ -237,14 +281,9 @@ class BuildScript(NamedTuple):
         return self.path.endswith("CMakeLists.txt")
 
     @property
-    def installed(self) -> frozenset[str]:
-        """Installed files by their path in the package, without generated files."""
-        return frozenset([provided.source for provided in self.installs if provided.source])
-
-    @property
     def is_empty(self) -> bool:
         """True if the script is a CMakeLists.txt without commands: empty, or only comments."""
-        return self.of_cmake and not (self.command_names or self.problems or self.opaque)
+        return self.of_cmake and not (self.commands.names or self.problems or self.opaque)
 
     def hides(self, facet: Facet) -> bool:
         """Return whether a part of the script that cannot be evaluated hides ``facet``.

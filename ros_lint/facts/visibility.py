@@ -48,7 +48,7 @@ class Opaque(NamedTuple):
     It is in the package or next to it.
     """
     unchecked: bool = False
-    """True if the place exceeds a limit of ros-lint, so that the file counts as not checked."""
+    """True if a limit or a bug of ros-lint is the reason, so that the file counts as not checked."""
 
     def reaches(self, path: str) -> bool:
         """Return whether the hidden files may include ``path`` in the install prefix, or a file below it."""

@@ -186,7 +186,7 @@ def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None
     ``files`` are the files of the package. ``find_namespace_packages()`` lists all folders as packages, so folders
     without Python modules and folders with names of data are left out.
     """
-    tops = dict.fromkeys(name.partition(".")[0] for name in script.python_packages)
+    tops = dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages)
     modules: dict[str, bool] = {}
     for file in files if tops else ():
         top, slash, rest = file.removeprefix("src/").partition("/")
@@ -199,7 +199,7 @@ def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
     """Yield the modules whose files are installed directly into a folder of ``sys.path``."""
-    for provided in script.installs:
+    for provided in script.products.installs:
         if provided.path.endswith(".py") and provided.importable:
             top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
             if top != "__init__":

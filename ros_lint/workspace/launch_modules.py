@@ -67,7 +67,7 @@ class _Places:
         for package in packages:
             self._by_name.setdefault(package.name, []).append(package)
             script = package.script
-            for top in dict.fromkeys(name.partition(".")[0] for name in script.python_packages) if script else ():
+            for top in dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages) if script else ():
                 self._modules.setdefault(top, []).append(package)
 
     def completed(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
@@ -175,7 +175,7 @@ class _Places:
         """Return the sources of the installed files of a package, by install path."""
         found = self._provides.get(package.path)
         if found is None:
-            provides = package.script.installs if package.script else ()
+            provides = package.script.products.installs if package.script else ()
             found = {file.path: resolve(package.path, file.source) for file in provides if file.source}
             self._provides[package.path] = found
         return found

@@ -246,7 +246,7 @@ class Loader:
                 uninstalled_imports=tuple(own_files.uninstalled_imports(found.files, source.built, done.facts)),
                 renamed=found.colcon_name if found.colcon_name != found.name else "",
             )
-            if package.registrations and done.script and done.script.plugin_files:
+            if package.registrations and done.script and done.script.files.plugin_files:
                 package = package._replace(unwritten_classes=traces.unwritten(tree, package))
             if search:
                 package = package._replace(
@@ -322,12 +322,10 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
 
 def _failed(reads: Sequence[_Read]) -> Iterator[UnreadFile]:
     for done in reads:
-        if done.script is not None and done.script.failed:
-            yield from (UnreadFile(opaque.span.path, opaque.reason, opaque.span) for opaque in done.script.opaque)
-        elif done.script is not None:
+        if done.script is not None:
             yield from _unchecked(done.script.opaque)
 
 
 def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
-    """Yield the places that exceed a limit of ros-lint."""
+    """Yield the places that ros-lint does not check because of a limit or a bug of its own."""
     yield from (UnreadFile(place.span.path, place.reason, place.span) for place in opaque if place.unchecked)

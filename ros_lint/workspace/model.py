@@ -162,7 +162,7 @@ class Package(NamedTuple):
         """Yield calls of CMake commands in the package's CMakeLists.txt, or ``anywhere`` in its CMake files."""
         if self.script is None:
             return
-        calls = [call for call in self.script.calls if call.name in names]
+        calls = [call for call in self.script.commands.calls if call.name in names]
         yield from calls if anywhere else [call for call in calls if call.path == self.cmake_lists]
 
     def relative(self, path: str) -> str:

@@ -54,7 +54,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     for element in exports:
         if element.tag in _EXPORTS and not element.get("condition"):
-            exported = build.EXPORTING_PLUGINS in package.built.command_names
+            exported = build.EXPORTING_PLUGINS in package.built.commands.names
             remedy = "remove it" if exported else _EXPORTS[element.tag]
             yield Finding(
                 f"<{element.tag}> in <export> has no effect in ROS 2; {remedy}",

@@ -74,9 +74,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     macros = [macro for macro in package.registrations if macro.kind == "component"]
     macros = [macro for macro in macros if not files.is_auxiliary(package.relative(macro.span.path))]
     all_names = {macro.name for macro in macros}
-    registered = {component.name.removeprefix("::") for component in script.components}
+    registered = {component.name.removeprefix("::") for component in script.products.components}
     unregistered = [macro for macro in macros if macro.name not in registered]
-    lacking = [component for component in script.components if component.name.removeprefix("::") not in all_names]
+    lacking = [component for component in script.products.components if component.name.removeprefix("::") not in all_names]
     if not macros and not _forgets_macro(package):
         lacking = []  # a macro of another package may expand to RCLCPP_COMPONENTS_REGISTER_NODE
     # One component without a macro and one compiled macro without a component belong together, whatever their names.
@@ -122,8 +122,8 @@ def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
 
 def _lost(script: BuildScript) -> Iterator[Finding]:
     """Yield one finding for all components that are registered in a scope which ends before ament_package()."""
-    seen = {component.name for component in script.components if not component.lost}
-    lost = {component.name: component for component in script.components if component.name not in seen}
+    seen = {component.name for component in script.products.components if not component.lost}
+    lost = {component.name: component for component in script.products.components if component.name not in seen}
     if not lost:
         return
     first, *others = lost.values()
@@ -174,7 +174,7 @@ def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Fin
         macro.span,
         macro.name,
         fix=fix,
-        confidence=Confidence.HIGH if library and (script.components or loaded) else Confidence.MEDIUM,
+        confidence=Confidence.HIGH if library and (script.products.components or loaded) else Confidence.MEDIUM,
         severity=Severity.WARNING,
     )
 
@@ -183,10 +183,10 @@ def _libraries(package: Package) -> Iterator[Finding]:
     """Yield the libraries with components that are not installed to lib."""
     script = package.script
     assert script is not None
-    paths = {provided.path.rpartition("/")[2] for provided in script.installs}
-    listed = build.install_arguments(package).union(provided.target for provided in script.installs)
+    paths = {provided.path.rpartition("/")[2] for provided in script.products.installs}
+    listed = build.install_arguments(package).union(provided.target for provided in script.products.installs)
     elsewhere = build.libraries_in_libexec(package, (".so",))
-    targets = {target.name: target for target in reversed(script.targets)}
+    targets = {target.name: target for target in reversed(script.products.targets)}
     reported: set[str] = set()
     for call in package.calls(*build.REGISTERING):
         name = build.evaluated_name(package, call.texts[0]) if call.args else None

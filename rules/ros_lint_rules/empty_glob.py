@@ -38,7 +38,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python":
         return
-    installed = script.installed
+    installed = script.products.installed
     for problem in script.problems:
         if problem.kind == "empty-glob" and not workspace.is_made(package, problem.subject):
             folder = _folder(problem.subject)
@@ -75,7 +75,9 @@ def _fix(package: Package, pattern: str) -> Fix | None:
     elif name in _YAML and any(file.endswith(_YAML[name][1:]) for file in names):
         pattern_for_all = _YAML[name]
     places = [
-        text for text in script.editable_texts if text.kind == "glob" and pattern.endswith(text.text) and text.text.endswith(name)
+        text
+        for text in script.python.editable_texts
+        if text.kind == "glob" and pattern.endswith(text.text) and text.text.endswith(name)
     ]
     if not pattern_for_all or len(places) != 1:
         return None

@@ -92,7 +92,7 @@ _FOR_INTERFACES = "rosidl_default_"
 def _has_interfaces(package: Package) -> bool:
     """Return whether the package generates interfaces, may do so, or has interface files."""
     script = package.script
-    if script is None or script.interfaces or package.hidden(Facet.INTERFACES):
+    if script is None or script.products.interfaces or package.hidden(Facet.INTERFACES):
         return True
     return any(file.endswith((".msg", ".srv", ".action", ".idl")) for file in package.files)
 

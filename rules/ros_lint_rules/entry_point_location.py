@@ -57,22 +57,22 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.EXECUTABLES):
         return
-    inside = {p.path.rpartition("/")[2] for p in script.installs if p.path.startswith(f"lib/{package.name}/")}
+    inside = {p.path.rpartition("/")[2] for p in script.products.installs if p.path.startswith(f"lib/{package.name}/")}
     yield from _without_symlinks_only(package, inside)
-    outside = {p.path.rpartition("/")[2] for p in script.installs if p.path.startswith("bin/")} - inside
+    outside = {p.path.rpartition("/")[2] for p in script.products.installs if p.path.startswith("bin/")} - inside
     using = {package.relative(use.span.path) for use in package.uses if use.package == "rclpy"}
-    modules = {module.name: module.path for module in script.entry_point_modules}
+    modules = {module.name: module.path for module in script.python.entry_point_modules}
     started = launch.nodes_started(workspace).get(package.name, {})
     nodes = [
         entry
-        for entry in script.entry_points
+        for entry in script.products.entry_points
         if entry.group == "console_scripts"
         and entry.name in outside
         and (modules.get(entry.module) in using or entry.name in started)
     ]
-    if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.entry_points):
+    if not nodes or any(entry.group.startswith("ros2cli.") for entry in script.products.entry_points):
         return
-    defining = {module.name for module in script.entry_point_modules if _NODES.intersection(module.names)}
+    defining = {module.name for module in script.python.entry_point_modules if _NODES.intersection(module.names)}
     sure = any(entry.name in started or entry.module in defining for entry in nodes)
     config = package.start_of("setup.cfg")
     exists = "setup.cfg" in package.files
@@ -93,7 +93,7 @@ def _without_symlinks_only(package: Package, inside: Container[str]) -> Iterator
     """Yield a finding if programs go to lib/<package> in a normal build, but to bin/ in one with --symlink-install."""
     script = package.built
     folders = edits.setup_py.program_folders(script)
-    entries = [entry for entry in script.entry_points if entry.group == "console_scripts" and entry.name in inside]
+    entries = [entry for entry in script.products.entry_points if entry.group == "console_scripts" and entry.name in inside]
     if entries and "install.install_scripts" in folders and "develop.script_dir" not in folders:
         all_names = [entry.name for entry in entries]
         yield Finding(

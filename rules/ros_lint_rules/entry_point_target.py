@@ -44,7 +44,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None:
         return
-    for entry in script.entry_points:
+    for entry in script.products.entry_points:
         target = _TARGET.match(entry.target)
         if target is None:
             yield _malformed(script, entry)
@@ -58,9 +58,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _doubled(script: BuildScript) -> Iterator[Finding]:
     """Yield the second of two programs with one name, if every build installs both."""
-    always = {(p.path.rpartition("/")[2], p.span) for p in script.installs if p.program and not p.conditional}
+    always = {(p.path.rpartition("/")[2], p.span) for p in script.products.installs if p.program and not p.conditional}
     first: dict[tuple[str, str], EntryPoint] = {}
-    for entry in script.entry_points:
+    for entry in script.products.entry_points:
         if (entry.name, entry.span) not in always:
             continue
         earlier = first.setdefault((entry.group, entry.name), entry)
@@ -73,7 +73,9 @@ def _doubled(script: BuildScript) -> Iterator[Finding]:
 def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
     if _GLUED.search(entry.target):
         message = f"'{entry.name} = {entry.target}' looks like two entries; is a comma missing between them?"
-        gaps = [Edit(text.span, ",") for text in script.editable_texts if text.kind == "gap" and entry.span.covers(text.span)]
+        gaps = [
+            Edit(text.span, ",") for text in script.python.editable_texts if text.kind == "gap" and entry.span.covers(text.span)
+        ]
         return Finding(message, entry.span, entry.name, fix=Fix.of("add the missing comma", *gaps))
     if entry.target.rstrip().endswith("()"):
         message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"
@@ -86,7 +88,7 @@ def _lacking(
 ) -> Iterator[Finding]:
     """Yield the finding if the module ``name`` of an entry, or the ``attribute`` in it, does not exist."""
     runs = entry.group in ("console_scripts", "gui_scripts")
-    module = next((module for module in script.entry_point_modules if module.name == name), None)
+    module = next((module for module in script.python.entry_point_modules if module.name == name), None)
     if attribute is None:
         missing = list(_no_module(package, entry, name, "main", workspace)) if runs and module is None else []
         if missing:
@@ -101,7 +103,7 @@ def _lacking(
         yield from _no_module(package, entry, name, attribute, workspace)
         return
     first = attribute.partition(".")[0]
-    if not module.open and first not in module.names and f"{name}.{first}" not in script.python_packages:
+    if not module.open and first not in module.names and f"{name}.{first}" not in script.products.python_packages:
         near = names.similar_names(first, module.names, 1, 0.7)
         hint = names.ask_if_meant(near) or "; define it, or remove the entry point"
         yield Finding(
@@ -115,16 +117,16 @@ def _lacking(
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
     """Yield the finding for a module that is not in the sources, if it must be one of this package."""
     script = package.script
-    if script is None or name in script.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
+    if script is None or name in script.products.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
         return
-    tops = {module.partition(".")[0] for module in script.python_packages}
+    tops = {module.partition(".")[0] for module in script.products.python_packages}
     own = name.partition(".")[0]
     hint = "; add it, or remove the entry point"
-    taken = {other.target for other in script.entry_points}  # no suggestion makes two programs the same
+    taken = {other.target for other in script.products.entry_points}  # no suggestion makes two programs the same
     files = [file for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops]
     not_importable = [file for file in files if not all(map(str.isidentifier, file[:-3].split("/")))]
     importable = {file[:-3].replace("/", ".") for file in files if file not in not_importable}
-    known = sorted(importable.union(script.python_packages))  # missing-python-module checks that they are installed
+    known = sorted(importable.union(script.products.python_packages))  # missing-python-module checks that they are installed
     modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
     # Modules in folders that are not Python packages are no suggestions, because setup.py does not install them.
     modules = [module for module in modules if _is_in_package(module, name, script, package.files)]
@@ -155,19 +157,19 @@ _WORDS = re.compile(r"[._]")
 def _is_in_package(module: str, wanted: str, script: BuildScript, files: Sequence[str]) -> bool:
     """Return whether a module is in the folder of the wanted module or in a Python package."""
     above = module.rpartition(".")[0]
-    if above == wanted.rpartition(".")[0] or above in script.python_packages:
+    if above == wanted.rpartition(".")[0] or above in script.products.python_packages:
         return True
     return f"{above.replace('.', '/')}/__init__.py" in files
 
 
 def _lacks(workspace: Workspace, top: str, name: str) -> bool:
     """Return whether a fully analysed package of the workspace has the Python package ``top`` without the module ``name``."""
-    owners = [package for package in workspace.packages if package.name == top and top in package.built.python_packages]
+    owners = [package for package in workspace.packages if package.name == top and top in package.built.products.python_packages]
     path = name.replace(".", "/")
     return bool(owners) and not any(
         owner.hidden(Facet.PYTHON)
         or workspace.unread(owner)
-        or name in owner.built.python_packages
+        or name in owner.built.products.python_packages
         or any(f"/{file}".endswith((f"/{path}.py", f"/{path}/__init__.py")) for file in owner.files)
         for owner in owners
     )

@@ -34,7 +34,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     by_path: dict[str, dict[str, InstalledFile]] = {}
-    for provided in script.installs:
+    for provided in script.products.installs:
         if provided.source and not (provided.conditional or provided.path.endswith("__init__.py")):
             by_path.setdefault(provided.path, {}).setdefault(provided.source, provided)
     by_place: dict[tuple[Span, ...], list[str]] = {}

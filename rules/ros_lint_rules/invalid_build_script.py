@@ -57,7 +57,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if problem.kind in _KINDS and not (problem.kind == "no-interfaces" and package.unvisited_folders):
             path = package.relative(problem.span.path)
             yield Finding(f"{_KINDS[problem.kind]}{problem.message}", problem.span, path)
-    for problem in islice(too_new(script.syntax, workspace.target.chosen), 1):
+    for problem in islice(too_new(script.python.newer_syntax, workspace.target.chosen), 1):
         yield Finding(problem.message, problem.span, package.relative(problem.span.path))
 
 

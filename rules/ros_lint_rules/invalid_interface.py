@@ -42,7 +42,7 @@ from ros_lint.api import Edit, Finding, Fix, Package, Rule, Severity, Workspace,
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
     sources = build.generated_from(package)
     # A folder with its own project() generates under the name of that project.
-    own = any(p.source in sources and p.path.startswith(f"share/{package.name}/") for p in package.built.installs)
+    own = any(p.source in sources and p.path.startswith(f"share/{package.name}/") for p in package.built.products.installs)
     if own and package.manifest and not names.interfaces.is_field(package.name):
         yield Finding(
             f"rosidl cannot generate interfaces for the package name '{package.name}'; "

@@ -84,7 +84,7 @@ def _installed_repeatedly(package: Package) -> dict[str, list[InstalledFile]]:
     """Return the launch files that a package installs more than once, by name."""
     file_paths = {launch_file.path for launch_file in launch.package_launch_files(package)}
     names: dict[str, dict[str, InstalledFile]] = {}
-    for provided in package.built.installs if file_paths else ():
+    for provided in package.built.products.installs if file_paths else ():
         name = provided.path.rpartition("/")[2]
         if provided.source not in file_paths or provided.conditional or not name.endswith(launch.LAUNCH_FILE_NAMES):
             continue

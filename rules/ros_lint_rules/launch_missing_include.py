@@ -85,7 +85,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not package.lookups:
         return
     share = f"share/{package.name}/"
-    installed = {p.source: p.path.removeprefix(share) for p in package.built.installs if p.source and not p.conditional}
+    installed = {p.source: p.path.removeprefix(share) for p in package.built.products.installs if p.source and not p.conditional}
     used = {look_up.path for look_up in launch.files_looked_up(workspace).get(package.name, ())}
     look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.lookups:
@@ -274,9 +274,9 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
             return None
         if package.hidden(Facet.SHARE, f"{share}{path}"):
             return None
-        all_names.update(p.path[len(share) :] for p in package.script.installs if p.path.startswith(share))
+        all_names.update(p.path[len(share) :] for p in package.script.products.installs if p.path.startswith(share))
         # Another rule reports a file of the sources that is not installed, also if the folders differ.
-        installed = package.script.installed
+        installed = package.script.products.installed
         if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in package.files):
             return None
         if any(path.startswith(f"{folder}/") for folder in (*package.unvisited_folders, *package.nested)):
@@ -291,7 +291,7 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
     owners = {
         other.name
         for other in workspace.packages
-        if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.installs)
+        if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.products.installs)
     }
     if package.name in owners:
         return f"; '{package.name}' has it"

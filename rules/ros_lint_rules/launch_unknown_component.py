@@ -80,7 +80,7 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
     for package in owners:
         if package.script is None or package.hidden(Facet.COMPONENTS):
             return None
-        all_names.update(component.name for component in package.script.components)
+        all_names.update(component.name for component in package.script.products.components)
         # component-mismatch reports classes that the sources export but CMake does not register.
         all_names.update(registration.name for registration in package.registrations if registration.kind == "component")
     return None if name in all_names else tuple(sorted(all_names))

@@ -111,7 +111,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
             return None
         if name in installed.elsewhere:
             path = installed.elsewhere[name]
-            where = tuple(Related("installed here", p.span) for p in package.built.installs if p.path == path)
+            where = tuple(Related("installed here", p.span) for p in package.built.products.installs if p.path == path)
             hint = f" in lib/{owner}; it is installed as {path}, where launch does not look; install it to lib/{owner}"
             return _Missing(hint, "", where)
         all_names |= installed.names
@@ -121,7 +121,11 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
     if not meant and (by_module := next(filter(None, (_named_by_module(package, name, all_names) for package in owners)), None)):
         return by_module
     scripts = [package.script for package in owners]
-    related = tuple(Related(f"build script of '{owner}'", script.insertion) for script in scripts if script and script.insertion)
+    related = tuple(
+        Related(f"build script of '{owner}'", script.commands.insertion)
+        for script in scripts
+        if script and script.commands.insertion
+    )
     return _Missing(_hint(name, meant, tuple(sorted(all_names))), meant, related[:1])
 
 
@@ -133,7 +137,7 @@ def _is_lost(package: Package, name: str) -> bool:
 
 def _uninstalled_target(package: Package, name: str) -> _Missing | None:
     """Return the hint for an executable that the package builds but does not install, unless another rule reports it."""
-    executables = [target for target in package.built.targets if target.kind == "executable"]
+    executables = [target for target in package.built.products.targets if target.kind == "executable"]
     target = next((target for target in executables if target.name == name), None)
     if target is None:
         return None
@@ -144,7 +148,9 @@ def _uninstalled_target(package: Package, name: str) -> _Missing | None:
 def _named_by_module(package: Package, name: str, all_names: Collection[str]) -> _Missing | None:
     """Return the hint for the name of a Python file where that of its executable is required."""
     script, stem = package.built, name.removesuffix(".py")
-    entries = [entry for entry in script.entry_points if entry.name in all_names and entry.module.rpartition(".")[2] == stem]
+    entries = [
+        entry for entry in script.products.entry_points if entry.name in all_names and entry.module.rpartition(".")[2] == stem
+    ]
     if entries:
         quoted = " or ".join(f"'{entry.name}'" for entry in entries[:3])
         return _Missing(
@@ -152,8 +158,10 @@ def _named_by_module(package: Package, name: str, all_names: Collection[str]) ->
             entries[0].name if len(entries) == 1 else "",
             tuple(Related("by this entry point", entry.span) for entry in entries[:1]),
         )
-    module = next((module for module in script.python_packages if module.rpartition(".")[2] == stem and "." in module), "")
-    if module and script.entry_points:
+    module = next(
+        (module for module in script.products.python_packages if module.rpartition(".")[2] == stem and "." in module), ""
+    )
+    if module and script.products.entry_points:
         return _Missing(f"; the module '{module}' has no entry point; add one to console_scripts")
     uninstalled = _uninstalled_script(package, f"{stem}.py")
     return uninstalled._replace(hint=f"{uninstalled.hint}, and start '{stem}.py'") if uninstalled and stem == name else None
@@ -163,12 +171,12 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
     """Return the hint for a script of that name which is not installed to lib/<package> under any name."""
     script = package.built
     own = f"lib/{package.name}/"
-    programs_of = {provided.source for provided in script.installs if provided.path.startswith(own)}
-    files = (file.path for file in script.scripts if file.path.rpartition("/")[2] == name)
+    programs_of = {provided.source for provided in script.products.installs if provided.path.startswith(own)}
+    files = (file.path for file in script.files.scripts if file.path.rpartition("/")[2] == name)
     uninstalled = next((path for path in files if path not in programs_of), "")
     if not uninstalled:
         return None
-    elsewhere = any(provided.source == uninstalled for provided in script.installs)
+    elsewhere = any(provided.source == uninstalled for provided in script.products.installs)
     file = Related("this file", package.start_of(uninstalled))
     return _Missing(f"; '{uninstalled}' is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (file,))
 

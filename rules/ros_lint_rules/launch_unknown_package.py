@@ -227,7 +227,7 @@ def _may_offer(other: str, reference: LaunchReference, workspace: Workspace) -> 
     return any(
         package.hidden(Facet.SHARE)
         or name in package.files
-        or any(provided.path == f"share/{other}/{name}" for provided in package.built.installs)
+        or any(provided.path == f"share/{other}/{name}" for provided in package.built.products.installs)
         for package in packages
     )
 

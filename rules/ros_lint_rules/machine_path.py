@@ -260,7 +260,7 @@ def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
     """Return whether the package does not install the file to its share directory."""
     below = (f"{inside.rest}/", f"{inside.rest}.")
     for package in workspace.by_name[inside.package]:
-        installed = [file.source for file in package.built.installs if file.path.startswith("share/")]
+        installed = [file.source for file in package.built.products.installs if file.path.startswith("share/")]
         if not package.built.path or package.hidden(Facet.SHARE):
             return False
         if any(source == inside.rest or source.startswith(below) for source in installed):
@@ -336,9 +336,11 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
 def _program(package: Package, file: str) -> str:
     """Return the name of a file for ``ros2 run``, "" if it is not installed to lib/<package>."""
     own = f"lib/{package.name}/"
-    installed = [provided.path for provided in package.built.installs if provided.path.startswith(own)]
-    sources = [provided.path for provided in package.built.installs if file and provided.source == file]
-    entries = [own + entry.name for entry in package.built.entry_points if f"{entry.module.replace('.', '/')}.py" == file]
+    installed = [provided.path for provided in package.built.products.installs if provided.path.startswith(own)]
+    sources = [provided.path for provided in package.built.products.installs if file and provided.source == file]
+    entries = [
+        own + entry.name for entry in package.built.products.entry_points if f"{entry.module.replace('.', '/')}.py" == file
+    ]
     return next((path.removeprefix(own) for path in (*sources, *entries) if path in installed), "")
 
 

@@ -39,13 +39,15 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             files.file_start(script.path),
             "ament_package()",
         )
-    if "project" not in script.command_names:
+    if "project" not in script.commands.names:
         return
-    if any(name in script.command_names for name in build.ENDS) or any(call.name in build.ENDS for call in script.calls):
+    if any(name in script.commands.names for name in build.ENDS) or any(
+        call.name in build.ENDS for call in script.commands.calls
+    ):
         return
     if any(opaque.span.path.endswith((".txt", ".cmake")) for opaque in package.hidden(ALL_FACETS)):
         return
-    if any(provided.path.rpartition("/")[2] in build.config_names(package.name) for provided in script.installs):
+    if any(provided.path.rpartition("/")[2] in build.config_names(package.name) for provided in script.products.installs):
         return
     yield Finding(
         "ament_package() is never called, so the installed package will not be found; call it at the end",
@@ -57,7 +59,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _fix(package: Package) -> Fix | None:
     script = package.script
-    calls = [call for call in script.calls if call.path == package.cmake_lists] if script else []
+    calls = [call for call in script.commands.calls if call.path == package.cmake_lists] if script else []
     last = calls[-1] if calls else None
     if last is None or last.blocks:
         return None

@@ -57,7 +57,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _needed(package: Package) -> str:
     """Return the build type that the build scripts of the package need, or "" if that is unclear."""
     if "CMakeLists.txt" in package.files:
-        return "ament_cmake" if not set(build.ENDS).isdisjoint(package.built.command_names) else ""
+        return "ament_cmake" if not set(build.ENDS).isdisjoint(package.built.commands.names) else ""
     return "ament_python" if "setup.py" in package.files else ""
 
 

@@ -91,7 +91,7 @@ def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Con
 
 def _makes_files(package: Package) -> bool:
     """Return whether the script may create files while CMake configures."""
-    makers = _MAKES_FILES.intersection(package.built.command_names)
+    makers = _MAKES_FILES.intersection(package.built.commands.names)
     if not makers.issubset(_RUNS):
         return True
     calls = list(package.calls(*_RUNS, anywhere=True))

@@ -66,7 +66,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    wrong = (problem for problem in script.cmake_errors if problem.kind == "no-package")
+    wrong = (problem for problem in script.cmake.errors if problem.kind == "no-package")
     yield from (Finding(problem.message, problem.span, problem.subject) for problem in wrong)
     if build.stops_early(script) or script.hides(Facet.USES):
         return
@@ -117,7 +117,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
     if any(text.startswith("/") or ".." in text for text in folders):
         return  # the headers may be in the sources or install folder of another package
     world = workspace.world
-    targets = package.built.targets
+    targets = package.built.products.targets
     compiled = {source for target in targets for source in target.sources if source not in target.optional_sources}
     places: dict[str, list[Use]] = {}
     for use in package.uses:
@@ -145,7 +145,7 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
     script = package.script
     assert script is not None
     world = workspace.world
-    targets = {target.name for target in script.targets}
+    targets = {target.name for target in script.products.targets}
     spelt = {name.lower() for name in found}.union(
         name.lower() for name in dependencies.misspelled_names(package, workspace).values()
     )

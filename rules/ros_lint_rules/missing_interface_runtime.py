@@ -62,10 +62,10 @@ _GENERATE = "rosidl_generate_interfaces"
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script, manifest = package.script, package.manifest
-    if script is None or manifest is None or manifest.problems or _GENERATE not in script.command_names:
+    if script is None or manifest is None or manifest.problems or _GENERATE not in script.commands.names:
         return
     place = next((m for m in script.mentions if m.via == "macro" and m.purpose == "interfaces"), None)
-    if place is None or not script.interfaces or not _is_installed(package):
+    if place is None or not script.products.interfaces or not _is_installed(package):
         return
     sure = Confidence.MEDIUM if place.optional or place.test else Confidence.HIGH
     inside = files.folders_of(package.relative(place.span.path))
@@ -92,7 +92,7 @@ def _skips_check(package: Package, place: Span) -> bool:
 def _is_installed(package: Package) -> bool:
     assert package.script is not None
     kinds = tuple(f"share/{package.name}/{kind}/" for kind in ("msg", "srv", "action"))
-    return any(provided.path.startswith(kinds) for provided in package.script.installs)
+    return any(provided.path.startswith(kinds) for provided in package.script.products.installs)
 
 
 def _join(manifest: Manifest) -> tuple[Edit, ...]:

@@ -42,7 +42,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if "setup.py" not in package.files:
         return
     slot = edits.setup_py.slot(script, "data_files")
-    paths = {provided.path for provided in script.installs}
+    paths = {provided.path for provided in script.products.installs}
     place = edits.setup_py.place(script)
     source_missing = any(problem.kind == "missing-file" and "resource/" in problem.subject for problem in script.problems)
     if not source_missing and not any(path.startswith(f"{_MARKERS}/") for path in paths):
@@ -51,7 +51,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if slot and marker in package.files:
             element = edits.setup_py.joined(slot, package.name, "resource/")
             fix = _add(slot, f"({edits.setup_py.quoted(slot, _MARKERS)}, [{element}])")
-        misplaced = next((provided for provided in script.installs if provided.source == marker), None)
+        misplaced = next((provided for provided in script.products.installs if provided.source == marker), None)
         where = f"installed to {misplaced.path.rpartition('/')[0]}" if misplaced else "not installed"
         adds = f"add {marker}" if marker in package.files else f"create an empty file {marker} and add it"
         remedy = f"install it to {_MARKERS}" if misplaced else f"{adds} to data_files"

@@ -87,7 +87,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_python" or package.hidden(Facet.PYTHON):
         return
     slot = edits.setup_py.slot(script, "packages")
-    as_data = {provided.source.rpartition("/")[0] for provided in script.installs if provided.source.endswith(".py")}
+    as_data = {provided.source.rpartition("/")[0] for provided in script.products.installs if provided.source.endswith(".py")}
     reported: set[str] = set()
     imports = _uninstalled_imports(package, workspace)
     for lack in chain(_unlisted(package, script, slot, as_data), _of_entry_points(script), _imported(imports, as_data)):
@@ -115,8 +115,8 @@ class _Lack(NamedTuple):
 
 def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, as_data: Container[str]) -> Iterator[_Lack]:
     """Yield the sub-packages of installed packages that are not installed, except folders that data_files installs."""
-    installed = script.python_packages
-    place = slot.end if slot else (script.name_span or files.file_start(script.path))
+    installed = script.products.python_packages
+    place = slot.end if slot else (script.project.name_span or files.file_start(script.path))
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
         if inside and name not in installed and folder not in as_data:
@@ -125,10 +125,10 @@ def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, 
 
 def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
     """Yield the packages that contain the modules of entry points and are not installed."""
-    for module in script.entry_point_modules:
+    for module in script.python.entry_point_modules:
         inside = module.name.rpartition(".")[0]
-        if inside and not {module.name, inside}.intersection(script.python_packages):
-            entry = next(entry for entry in script.entry_points if entry.module == module.name)
+        if inside and not {module.name, inside}.intersection(script.products.python_packages):
+            entry = next(entry for entry in script.products.entry_points if entry.module == module.name)
             message = f"entry point '{entry.name}' needs {module.path}, but the package '{inside}' is not installed"
             yield _Lack(inside, module.path.rpartition("/")[0], message, entry.span)
 
@@ -161,7 +161,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
     """Yield modules that are not installed next to the program that imports them."""
     if package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE):
         return
-    own = {module.partition(".")[0] for module in package.built.python_packages}
+    own = {module.partition(".")[0] for module in package.built.products.python_packages}
     reported: set[str] = set()
     for item in _uninstalled_imports(package, workspace):
         module = item.module
@@ -184,14 +184,14 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield the Python package of an ament_cmake package, if none of its modules is installed."""
     script = package.script
     hidden = package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE)
-    if script is None or package.builds_with != "ament_cmake" or hidden or script.insertion is None:
+    if script is None or package.builds_with != "ament_cmake" or hidden or script.commands.insertion is None:
         return
-    if script.interfaces or any(module.partition(".")[0] == package.name for module in script.python_packages):
+    if script.products.interfaces or any(module.partition(".")[0] == package.name for module in script.products.python_packages):
         return  # the module of this name is generated or built
     paths = frozenset(package.files)
     folder = next((f for f in (package.name, f"src/{package.name}") if f"{f}/__init__.py" in paths), "")
     modules = [file for file in package.files if file.startswith(f"{folder}/") and file.endswith(".py")] if folder else []
-    if len(modules) < 2 or not paths.isdisjoint(p.source for p in script.installs if p.source.startswith(f"{folder}/")):
+    if len(modules) < 2 or not paths.isdisjoint(p.source for p in script.products.installs if p.source.startswith(f"{folder}/")):
         return
     users = [
         (other, use)
@@ -204,7 +204,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
     call = f"ament_python_install_package(${{PROJECT_NAME}}{inner})"
     yield Finding(
         f"the Python package '{folder}/' is not installed{why}; add {call}",
-        script.insertion,
+        script.commands.insertion,
         folder,
         first_related(Related("imported here", use.span) for _, use in users),
         Fix.of(f"install '{folder}/'", edits.cmake.at_end(script, f"{_FIND}\n{call}"), safe=False),

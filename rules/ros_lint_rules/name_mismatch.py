@@ -70,19 +70,19 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     if package.type == "ros.ament_cmake":
-        if script.name_span and "ament_package" in script.command_names and not _is_called(package, manifest.name):
+        if script.project.name_span and "ament_package" in script.commands.names and not _is_called(package, manifest.name):
             message = (
-                f"project() uses the name '{script.name}', but package.xml names the package '{manifest.name}', "
+                f"project() uses the name '{script.project.name}', but package.xml names the package '{manifest.name}', "
                 "so ament_package() fails; use one name"
             )
-            yield _finding(message, manifest, script, script.name_span)
+            yield _finding(message, manifest, script, script.project.name_span)
     elif package.type == "ros.ament_python":
         yield from _python(manifest, script)
 
 
 def _is_called(package: Package, name: str) -> bool:
     """Return whether a project() of the package has this name: a superbuild has more than one project()."""
-    return name == package.built.name or any(
+    return name == package.built.project.name or any(
         build.evaluated_name(package, call.texts[0]) == name for call in package.calls("project") if call.args
     )
 
@@ -90,11 +90,11 @@ def _is_called(package: Package, name: str) -> bool:
 def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
     """Yield one finding for each wrong name, at the first place that has it."""
     wrong: dict[str, list[Related]] = {}
-    if script.name and script.name_span and _distribution(script.name) != _distribution(manifest.name):
-        message = f"setup() uses the name '{script.name}'"
-        wrong[script.name] = [Related(message, script.name_span)]
-    installed_as = {_installed_for(provided) for provided in script.installs}
-    for provided in script.installs:
+    if script.project.name and script.project.name_span and _distribution(script.project.name) != _distribution(manifest.name):
+        message = f"setup() uses the name '{script.project.name}'"
+        wrong[script.project.name] = [Related(message, script.project.name_span)]
+    installed_as = {_installed_for(provided) for provided in script.products.installs}
+    for provided in script.products.installs:
         name, what = _installed_for(provided)
         if name in ("", manifest.name) or provided.conditional or (what != "program" and (manifest.name, what) in installed_as):
             continue
@@ -102,14 +102,14 @@ def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
         message = _PLACES[what].format(name)
         if all(place.message != message for place in places):
             places.append(Related(message, provided.span))
-    entries = {entry.span for entry in script.entry_points}
+    entries = {entry.span for entry in script.products.entry_points}
     # setup.py lists the programs, and setup.cfg sets their folder.
     scripts = edits.setup_py.program_folders(script).get("install.install_scripts")
     for places in wrong.values():
         first, *others = [place._replace(span=scripts) if scripts and place.span in entries else place for place in places]
         message = f"{first.message}, but package.xml names the package '{manifest.name}'; use one name"
         finding = _finding(message, manifest, script, first.span)._replace(related=tuple(others))
-        harmless = not others and first.span == script.name_span
+        harmless = not others and first.span == script.project.name_span
         yield finding._replace(severity=Severity.WARNING) if harmless else finding
 
 
@@ -135,7 +135,7 @@ def _installed_for(provided: InstalledFile) -> tuple[str, str]:
 
 def _finding(message: str, manifest: Manifest, script: BuildScript, span: Span) -> Finding:
     fix = None
-    if span == script.name_span and (place := span.inner(script.name)):
+    if span == script.project.name_span and (place := span.inner(script.project.name)):
         # In setup.py the same variable may name folders and files, which the fix does not rename.
         fix = Fix(f"write '{manifest.name}'", (Edit(place, manifest.name),), safe=not script.path.endswith(".py"))
     if span in edits.setup_py.program_folders(script).values():

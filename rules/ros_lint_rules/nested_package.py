@@ -84,7 +84,7 @@ def _is_lost(package: Package, nested: Manifest) -> bool:
 def _is_installed(package: Package, nested: Manifest) -> bool:
     """Return whether the outer package installs the manifest with its folder."""
     installed = "/".join(nested.path.split("/")[-2:])
-    return any(provided.path.endswith(f"/{installed}") for provided in package.built.installs)
+    return any(provided.path.endswith(f"/{installed}") for provided in package.built.products.installs)
 
 
 def _between(package: Package, nested: Manifest) -> list[str]:

@@ -84,12 +84,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         macro for macro in all_macros if not (files.is_auxiliary(package.relative(macro.span.path)) or _is_no_plugin(macro))
     ]
     all_names = {macro.name for macro in registered}
-    installed = script.installed
+    installed = script.products.installed
     exported = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
-    if build.EXPORTING_PLUGINS not in script.command_names and not exported:
+    if build.EXPORTING_PLUGINS not in script.commands.names and not exported:
         yield from _unexported(package, workspace, registered)
         # A description that is not exported has no effect, and many remain from ROS 1.
-        for plugin in script.plugin_files:
+        for plugin in script.files.plugin_files:
             if plugin.path in installed and not files.is_auxiliary(plugin.path):
                 for finding in _libraries(package, workspace, plugin, all_macros):
                     yield finding._replace(confidence=Confidence.MEDIUM)
@@ -98,12 +98,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield from _undescribed(package, registered)
     described = {
         entry.type
-        for plugin in script.plugin_files
+        for plugin in script.files.plugin_files
         if plugin.path in installed
         for library in plugin.libraries
         for entry in library.classes
     }
-    for plugin in script.plugin_files:
+    for plugin in script.files.plugin_files:
         if files.is_auxiliary(plugin.path):
             continue
         if plugin.path in installed:
@@ -122,7 +122,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _undescribed(package: Package, registered: list[Registration]) -> Iterator[Finding]:
     """Yield findings for registered classes that no description lists, if all descriptions can be read."""
-    descriptions = {plugin.path: plugin for plugin in package.built.plugin_files}
+    descriptions = {plugin.path: plugin for plugin in package.built.files.plugin_files}
     calls = list(package.calls(build.EXPORTING_PLUGINS, anywhere=True))
     if _reads_manifest(package) or not all(len(call.texts) > 1 and call.texts[1] in descriptions for call in calls):
         return
@@ -130,7 +130,7 @@ def _undescribed(package: Package, registered: list[Registration]) -> Iterator[F
     known = {name.rpartition("::")[2] for entry in classes for name in (entry.type, entry.name.replace("/", "::"))}
     # A class next to a described one, or in a library that others link, may be a base class or a copy.
     needed = {build.library_registering(package, macro) for macro in registered if macro.name.rpartition("::")[2] in known}
-    needed.update(name for target in package.built.targets for name, _ in target.links)
+    needed.update(name for target in package.built.products.targets for name, _ in target.links)
     for macro in registered:
         library = build.library_registering(package, macro)
         if library and library not in needed:
@@ -170,7 +170,7 @@ def _wrongly_exported(package: Package, workspace: Workspace) -> Iterator[Findin
     """Compare the packages for which descriptions are exported with those that the loaders of the workspace search."""
     script = package.script
     assert script is not None
-    described = {plugin.path: plugin for plugin in script.plugin_files}
+    described = {plugin.path: plugin for plugin in script.files.plugin_files}
     for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True):
         if len(call.texts) < 2 or "$" in call.texts[0] or call.texts[1] not in described:
             continue
@@ -213,7 +213,7 @@ def _for_itself(package: Package, call: Call, bases: Collection[str], workspace:
 
 
 def _builds_libraries(package: Package) -> bool:
-    return any(target.kind == "library" and target.sources for target in package.built.targets)
+    return any(target.kind == "library" and target.sources for target in package.built.products.targets)
 
 
 _READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})
@@ -233,7 +233,9 @@ def _unexported(package: Package, workspace: Workspace, registered: list[Registr
         return
     first, *others = registered
     all_names = {macro.name for macro in registered}
-    plugin = next((p for p in script.plugin_files if any(c.type in all_names for lib in p.libraries for c in lib.classes)), None)
+    plugin = next(
+        (p for p in script.files.plugin_files if any(c.type in all_names for lib in p.libraries for c in lib.classes)), None
+    )
     if _reads_manifest(package):
         return
     if plugin is None and (base := _unloaded_base(registered, workspace)):
@@ -302,8 +304,8 @@ def _libraries(package: Package, workspace: Workspace, plugin: PluginFile, regis
 def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
     script = package.script
     assert script is not None
-    installed = {_plain(p.path) for p in script.installs if not p.source and p.path.endswith((".so", ".a"))}
-    built = {target.name for target in script.targets if target.kind == "library"}
+    installed = {_plain(p.path) for p in script.products.installs if not p.source and p.path.endswith((".so", ".a"))}
+    built = {target.name for target in script.products.targets if target.kind == "library"}
     name = _plain(library.path)
     if name in installed or "$" in library.path or not built:
         return
@@ -334,7 +336,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     last = entry.type.rpartition("::")[2]
     described = {
         described_class.type
-        for file in package.built.plugin_files
+        for file in package.built.files.plugin_files
         for library in file.libraries
         for described_class in library.classes
     }

@@ -67,14 +67,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    files = {file.path: file for file in script.scripts}
+    files = {file.path: file for file in script.files.scripts}
     started = launch.nodes_started(workspace).get(package.name, {})
-    runs = {provided.path for provided in script.installs if provided.program}
+    runs = {provided.path for provided in script.products.installs if provided.program}
     any_executable = any(
-        provided.program and provided.source in files and files[provided.source].executable for provided in script.installs
+        provided.program and provided.source in files and files[provided.source].executable
+        for provided in script.products.installs
     )
     without_bit: dict[Span, list[InstalledFile]] = {}
-    for provided in script.installs:
+    for provided in script.products.installs:
         file = files.get(provided.source)
         folder, _, name = provided.path.rpartition("/")
         if file is None or provided.conditional or folder != f"lib/{package.name}":
@@ -139,7 +140,7 @@ def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: d
 
 def _confidence(package: Package, call: Call | None) -> Confidence:
     """Return medium for install(FILES) in a package that exports CMake code: that code may run the script with an interpreter."""
-    run_by_cmake = package.built.config_extras and call is not None and call.texts[0] == "FILES"
+    run_by_cmake = package.built.exports.config_extras and call is not None and call.texts[0] == "FILES"
     return Confidence.MEDIUM if run_by_cmake else Confidence.HIGH
 
 

@@ -60,14 +60,18 @@ def _lost(package: Package, workspace: Workspace) -> Iterator[str]:
         return
     if not package.hidden(Facet.EXECUTABLES):
         folder = f"lib/{package.name}/"
-        installed = {provided.path.removeprefix(folder) for provided in script.installs if provided.path.startswith(folder)}
+        installed = {
+            provided.path.removeprefix(folder) for provided in script.products.installs if provided.path.startswith(folder)
+        }
         yield from (f"executable '{name}'" for name in below.known("executables").names if name not in installed)
     if not package.hidden(Facet.SHARE):
         folder = f"share/{package.name}/"
-        installed = {provided.path.removeprefix(folder) for provided in script.installs if provided.path.startswith(folder)}
+        installed = {
+            provided.path.removeprefix(folder) for provided in script.products.installs if provided.path.startswith(folder)
+        }
         yield from (f"'{name}'" for name in below.known("launch").names if name not in installed)
     if not package.hidden(Facet.INTERFACES):
-        yield from (f"'{name}'" for name in below.known("interfaces").names if name not in script.interfaces)
+        yield from (f"'{name}'" for name in below.known("interfaces").names if name not in script.products.interfaces)
 
 
 def _few(names: tuple[str, ...]) -> str:

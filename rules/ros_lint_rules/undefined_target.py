@@ -78,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with not in ("ament_cmake", "cmake"):
         return
-    all_names = sorted({target.name for target in script.targets})
+    all_names = sorted({target.name for target in script.products.targets})
     if build.opaque_except_undefined_targets(package, ALL_FACETS):
         return
     defined = set(all_names)
@@ -96,7 +96,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
         yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, all_names, places)
-    for problem in script.cmake_errors:  # these include computed names
+    for problem in script.cmake.errors:  # these include computed names
         name = problem.subject
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
             near = names.similar_names(name, all_names, 1, 0.8)
@@ -117,7 +117,7 @@ def _finds_unknown(package: Package, workspace: Workspace) -> bool:
 
 def _unfilled(package: Package) -> Iterator[Finding]:
     """Yield findings for exported sets without targets: CMake stops at the install(EXPORT) of such a set."""
-    filled = list(dict.fromkeys([exported.export_set for exported in package.built.exported]))
+    filled = list(dict.fromkeys([exported.export_set for exported in package.built.exports.targets]))
     for call in package.calls("ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
             name = build.evaluated_name(package, text)
@@ -141,7 +141,7 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
                 wrong.setdefault(owner, []).append(mention)
     for owner, mentions in wrong.items():
         all_names = list(dict.fromkeys(mention.name.partition("::")[2] for mention in mentions))
-        exported = sorted({target.target for other in workspace.by_name[owner] for target in other.built.exported})
+        exported = sorted({target.target for other in workspace.by_name[owner] for target in other.built.exports.targets})
         near = names.similar_names(all_names[0], exported, 3, 0.6) if len(all_names) == 1 else []
         hint = (
             names.did_you_mean(near)
@@ -165,13 +165,13 @@ def _may_export(package: Package, target: str) -> bool:
     if (
         script is None
         or package.builds_with != "ament_cmake"
-        or script.interfaces
+        or script.products.interfaces
         or build.opaque_except_undefined_targets(package, ALL_FACETS)
     ):
         return True
     if build.has_extras(package):
         return True
-    return any(exported.target == target for exported in package.built.exported) or _may_rename_targets(package)
+    return any(exported.target == target for exported in package.built.exports.targets) or _may_rename_targets(package)
 
 
 def _may_rename_targets(package: Package) -> bool:
@@ -180,20 +180,20 @@ def _may_rename_targets(package: Package) -> bool:
     if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
         return True
     all_names = build.config_names(package.name)
-    return any(file.source and file.path.rpartition("/")[2] in all_names for file in package.built.installs)
+    return any(file.source and file.path.rpartition("/")[2] in all_names for file in package.built.products.installs)
 
 
 def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Iterator[Related]:
     """Yield the places where the owners define targets without exporting them."""
     for owner in owners:
-        for target in owner.built.targets:
+        for target in owner.built.products.targets:
             if target.name in all_names:
                 yield Related("defined here, but not exported", target.span)
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
     """Yield findings for exported libraries that are not built. Names unlike those of this package may be system libraries."""
-    libraries = sorted(target.name for target in package.built.targets if target.kind == "library")
+    libraries = sorted(target.name for target in package.built.products.targets if target.kind == "library")
     for call in package.calls("ament_export_libraries"):
         for index, text in enumerate(call.texts):
             name = build.evaluated_name(package, text)

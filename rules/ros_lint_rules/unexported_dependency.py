@@ -103,13 +103,13 @@ def _is_seen(package: Package) -> bool:
     script = package.script
     if script is None or build.stops_early(script) or package.builds_with != "ament_cmake":
         return False
-    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.command_names))
+    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.commands.names))
 
 
 def _exported(script: BuildScript) -> set[str]:
     """Return the packages that find_package() of this package also finds, by their CMake names."""
     exported = {mention.name for mention in dependencies.macro_packages(script, "export", "interfaces")}
-    return exported.union(mention.name for mention, _ in script.exported_packages)
+    return exported.union(mention.name for mention, _ in script.exports.packages)
 
 
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[tuple[tuple[str, ...], Finding]]:
@@ -179,20 +179,20 @@ def _has_headers(script: BuildScript) -> bool:
     Generated headers, such as the parameters of a plugin, do not count: they are for the package itself.
     """
     return script.hides(Facet.SHARE) or any(
-        provided.path.endswith(files.HEADERS) and provided.source for provided in script.installs
+        provided.path.endswith(files.HEADERS) and provided.source for provided in script.products.installs
     )
 
 
 def _exported_targets(script: BuildScript) -> frozenset[str]:
     """Return the targets that dependents of the package can link."""
-    return frozenset([export.target for export in script.exported if export.reaches_dependents])
+    return frozenset([export.target for export in script.exports.targets if export.reaches_dependents])
 
 
 def _linked_publicly(package: Package, workspace: Workspace) -> Iterator[tuple[str, Span]]:
     """Yield the packages whose targets an exported library links publicly, with the place."""
     exported = _exported_targets(package.built)
     kinds = ("library", "interface")
-    libraries = {target.name for target in package.built.targets if target.name in exported and target.kind in kinds}
+    libraries = {target.name for target in package.built.products.targets if target.name in exported and target.kind in kinds}
     for call in package.calls("target_link_libraries"):
         if not call.args or call.blocks or build.evaluated_name(package, call.texts[0]) not in libraries:
             continue
@@ -274,7 +274,7 @@ def _confidence(package: Package, workspace: Workspace, name: str, exported: set
         return Confidence.MEDIUM
     if _internal_sources(package, script).issuperset([build.stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM
-    sure = _EXPORTS.intersection(script.command_names) and not _is_written_out(package, workspace, name)
+    sure = _EXPORTS.intersection(script.commands.names) and not _is_written_out(package, workspace, name)
     return Confidence.HIGH if sure else Confidence.MEDIUM
 
 
@@ -283,7 +283,7 @@ def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
 
     Empty if an exported library has sources. Excludes programs of a single source, whose headers may be for other packages.
     """
-    built = [target for target in script.targets if not target.test]
+    built = [target for target in script.products.targets if not target.test]
     words = [text for call in package.calls("ament_export_libraries", anywhere=True) for text in call.texts]
     exported_names = {*_exported_targets(script), *(build.evaluated_name(package, word) for word in words)}
     if None in exported_names:
@@ -350,7 +350,7 @@ def _includes(package: Package) -> Iterator[Use]:
 
 def _installed(script: BuildScript) -> set[str]:
     """Return the headers that are installed unconditionally."""
-    return {file.source for file in script.installs if file.path.startswith("include/") and not file.conditional}
+    return {file.source for file in script.products.installs if file.path.startswith("include/") and not file.conditional}
 
 
 RULE = Rule(

@@ -94,17 +94,17 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.INTERFACES):
         return
     calls = list(package.calls(_GENERATE, anywhere=True))
-    if not calls or not script.interfaces:
+    if not calls or not script.products.interfaces:
         return
     plain: dict[str, list[str]] = {}
     for file in package.files:
         interface = _interface(file) if file.count("/") == 1 else ""
         kind, _, name = interface.partition("/")
-        if interface in script.interfaces or not name.isidentifier():
+        if interface in script.products.interfaces or not name.isidentifier():
             continue
         required = "" if file.endswith(".idl") or names.interfaces.is_message(name) else names.interfaces.camel(name)
         rejection = next(iter(_rejections(package, file)), "")
-        commented_out = interface in script.commented_interfaces
+        commented_out = interface in script.cmake.commented_interfaces
         if required or rejection or commented_out:
             yield _finding(package, calls, file, required, rejection, commented_out=commented_out)
         else:
@@ -167,7 +167,7 @@ def _missing(package: Package, workspace: Workspace) -> Iterator[Finding]:
         wrong = _wrong_released(used, workspace) if not makers else _wrong(used, maker, workspace) if maker else None
         if wrong is None:
             continue
-        if maker and not maker.built.interfaces:  # one finding for all uses of the package
+        if maker and not maker.built.products.interfaces:  # one finding for all uses of the package
             reported.add(used.maker)
             places = [place for (name, *_), same in places_by_use.items() if name == used.maker for place in same]  # noqa: PLW2901
         if used.bare:
@@ -209,7 +209,7 @@ def _used(package: Package) -> Iterator[_Used]:
 
 def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     """Return the message about a use of a package of the workspace; None if it is right or cannot be decided."""
-    generated = maker.built.interfaces
+    generated = maker.built.products.interfaces
     if maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
     if not generated:
@@ -233,7 +233,7 @@ def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace)
         return f"'{used.maker}' does not generate code for '{file}'; add it to {_GENERATE}()"
     if any(path.endswith((f"{kind}.py", f"{kind}/__init__.py", f".{kind}", ".idl")) for path in maker.files):
         return None
-    owners = [package.name for package in workspace.packages if interface in package.built.interfaces]
+    owners = [package.name for package in workspace.packages if interface in package.built.products.interfaces]
     remedy = f"; did you mean the one of '{owners[0]}'?" if owners else "; correct the name"
     return f"'{used.maker}' does not generate interfaces, so '{interface}' does not exist{remedy}"
 
@@ -284,7 +284,7 @@ def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
 
 def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
     """Return the interfaces that a package of the workspace generates."""
-    return next((package.built.interfaces for package in workspace.by_name.get(name, ())), ())
+    return next((package.built.products.interfaces for package in workspace.by_name.get(name, ())), ())
 
 
 @cached_by_package
@@ -294,8 +294,8 @@ def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool]
     Includes files for which no code is generated, because another finding reports them.
     """
     interfaces = [_interface(file) for file in maker.files]
-    ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.commented_interfaces]
-    everything = frozenset([*maker.built.interfaces, *ungenerated])
+    ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.cmake.commented_interfaces]
+    everything = frozenset([*maker.built.products.interfaces, *ungenerated])
     return {(kind, header): _names(everything, kind, header) for kind in ("", *_KINDS) for header in (False, True)}
 
 
@@ -337,7 +337,7 @@ def _finding(
     ``rejection``: why rosidl rejects the file, "" if it does not. ``commented_out``: a comment has it in place of a list element.
     """
     remedy = f"rename it to '{required}', as rosidl requires, and add it" if required else "add it or remove the file"
-    if required and f"{_interface(file).partition('/')[0]}/{required}" in package.built.interfaces:
+    if required and f"{_interface(file).partition('/')[0]}/{required}" in package.built.products.interfaces:
         remedy = f"'{required}' replaces it, so remove the file"
     elif rejection and not required:
         remedy = f"correct or remove it, because rosidl rejects it: {rejection}"

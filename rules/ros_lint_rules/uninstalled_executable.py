@@ -71,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if any("INSTALL_TO_PATH" in call.texts for call in package.calls("ament_auto_package", anywhere=True)):
         return
     places: dict[str, list[tuple[str, str, Span]]] = {}
-    for provided in script.installs:
+    for provided in script.products.installs:
         if provided.target:
             folder, _, name = provided.path.rpartition("/")
             places.setdefault(provided.target, []).append((folder, name, provided.span))
@@ -89,7 +89,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         nowhere = all(folder in ("lib", f"bin/{package.name}") for folder, _, _ in installed)
         if installed and nowhere:
             sure = sure or all(
-                folder != "lib" or _installs_executables_only(package, span, script.targets) for folder, _, span in installed
+                folder != "lib" or _installs_executables_only(package, span, script.products.targets)
+                for folder, _, span in installed
             )
         if installed and (
             sure or nowhere or any(file.startswith("include/") for file in build.files_using_client_library(package))
@@ -101,7 +102,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 span,
                 target.name,
                 (*related, Related("built here", target.span)),
-                _move(package, span, script.targets),
+                _move(package, span, script.products.targets),
                 Confidence.MEDIUM if not sure or any(opaque.reaches(own) for opaque in unseen) else Confidence.HIGH,
             )
         elif not installed and launched and not unseen:

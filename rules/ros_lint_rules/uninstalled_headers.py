@@ -84,13 +84,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
     headers = [file for file in package.files if file.startswith("include/") and file.endswith(files.HEADERS)]
-    places = [provided.path for provided in script.installs]
-    if not headers or script.insertion is None:
+    places = [provided.path for provided in script.products.installs]
+    if not headers or script.commands.insertion is None:
         return
     names = {_name(file) for file in headers}
     installed = any(
         provided.path.endswith(files.HEADERS) and (provided.source or _name(provided.path) in names)
-        for provided in script.installs
+        for provided in script.products.installs
     )
     includes = _includes(workspace).get(package.name, ())
     wanted = [(other, use) for other, use in includes if any(file.endswith(f"/{use.name}") for file in headers)]
@@ -106,7 +106,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     library = any(path.startswith("lib/lib") for path in places)
     loaded = _is_loaded(package, script)
     linked = library and not loaded and any(not call.blocks for call in package.calls(*_LINKED))
-    if exports and not wanted and script.targets and all(target.kind == "executable" for target in script.targets):
+    if (
+        exports
+        and not wanted
+        and script.products.targets
+        and all(target.kind == "executable" for target in script.products.targets)
+    ):
         yield from _export_without_library(headers, exports)
         return
     sure = Confidence.HIGH if exports or linked or wanted else Confidence.MEDIUM if library else Confidence.LOW
@@ -115,7 +120,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     yield Finding(
         f"the headers in include/ ({_name(headers[0])} ...) are not installed{why}; "
         f"install them to {_place(exports)}{', or remove the export' if may_be_needless else ''}",
-        script.insertion,
+        script.commands.insertion,
         "include/",
         (*(Related("exported here", call.name_span) for call in exports), *_included_here(wanted)),
         _fix(package, exports),
@@ -141,9 +146,9 @@ def _name(path: str) -> str:
 
 def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the headers that other packages include by a folder which is missing where they are installed."""
-    installed = [file for file in package.built.installs if file.source.endswith(files.HEADERS) and not file.conditional]
+    installed = [file for file in package.built.products.installs if file.source.endswith(files.HEADERS) and not file.conditional]
     provided = {file.source: file for file in installed}
-    paths = [file.path for file in package.built.installs]
+    paths = [file.path for file in package.built.products.installs]
     lost = [
         (file, other, use)
         for other, use in wanted
@@ -164,15 +169,17 @@ def _misplaced(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator[
 
 def _doubled(package: Package, script: BuildScript, wanted: list[tuple[Package, Use]]) -> Iterator[Finding]:
     """Yield the headers that are installed with their folder include/, below the folder that compilers search."""
-    own = [file for file in script.installs if file.source.startswith("include/") and file.source.endswith(files.HEADERS)]
+    own = [
+        file for file in script.products.installs if file.source.startswith("include/") and file.source.endswith(files.HEADERS)
+    ]
     first = next((file for file in own if file.path.startswith("include/")), None)
     if first is None or build.has_extras(package) or not all(_is_doubled(file) for file in own):
         return
     folder = first.path.removesuffix(first.source.removeprefix("include")).removeprefix("/")
-    words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.name, text) for call in script.calls for text in call.texts)
+    words = (re.sub(r"\$\{\w*PROJECT_NAME\}", script.project.name, text) for call in script.commands.calls for text in call.texts)
     if any(folder in word for word in words):
         return  # the script names it, probably as an include directory
-    library = any(file.path.startswith("lib/lib") for file in script.installs)
+    library = any(file.path.startswith("lib/lib") for file in script.products.installs)
     exported = library and bool(_exports(package) or any(True for _ in package.calls(*_LINKED)))
     needed = bool(wanted) or (exported and not _is_loaded(package, script))
     places = ((call, at) for call in package.calls("install", anywhere=True) for at in range(len(call.args)))
@@ -213,17 +220,17 @@ def _unexported(package: Package, wanted: list[tuple[Package, Use]]) -> Iterator
     includes = [
         (other, use) for other, use in wanted if other.script and package.name in dependencies.names_searched(other, other.script)
     ]
-    if includes and package.script and package.script.insertion:
+    if includes and package.script and package.script.commands.insertion:
         libraries = "" if any(True for _ in package.calls("ament_export_libraries")) else " and ament_export_libraries()"
         what = (
             "no include directories"
-            if any(name.startswith("ament_export_") for name in package.script.command_names)
+            if any(name.startswith("ament_export_") for name in package.script.commands.names)
             else "nothing"
         )
         yield Finding(
             f"'{package.name}' exports {what}, although '{includes[0][0].name}' includes its headers; add "
             f"ament_export_include_directories(){libraries}, or ament_export_targets()",
-            package.script.insertion,
+            package.script.commands.insertion,
             package.name,
             _included_here(includes),
         )
@@ -236,7 +243,7 @@ def _may_export(package: Package) -> bool:
         script is None
         or build.has_extras(package)
         or package.opaque
-        or any(name.startswith(_EXPORTS) for name in script.command_names)
+        or any(name.startswith(_EXPORTS) for name in script.commands.names)
     ):
         return True
     return any(call.texts[:1] == ("EXPORT",) and _is_read(package, call) for call in package.calls("install", anywhere=True))
@@ -245,7 +252,7 @@ def _may_export(package: Package) -> bool:
 def _is_read(package: Package, call: Call) -> bool:
     """Return whether a command can be part of the build: not in a CMakeLists.txt that no add_subdirectory() reads."""
     folder, _, name = package.relative(call.path).rpartition("/")
-    return not folder or name != "CMakeLists.txt" or folder in package.built.subdirectories
+    return not folder or name != "CMakeLists.txt" or folder in package.built.cmake.subdirectories
 
 
 def _included_here(wanted: list[tuple[Package, Use]]) -> tuple[Related, ...]:

@@ -58,7 +58,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     missing: dict[str, list[str]] = {}
     kept: set[str] = set()
-    all_names = {provided.path.rpartition("/")[2] for provided in script.installs}
+    all_names = {provided.path.rpartition("/")[2] for provided in script.products.installs}
     for launch_file in launch.package_launch_files(package):
         folder, _, name = launch_file.path.rpartition("/")
         if launch_file.installed:

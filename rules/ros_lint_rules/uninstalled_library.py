@@ -65,11 +65,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
-    installed = {provided.target for provided in script.installs}
+    installed = {provided.target for provided in script.products.installs}
     listed = build.install_arguments(package)
     components = {name for call in package.calls(*build.REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
     yield from _in_package_folder(package)
-    for target in script.targets:
+    for target in script.products.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
         if any("OBJECT" in call.texts[1:2] for call in build.library_calls(package, target.name)):
@@ -98,7 +98,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 def _in_package_folder(package: Package) -> Iterator[Finding]:
     """Yield the exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
-    loaded = build.EXPORTING_PLUGINS in package.built.command_names
+    loaded = build.EXPORTING_PLUGINS in package.built.commands.names
     for name, place in build.libraries_in_libexec(package, (".so", ".a")).items():
         if exported := _exported(package, name):
             yield Finding(
@@ -134,20 +134,22 @@ def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> b
     assert script is not None
     if build.is_optional_target(package, library) or not build.is_declared_shared(package, library.name):
         return False
-    installed = {provided.target for provided in script.installs if provided.target}
-    uninstalled = {target.name for target in script.targets if target.kind == "executable" and target.name not in installed}
+    installed = {provided.target for provided in script.products.installs if provided.target}
+    uninstalled = {
+        target.name for target in script.products.targets if target.kind == "executable" and target.name not in installed
+    }
     if not build.installs_built(script):
         uninstalled.clear()
-    tests = {target.name for target in script.targets if target.test}
-    public = build.has_header(library, [provided.path for provided in script.installs])
+    tests = {target.name for target in script.products.targets if target.test}
+    public = build.has_header(library, [provided.path for provided in script.products.installs])
     uninstalled = uninstalled - tests if public else uninstalled | tests
     return loaded or not any(
-        linked == library.name for target in script.targets if target.name in uninstalled for linked, _ in target.links
+        linked == library.name for target in script.products.targets if target.name in uninstalled for linked, _ in target.links
     )
 
 
 def _linked_by(script: BuildScript, library: str) -> Iterator[tuple[str, Span]]:
-    for target in script.targets:
+    for target in script.products.targets:
         yield from ((target.name, span) for name, span in target.links if name == library and not target.test)
 
 

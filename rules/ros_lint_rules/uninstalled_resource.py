@@ -88,8 +88,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.is_empty or package.builds_with not in ("ament_cmake", "ament_python"):
         return
-    installed = _with_folders(provided.path for provided in script.installs)
-    kept = _with_folders(script.installed)
+    installed = _with_folders(provided.path for provided in script.products.installs)
+    kept = _with_folders(script.products.installed)
     missing: dict[str, list[tuple[str, Span]]] = {}
     looked_into: dict[str, Span] = {}
     file_paths = frozenset(package.files)
@@ -156,13 +156,13 @@ def _folders(
     ``reported``: top folders with findings already. ``looked_into``: folders in which a file is looked up that does not exist.
     """
     launches = {launch_file.path for launch_file in launch.package_launch_files(package)}
-    places = dict(script.referenced_resources)
+    places = dict(script.files.referenced_resources)
     # A file that is installed from an unknown place, such as one of several folders, may be any file of that name.
-    chosen = frozenset([_name(provided.path) for provided in script.installs if not provided.source])
-    modules = frozenset(script.python_packages)
+    chosen = frozenset([_name(provided.path) for provided in script.products.installs if not provided.source])
+    modules = frozenset(script.products.python_packages)
     findings = _FolderFindings(package, script, places, looked_into)
     for folder, uninstalled in build.uninstalled_resources(package.files, kept).items():
-        file_paths = [file for file in uninstalled if file not in launches and file not in script.build_inputs]
+        file_paths = [file for file in uninstalled if file not in launches and file not in script.files.build_inputs]
         top = folder.partition("/")[0]
         if top in reported or folder in modules or any(_name(file) in chosen for file in file_paths):
             continue
@@ -186,7 +186,7 @@ class _FolderFindings:
         self._script = script
         self._places = places
         self._looked_into = looked_into
-        models = any(provided.source.lower().endswith(_OF_MODELS) for provided in script.installs)
+        models = any(provided.source.lower().endswith(_OF_MODELS) for provided in script.products.installs)
         self._lacks_models = not models and _only_files(package, script)
         self._resources_only = _makes_nothing(package, script)
         self._node_parameters = _node_parameters(package, script)
@@ -223,7 +223,7 @@ class _FolderFindings:
             return Confidence.LOW
         copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in file_paths])
         file_paths = [file for file in file_paths if not any(word in file for word in _TO_COPY)]
-        in_sources = f"{folder}/" in self._script.build_inputs
+        in_sources = f"{folder}/" in self._script.files.build_inputs
         if any(file in self._node_parameters for file in file_paths) and not in_sources:
             return Confidence.HIGH
         for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in file_paths)
@@ -248,19 +248,21 @@ def _makes_nothing(package: Package, script: BuildScript) -> bool:
 
     Packages named after tests or examples may use their files in the sources.
     """
-    return script.makes_nothing and not files.is_auxiliary(f"{package.name.replace('_', '/')}/")
+    return script.cmake.makes_nothing and not files.is_auxiliary(f"{package.name.replace('_', '/')}/")
 
 
 def _only_files(package: Package, script: BuildScript) -> bool:
     """Return whether a package provides nothing but files that it installs to its share folder."""
-    makes = script.targets or script.python_packages or script.interfaces or script.components
-    installs = any("/" in provided.source for provided in script.installs)
-    return script.of_cmake and installs and not makes and all(p.path.startswith("share/") for p in script.installs)
+    makes = script.products.targets or script.products.python_packages or script.products.interfaces or script.products.components
+    installs = any("/" in provided.source for provided in script.products.installs)
+    return script.of_cmake and installs and not makes and all(p.path.startswith("share/") for p in script.products.installs)
 
 
 def _node_parameters(package: Package, script: BuildScript) -> frozenset[str]:
     """Return the files with parameters of nodes, if the package installs nodes, or files only."""
-    runs = script.components or any(provided.path.startswith(f"lib/{package.name}/") for provided in script.installs)
+    runs = script.products.components or any(
+        provided.path.startswith(f"lib/{package.name}/") for provided in script.products.installs
+    )
     installs = runs or _only_files(package, script)
     if not installs or "example" in package.name:
         return frozenset()

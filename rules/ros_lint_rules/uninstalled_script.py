@@ -51,13 +51,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _of_setup(package)
     if package.builds_with != "ament_cmake":
         return
-    installed = script.installed
+    installed = script.products.installed
     nodes = {package.relative(use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
     standing = workspace.world.standing
-    excluded = installed.union(script.build_inputs)
+    excluded = installed.union(script.files.build_inputs)
     excluded |= {package.relative(use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
     with_nodes = Counter([file.rpartition("/")[0] for file in nodes & installed])
-    candidates = [file for file in script.scripts if file.path not in excluded and file.shebang and file.main]
+    candidates = [file for file in script.files.scripts if file.path not in excluded and file.shebang and file.main]
     uninstalled = [file for file in candidates if not files.is_auxiliary(file.path)]
     left_out = Counter([file.path.rpartition("/")[0] for file in uninstalled if file.executable and file.path in nodes])
     for file in uninstalled:
@@ -76,7 +76,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _of_setup(package: Package) -> Iterator[Finding]:
     """Yield the programs that are started with ``ros2 run``, but that setup.py does not install."""
-    for file in package.built.scripts:
+    for file in package.built.files.scripts:
         if file.run is not None and file.main:
             yield Finding(
                 f"setup.py does not install an executable for the program '{file.path}', so ros2 run does not find it; "

@@ -79,7 +79,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 def _build_type(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     package, name = stranger.package, stranger.name
     why = f"'{name}' is a build type, not a package, so rosdep cannot resolve it"
-    if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.command_names:
+    if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.commands.names:
         return _needless(stranger, why)
     remedy = f"write '{_PYTHON_IN_CMAKE}'"
     fix = dependencies.naming_fix(workspace, _PYTHON_IN_CMAKE, remedy, *_rename(stranger, _PYTHON_IN_CMAKE))
@@ -103,7 +103,7 @@ def _own(stranger: dependencies.UnresolvedDependency) -> str:
     own = launch.installed_programs(package)
     if own is not None and name in own.names:
         return "program"
-    folders = [module.replace(".", "/") for module in package.built.python_packages]
+    folders = [module.replace(".", "/") for module in package.built.products.python_packages]
     return "module" if any(f"{folder}/{name}.py" in package.files for folder in folders) else ""
 
 
@@ -203,7 +203,7 @@ def _caller(by: str, key: str) -> str:
 
 def _is_found_as_declared(package: Package, name: str) -> bool:
     """Return whether CMake finds a package only because it is declared under exactly this name."""
-    if _FINDS_DECLARED not in package.built.command_names:
+    if _FINDS_DECLARED not in package.built.commands.names:
         return False
     return not any(name in call.texts[:1] for call in package.calls("find_package", anywhere=True))
 

@@ -60,7 +60,7 @@ from ros_lint.api import (
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
-    if script is None or script.problems or script.includes_outside_package or package.builds_with != "ament_cmake":
+    if script is None or script.problems or script.cmake.includes_outside_package or package.builds_with != "ament_cmake":
         return
     if script.hides(Facet.USES) or dependencies.finds_declared(package):
         return
@@ -70,7 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     interfaces = [mention.name for mention in dependencies.macro_packages(script, "interfaces")]
     packages = [name for name in all_names if workspace.world.is_package(name) and not name.endswith(names.VENDOR)]
     uses = _includes(package, frozenset(packages))
-    for target in script.targets:
+    for target in script.products.targets:
         if target.headers is None or target.kind == "interface":
             continue
         needed: dict[str, list[Use]] = {}
@@ -130,7 +130,7 @@ def _remedy(package: Package, workspace: Workspace, target: BuildTarget, name: s
         for call in package.calls(command):
             if len(call.args) > 1 and not call.blocks and build.evaluated_name(package, call.texts[0]) == target.name:
                 return f"{command}({target.name} {word})", edits.cmake.add_argument(call, word)
-    command, word = commands[0] if commands[0][0] in package.built.command_names else commands[-1]
+    command, word = commands[0] if commands[0][0] in package.built.commands.names else commands[-1]
     return f"{command}({target.name} {word})", None
 
 

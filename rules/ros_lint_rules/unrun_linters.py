@@ -49,7 +49,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if _checks_what_it_generates(package):
         return
-    if build.FINDS_TESTS.intersection(script.command_names):
+    if build.FINDS_TESTS.intersection(script.commands.names):
         yield from _none_to_run(package, script)
         return
     if any(call.blocks.count("if") > call.test for call in package.calls(_RUN, anywhere=True)):
@@ -78,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
     """Yield the call that runs linters where none is declared."""
     for_tests = [declared.depend for declared in package.declared if declared.depend.tag == "test_depend"]
-    if _RUN not in script.command_names or {depend.name for depend in for_tests} != {_AUTO}:
+    if _RUN not in script.commands.names or {depend.name for depend in for_tests} != {_AUTO}:
         return
     packages = dependencies.names_searched(package, script).union(_looked_for(package)) - _BRING_NONE
     if not any(map(_MAY_BRING.search, packages)):
@@ -97,7 +97,7 @@ def _checks_what_it_generates(package: Package) -> bool:
 def _called_by_name(package: Package, script: BuildScript) -> list[str]:
     """Return the linter commands that the CMake files call, also under a condition."""
     written = {call.name for call in package.calls(*build.LINTERS.values(), anywhere=True)}
-    return sorted(written.union(set(build.LINTERS.values()).intersection(script.command_names)))
+    return sorted(written.union(set(build.LINTERS.values()).intersection(script.commands.names)))
 
 
 def _mentioned(package: Package, script: BuildScript) -> set[str]:

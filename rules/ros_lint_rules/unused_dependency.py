@@ -103,7 +103,7 @@ def _no_member(package: Package) -> Iterator[Finding]:
         return
     if package.builds_with not in ("ament_cmake", "ament_python") or script.hides(Facet.INTERFACES | Facet.USES):
         return
-    generated = script.interfaces or any(True for _ in package.calls("rosidl_generate_interfaces", anywhere=True))
+    generated = script.products.interfaces or any(True for _ in package.calls("rosidl_generate_interfaces", anywhere=True))
     if generated or any(file.endswith(files.INTERFACES) for file in package.files):
         return
     for depend in manifest.depends:
@@ -186,8 +186,8 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
 
 def _lacks_programs(package: Package, script: BuildScript) -> bool:
     """Return whether the package is still a skeleton: no module of its entry points exists, or no code imports anything."""
-    if script.entry_points:
-        return not script.entry_point_modules
+    if script.products.entry_points:
+        return not script.python.entry_point_modules
     return package.builds_with == "ament_python" and not any(use.role & ~Role.TEST for use in package.uses)
 
 
@@ -199,13 +199,13 @@ def _is_used(package: Package, name: str) -> bool:
 def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> bool:
     """Return whether the test dependency is a package of the workspace that depends on linters which the build script runs."""
     handed_on = (depend for package in workspace.by_name.get(name, ()) for depend in package.declared if depend.role & _HANDED_ON)
-    return not build.FINDS_TESTS.isdisjoint(script.command_names) and any(depend.name in build.LINTERS for depend in handed_on)
+    return not build.FINDS_TESTS.isdisjoint(script.commands.names) and any(depend.name in build.LINTERS for depend in handed_on)
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
     """Return whether the package has tests that can use a name: only Python code can use a package of Python modules."""
     if not any("test" in file.lower() for file in package.files) and not any(
-        "test" in call and call not in _NO_TEST for call in script.command_names
+        "test" in call and call not in _NO_TEST for call in script.commands.names
     ):
         return False
     released = workspace.world.released(name)

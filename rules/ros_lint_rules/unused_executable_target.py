@@ -38,12 +38,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         or build.may_run_built(script)
     ):
         return
-    excluded = {provided.target for provided in script.installs} | build.install_arguments(package)
+    excluded = {provided.target for provided in script.products.installs} | build.install_arguments(package)
     excluded |= build.never_installed_nodes(package) | build.partly_installed_nodes(
         package
     )  # uninstalled-executable reports them
     excluded.update(launch.nodes_started(workspace).get(package.name, {}))
-    for target in script.targets:
+    for target in script.products.targets:
         if target.kind != "executable" or target.test or target.name in excluded:
             continue
         if build.is_optional_target(package, target):

@@ -32,7 +32,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None or package.type != "ros.ament_python":
         return
-    version, span = script.version, script.version_span
+    version, span = script.project.version, script.project.version_span
     if not version or span is None or _short(version) == _short(manifest.version):
         return
     place = next(element.text_span for element in manifest.elements if element.tag == "version")

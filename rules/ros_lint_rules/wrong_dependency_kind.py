@@ -131,7 +131,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
             continue
         exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=False)))
         lacking = _lacks(package, workspace, exported, tags)
-        if lacking is None and any(target.kind == "library" and not target.test for target in package.built.targets):
+        if lacking is None and any(target.kind == "library" and not target.test for target in package.built.products.targets):
             exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=True)))
             lacking = _once_installed(_lacks(package, workspace, exported, tags))
         if lacking is None:
@@ -174,7 +174,7 @@ def _exported_uses(package: Package, need: dependencies.Need, *, assume_installe
 def _installed_headers(package: Package) -> dict[str, bool]:
     """Return the sources of installed headers, and whether they are installed in every build."""
     headers: dict[str, bool] = {}
-    for provided in package.built.installs:
+    for provided in package.built.products.installs:
         if provided.path.startswith("include/"):
             headers[provided.source] = headers.get(provided.source, False) or not provided.conditional
     return headers

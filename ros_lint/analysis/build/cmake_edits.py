@@ -23,9 +23,13 @@ def at_end(script: BuildScript, code: str) -> Edit | None:
 
     None if there is no such place.
     """
-    if script.insertion is None:
+    if script.commands.insertion is None:
         return None
-    return Edit(script.insertion_after, f"\n\n{code}") if script.insertion_after else Edit(script.insertion, f"{code}\n")
+    return (
+        Edit(script.commands.insertion_after, f"\n\n{code}")
+        if script.commands.insertion_after
+        else Edit(script.commands.insertion, f"{code}\n")
+    )
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
@@ -96,7 +100,7 @@ def exports_targets(name: str, workspace: Workspace) -> bool:
     own = workspace.by_name.get(name)
     if own is None:
         return workspace.world.exports_targets(name)
-    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.command_names) for package in own)
+    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.commands.names) for package in own)
 
 
 _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})

@@ -42,7 +42,7 @@ def config_names(name: str) -> tuple[str, str]:
 
 def has_extras(package: Package) -> bool:
     """Return whether find_package() runs code of the package, given by ament_package(CONFIG_EXTRAS)."""
-    if package.built.config_extras:
+    if package.built.exports.config_extras:
         return True
     return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
 
@@ -79,7 +79,9 @@ _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")
 
 def evaluated_name(package: Package, text: str) -> str | None:
     """Return the value of an argument, or None if it has other variables than the project's name."""
-    name = _PROJECT_NAME.sub(package.script.name if package.script and package.script.name else package.name, text)
+    name = _PROJECT_NAME.sub(
+        package.script.project.name if package.script and package.script.project.name else package.name, text
+    )
     return None if "$" in name or not name else name
 
 

@@ -17,7 +17,7 @@ from ros_lint.workspace.model import Package
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
     """Yield the executables that are built for use: neither tests nor targets with the name of a test."""
-    for target in script.targets:
+    for target in script.products.targets:
         if target.kind == "executable" and not target.test and "test" not in target.name:
             yield target
 
@@ -38,7 +38,7 @@ def installed_to_bin_only(package: Package, name: str) -> bool:
         return False
     if package.builds_with == "ament_cmake":
         return any(target.name == name for target in programs_built(script))
-    return any(provided.path == f"bin/{name}" for provided in script.installs)
+    return any(provided.path == f"bin/{name}" for provided in script.products.installs)
 
 
 _CLIENTS = frozenset({"rclcpp", "rclcpp_lifecycle", "rclcpp_action", "rclcpp_components"})
@@ -52,7 +52,11 @@ def may_run_built(script: BuildScript) -> bool:
 
     The commands that rosidl generates for interfaces do not count.
     """
-    calls = [call.name for call in script.calls] if "rosidl_generate_interfaces" in script.command_names else script.command_names
+    calls = (
+        [call.name for call in script.commands.calls]
+        if "rosidl_generate_interfaces" in script.commands.names
+        else script.commands.names
+    )
     return not _RUNS.isdisjoint(calls)
 
 
@@ -66,7 +70,7 @@ def node_targets(package: Package) -> frozenset[str]:
     files = files_using_client_library(package)
     return frozenset(
         target.name
-        for target in package.built.targets
+        for target in package.built.products.targets
         if target.kind == "executable" and (not files.isdisjoint(target.sources) or has_header(target, files))
     )
 
@@ -98,7 +102,7 @@ def is_declared_shared(package: Package, name: str) -> bool:
 def library_registering(package: Package, made: Registration) -> str:
     """Return the library, tests excluded, whose source registers a class, or ""."""
     path = package.relative(made.span.path)
-    for target in package.built.targets:
+    for target in package.built.products.targets:
         if target.kind == "library" and not target.test and path in target.sources:
             return target.name
     return ""
@@ -109,7 +113,9 @@ def installs_built(script: BuildScript) -> bool:
 
     The libraries that rosidl generates and installs do not count.
     """
-    built = (provided.path for provided in script.installs if provided.target or provided.path.startswith(("lib/", "bin/")))
+    built = (
+        provided.path for provided in script.products.installs if provided.target or provided.path.startswith(("lib/", "bin/"))
+    )
     return not all(_GENERATED in path for path in built)
 
 
@@ -129,7 +135,7 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
     Only files with one of the endings count.
     """
     places: dict[str, list[InstalledFile]] = {}
-    for provided in package.built.installs:
+    for provided in package.built.products.installs:
         if provided.target and provided.path.endswith(endings):
             places.setdefault(provided.target, []).append(provided)
     own = f"lib/{package.name}/"
@@ -166,7 +172,7 @@ def partly_installed_nodes(package: Package) -> frozenset[str]:
     if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES) or may_run_built(script):
         return frozenset()
     nodes = node_targets(package)
-    installed = {provided.target for provided in script.installs if provided.target}
+    installed = {provided.target for provided in script.products.installs if provided.target}
     if nodes.isdisjoint(installed):
         return frozenset()
     left_out = nodes - installed - install_arguments(package)

@@ -20,7 +20,7 @@ _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
     """Return the names in calls of find_package(), also of macros that find declared dependencies."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
-    calls = frozenset(script.command_names)
+    calls = frozenset(script.commands.names)
     if calls & _FIND_DECLARED:
         names.update(declared.name for declared in package.declared if declared.depend.tag in _AT_BUILD)
     if calls & FINDS_TESTS:
@@ -30,7 +30,7 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
 
 def finds_declared(package: Package) -> bool:
     """Return whether CMake finds all declared build dependencies and links them to every target."""
-    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.command_names)
+    return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.commands.names)
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:

@@ -33,7 +33,7 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
     world = workspace.world
     if is_traceless_by_name(workspace.world, name):
         return True
-    if package.script and package.script.interfaces and name in interface_names.UNDERLYING:
+    if package.script and package.script.products.interfaces and name in interface_names.UNDERLYING:
         return True
     if world.plugins(name).names:
         return True

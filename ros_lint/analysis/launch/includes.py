@@ -49,7 +49,7 @@ def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[t
     """Yield the files that the package installs below share/<package>, each with its path there."""
     by_source = {strip_folder(package.path, file.path): file for file in files}
     share = f"share/{package.name}/"
-    for provided in package.built.installs if by_source else ():
+    for provided in package.built.products.installs if by_source else ():
         file = by_source.get(provided.source)
         if file is not None and provided.path.startswith(share):
             yield file, provided.path[len(share) :]

@@ -95,23 +95,23 @@ def _provides(package: Package) -> Iterator[_Row]:
     script = package.script
     if script is None:
         return
-    for target in script.targets:
+    for target in script.products.targets:
         yield _Row(target.name, f"{target.kind} target{', test only' if target.test else ''}", target.span)
-    for component in script.components:
+    for component in script.products.components:
         yield _Row(component.name, f"component{_maybe(component.conditional)}", component.span)
-    for plugin in script.plugin_files:
+    for plugin in script.files.plugin_files:
         for library in plugin.libraries:
             for plugin_class in library.classes:
                 yield _Row(plugin_class.name, f"plugin for {plugin_class.base}", plugin_class.span)
-    for entry in script.entry_points:
+    for entry in script.products.entry_points:
         yield _Row(entry.name, f"{entry.group}: {entry.target}", entry.span)
-    start = script.name_span or package.span
-    yield from (_Row(interface, "interface", start) for interface in script.interfaces)
-    yield from (_Row(module, "Python module", start) for module in script.python_packages)
+    start = script.project.name_span or package.span
+    yield from (_Row(interface, "interface", start) for interface in script.products.interfaces)
+    yield from (_Row(module, "Python module", start) for module in script.products.python_packages)
 
 
 def _installs(package: Package) -> Iterator[_Row]:
-    for provided in sorted(package.built.installs, key=lambda provided: provided.path):
+    for provided in sorted(package.built.products.installs, key=lambda provided: provided.path):
         built = f"built as {provided.target}" if provided.target else "generated"
         source = f"from {provided.source}" if provided.source else built
         program = ", executable" if provided.program else ""

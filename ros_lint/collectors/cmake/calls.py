@@ -22,24 +22,24 @@ def collect(path: str, parsed: Parsed) -> Iterator[Call]:
     ``path`` is the path of the file, relative to the base of the run.
     """
     blocks: list[tuple[str, bool]] = []
-    around: tuple[str, ...] = ()
+    enclosing: tuple[str, ...] = ()
     test = asked = False
     for command in parsed.commands:
         name = command.name
         if name in _OPEN:
             blocks.append((name, name == "if" and _asks_for_tests(command)))
-            around, asked = _place(blocks)
+            enclosing, asked = _place(blocks)
         elif name[:3] == "end" and blocks and name[3:] in _OPEN:
             blocks.pop()
-            around, asked = _place(blocks)
+            enclosing, asked = _place(blocks)
         elif name in ("else", "elseif") and blocks:
             blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _asks_for_tests(command)))
-            around, asked = _place(blocks)
+            enclosing, asked = _place(blocks)
         elif name == "return":
             test = test or asked  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
         elif name not in _BLOCK_WORDS:
             _, _, args, start, end, line, column, breaks = command
-            yield Call(name, path, args, start, end, line, column, breaks, around, test or asked)
+            yield Call(name, path, args, start, end, line, column, breaks, enclosing, test or asked)
 
 
 def _place(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:

@@ -28,13 +28,22 @@ from ros_lint.collectors.cmake.evaluator import definitions as cmake_definitions
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator import loops as cmake_loops
 from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
-from ros_lint.collectors.cmake.evaluator.run import Run, folded
+from ros_lint.collectors.cmake.evaluator.found_packages import folded
+from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
 from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, Frame
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import Command, is_template
-from ros_lint.facts.build import BuildScript, Exported, InstalledFile
+from ros_lint.facts.build import (
+    BuildExports,
+    BuildProducts,
+    BuildScript,
+    CMakeBuild,
+    CMakeCommands,
+    ExportedTarget,
+    InstalledFile,
+)
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque, Problem
 
@@ -75,12 +84,12 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
 
     No content of the files raises an exception.
     """
-    run = Run(sources, distro, helpers, cmake_ros.foreign)
+    run = Run(sources, distro, helpers, cmake_ros.run_external_command)
     path = join(sources.path, _TOP)
     parsed = sources.scripts.get(_TOP)
     if parsed is None:
         return BuildScript(path, opaque=(Opaque(ALL_FACETS, "there is no CMakeLists.txt to read", file_start(path)),))
-    frame = Frame(True, path, run.named(_TOP))
+    frame = Frame(True, path, run.paths.named(_TOP))
     try:
         ended = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
@@ -97,54 +106,52 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
 def _result(run: Run, path: str) -> BuildScript:
     provides = [*_installed_files(run), *cmake_install_targets.installed_targets(run)]
     undefined = _undefined(run)
-    taken = _taken(run) if run.loose else {}
-    problems = [*run.problems, *_missing(run), *undefined]
+    taken = _taken(run) if run.packages.optional_finds else {}
+    problems = [*run.results.problems, *_missing(run), *undefined]
     nowhere = {problem.span for problem in undefined}  # an undefined target is an error of the script, so it hides nothing
-    opaques = [opaque for opaque in run.opaques if opaque.span not in nowhere or not opaque.undefined]
-    for file, parsed in run.sources.scripts.items():
-        if parsed.problems and not (is_template(file) or file in run.templates):
+    opaques = [opaque for opaque in run.results.opaques if opaque.span not in nowhere or not opaque.undefined]
+    for file, parsed in run.paths.sources.scripts.items():
+        if parsed.problems and not (is_template(file) or file in run.results.config_templates):
             problems += parsed.problems
             facets = ALL_FACETS if file == _TOP else ALL_FACETS & ~Facet.INTERFACES
             opaques += [Opaque(facets, "the file cannot be read to its end", problem.span) for problem in parsed.problems]
-    calls = tuple(sorted([call for call in run.calls if not call.startswith("ros_lint_")]))
+    calls = tuple(sorted([call for call in run.command_names if not call.startswith("ros_lint_")]))
     return BuildScript(
         path,
-        run.name,
-        run.name_span,
-        run.version,
-        run.version_span,
+        run.results.project,
         _mentions(run, taken),
-        cmake_targets.targets(run),
-        tuple(provides),
-        tuple(run.components),
-        (),
-        tuple(sorted(run.python_packages)),
-        tuple(sorted(run.interfaces)),
-        calls,
-        tuple(opaques),
-        tuple(problems),
-        run.end,
-        tuple(run.extras),
-        insertion_after=run.behind,
-        makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
-        subdirectories=tuple(run.entered),
-        test_subdirectories=tuple([folder for folder in run.entered_for_tests if folder]),
-        exported_packages=tuple(_handed_on(run)),
-        unused_optional_finds=tuple(_untaken(run, taken)),
-        bundled_projects=tuple(run.bundled),
-        includes_outside_package=run.reaches_out,
-        cmake_errors=tuple(_refused(run)),
-        interpreted_tests=_runs(run),
-        runs_tests=any(map(_RUNS_TESTS.search, calls)),
-        exported=tuple(_exported(run)),
-        commented_interfaces=tuple([name for parsed in run.sources.scripts.values() for name in parsed.set_aside]),
+        BuildProducts(
+            targets=cmake_targets.targets(run),
+            installs=tuple(provides),
+            components=tuple(run.results.components),
+            python_packages=tuple(sorted(run.results.python_packages)),
+            interfaces=tuple(sorted(run.results.interfaces)),
+        ),
+        exports=BuildExports(tuple(run.results.config_extras), tuple(_handed_on(run)), tuple(_exported(run))),
+        commands=CMakeCommands(calls, insertion=run.results.insertion, insertion_after=run.results.insertion_after),
+        cmake=CMakeBuild(
+            subdirectories=tuple(run.results.subdirectories),
+            test_subdirectories=tuple([folder for folder in run.results.test_subdirectories if folder]),
+            bundled_projects=tuple(run.results.bundled_projects),
+            unused_optional_finds=tuple(_untaken(run, taken)),
+            commented_interfaces=tuple([name for parsed in run.paths.sources.scripts.values() for name in parsed.set_aside]),
+            errors=tuple(_refused(run)),
+            interpreted_tests=_runs(run),
+            runs_tests=any(map(_RUNS_TESTS.search, calls)),
+            includes_outside_package=run.results.includes_outside_package,
+            makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
+        ),
+        opaque=tuple(opaques),
+        problems=tuple(problems),
     )
 
 
-def _exported(run: Run) -> Iterator[Exported]:
-    for made in run.installed_targets:
+def _exported(run: Run) -> Iterator[ExportedTarget]:
+    for made in run.results.installed_targets:
         if made.exported_in and is_known(made.exported_in):
-            yield Exported(made.target, made.exported_in, not made.conditional and made.exported_in in run.exported_sets)
+            yield ExportedTarget(
+                made.target, made.exported_in, not made.conditional and made.exported_in in run.results.exported_sets
+            )
 
 
 _MAKES_NOTHING: Final = frozenset(
@@ -161,9 +168,9 @@ def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
 
     Searches in functions and macros are left out, because they run only when the macro is called.
     """
-    for file in dict.fromkeys([*run.extras, *run.templates]):
+    for file in dict.fromkeys([*run.results.config_extras, *run.results.config_templates]):
         blocks: list[bool | None] = []  # for each enclosing block, whether it always runs; None for a function or macro
-        for command in run.sources.scripts[file].commands if file in run.sources.scripts else ():
+        for command in run.paths.sources.scripts[file].commands if file in run.paths.sources.scripts else ():
             words = [argument[0] for argument in command.args]
             if command.name in ("function", "macro"):
                 blocks.append(None)
@@ -174,10 +181,14 @@ def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
             elif command.name in ("else", "elseif") and blocks:
                 blocks[-1] = False
             elif command.name in ("find_package", "find_dependency") and words and _PLAIN_NAME.fullmatch(words[0]):
-                if None in blocks or words[0] in (run.name, run.sources.name) or words[0] in run.modules:
+                if (
+                    None in blocks
+                    or words[0] in (run.results.project.name, run.paths.sources.name)
+                    or words[0] in run.packages.find_modules
+                ):
                     continue
                 needed = "REQUIRED" in words or command.name == "find_dependency"
-                path = join(run.sources.path, file)
+                path = join(run.paths.sources.path, file)
                 what = f"{command.name}({words[0]}) for those who find this package"
                 yield Mention(words[0], "cmake", _first(path, command), what, not needed), all(blocks)
 
@@ -200,10 +211,10 @@ def _runs(run: Run) -> tuple[str, ...] | None:
 
     None if these are unknown: no known command runs tests, or an unknown command seems to run some.
     """
-    strange = (call for call in run.calls if _RUNS_TESTS.search(call) and not _is_known(run, call))
-    if run.calls.isdisjoint(cmake_ros.RUNNERS) or any(strange):
+    strange = (call for call in run.command_names if _RUNS_TESTS.search(call) and not _is_known(run, call))
+    if run.command_names.isdisjoint(cmake_ros.RUNNERS) or any(strange):
         return None
-    return tuple(run.ran)
+    return tuple(run.results.interpreted_tests)
 
 
 _RUNS_TESTS: Final = re.compile(r"pytest|launch_test|ros_test|add_test\Z|nose|isolated_test\Z")
@@ -214,9 +225,9 @@ def _is_known(run: Run, call: str) -> bool:
 
 
 def _installed_files(run: Run) -> list[InstalledFile]:
-    files, generated = run.files, run.generated
+    files, generated = run.paths.files, run.paths.generated
     installed_files = []
-    for provided in run.installed:
+    for provided in run.results.installed:
         if not provided.source or is_outside(provided.source) or provided.source in files:
             installed_files.append(provided)
         elif provided.source in generated:
@@ -230,16 +241,23 @@ def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
     Such a search is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
     macros of the package.
     """
-    if not run.loose:
-        return tuple(run.mentions)
-    guarded = {span for name in run.loose if f"{name}_FOUND" in run.tested for span in run.loose[name]}
-    tests = {span for name in run.loose if taken.get(folded(name)) for span in run.loose[name]}
+    if not run.packages.optional_finds:
+        return tuple(run.results.mentions)
+    guarded = {
+        span
+        for name in run.packages.optional_finds
+        if f"{name}_FOUND" in run.tested_variables
+        for span in run.packages.optional_finds[name]
+    }
+    tests = {
+        span for name in run.packages.optional_finds if taken.get(folded(name)) for span in run.packages.optional_finds[name]
+    }
     return tuple(
         [
             mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
             if mention.via == "cmake"
             else mention
-            for mention in run.mentions
+            for mention in run.results.mentions
         ]
     )
 
@@ -250,7 +268,7 @@ def _taken(run: Run) -> dict[str, bool]:
     The keys are folded names (see :func:`folded`).
     """
     taken: dict[str, bool] = {}
-    for mention in run.mentions:
+    for mention in run.results.mentions:
         if mention.via in ("target", "macro"):
             name = folded(mention.name.partition("::")[0])
             taken[name] = mention.test and taken.get(name, True)
@@ -259,12 +277,12 @@ def _taken(run: Run) -> dict[str, bool]:
 
 def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
     """Yield the places of find_package() calls without REQUIRED whose package is named nowhere else."""
-    if not run.loose:
+    if not run.packages.optional_finds:
         return
     known = {macro.package for macro in macros().values()}
-    for name in _unnamed(run, [name for name in run.loose if folded(name) not in taken]):
+    for name in _unnamed(run, [name for name in run.packages.optional_finds if folded(name) not in taken]):
         if not name.startswith("ament_") and (name in known or not _WORKS_BY_BEING_FOUND.search(name)):
-            yield from run.loose[name]
+            yield from run.packages.optional_finds[name]
 
 
 _WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
@@ -278,7 +296,7 @@ def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
     candidates = list(names)
     if not candidates:
         return candidates
-    commands = (command for parsed in (*run.sources.scripts.values(), *run.around) for command in parsed.commands)
+    commands = (command for parsed in (*run.paths.sources.scripts.values(), *run.outside_scripts) for command in parsed.commands)
     words = [argument[0] for command in commands if command.name != "find_package" for argument in command.args]
     text = "\n".join(words).replace("_", "").replace("-", "").lower()
     return [name for name in candidates if folded(name) not in text]
@@ -286,10 +304,10 @@ def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
 
 def _missing(run: Run) -> list[Problem]:
     problems = []
-    for path, span, unsure in run.missing:
+    for path, span, unsure in run.results.missing_files:
         source = path.rstrip("/")
         # CMake accepts a folder in a list of sources and ignores it.
-        if not unsure and run.generated.isdisjoint((source, path)) and not run.is_folder(source):
+        if not unsure and run.paths.generated.isdisjoint((source, path)) and not run.paths.is_folder(source):
             empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
             message = f"'{source}' does not exist" if source == path else empty
             problems.append(Problem("missing-file", message, span, subject=source))
@@ -297,18 +315,22 @@ def _missing(run: Run) -> list[Problem]:
 
 
 def _undefined(run: Run) -> list[Problem]:
-    if run.wild or any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
+    if run.any_variable_may_be_set or any(
+        opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.results.opaques
+    ):
         return []
     return [
         Problem("undefined-target", f"install() fails because '{name}' is not a target", span)
-        for name, span, conditional in run.undefined
+        for name, span, conditional in run.results.undefined_targets
         if not conditional and "__rosidl" not in name
     ]
 
 
 def _refused(run: Run) -> Iterator[Problem]:
-    yield from run.refused
-    if not run.wild and not any(opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.opaques):
-        for (name, command), span in run.given.items():
+    yield from run.results.errors
+    if not run.any_variable_may_be_set and not any(
+        opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.results.opaques
+    ):
+        for (name, command), span in run.results.modified_targets.items():
             if name not in run.targets and "__rosidl" not in name:
                 yield Problem("undefined-target", f"{command}() fails because '{name}' is not a target", span, subject=name)

@@ -13,7 +13,7 @@ from ros_lint.facts.setup_py import EditableList
 
 def slot(script: BuildScript, option: str) -> EditableList | None:
     """Return the list of an option, None if it is no list literal or is empty."""
-    return next((editable for editable in script.editable_lists if editable.option == option and editable.size), None)
+    return next((editable for editable in script.python.editable_lists if editable.option == option and editable.size), None)
 
 
 def add(to: EditableList, element: str) -> Edit:
@@ -28,7 +28,7 @@ def add(to: EditableList, element: str) -> Edit:
 def place(script: BuildScript) -> Span:
     """Return the place in a build script where install rules can be added, else the name of the package."""
     data_files = slot(script, "data_files")
-    return script.insertion or (data_files.end if data_files else script.name_span) or file_start(script.path)
+    return script.commands.insertion or (data_files.end if data_files else script.project.name_span) or file_start(script.path)
 
 
 def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
@@ -98,7 +98,7 @@ _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
 def program_folders(script: BuildScript) -> dict[str, Span]:
     """Return the places in setup.cfg that set the folder of programs, by ``section.option``."""
     wanted = {f"{section}.{option}" for section, option in _FOLDERS}
-    return {text.text: text.span for text in script.editable_texts if text.kind == "option" and text.text in wanted}
+    return {text.text: text.span for text in script.python.editable_texts if text.kind == "option" and text.text in wanted}
 
 
 def config(place: Span, package: str) -> Edit:
@@ -111,7 +111,7 @@ def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
 
     Empty if there is no setup.cfg.
     """
-    headers = {text.text: text.span for text in script.editable_texts if text.kind == "section"}
+    headers = {text.text: text.span for text in script.python.editable_texts if text.kind == "section"}
     end = headers.get("")
     if end is None:
         return ()

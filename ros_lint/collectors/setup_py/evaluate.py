@@ -26,7 +26,7 @@ from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.program import Program, Setup
 from ros_lint.collectors.setup_py.interpreter.values import Module, Value
 from ros_lint.collectors.setup_py.options import completed
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import BuildProject, BuildScript, SetupScript
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
@@ -79,11 +79,12 @@ def evaluate(
             reason = f"setup() of {setup.module} may install more than its arguments say"
             found.append(Opaque(INSTALLED | Facet.LIBRARIES, reason, call))
         script = _with(script, distribution, options, place, call)
+    modules = tuple(sorted({*script.products.python_packages, *program.generated}))
     return script._replace(
-        python_packages=tuple(sorted({*script.python_packages, *program.generated})),
+        products=script.products._replace(python_packages=modules),
         opaque=tuple(dict.fromkeys([*script.opaque, *found])),
         problems=tuple(dict.fromkeys([*script.problems, *(cfg.problems if cfg else ())])),
-        editable_texts=cfg.texts if cfg else (),
+        python=script.python._replace(editable_texts=cfg.texts if cfg else ()),
     )
 
 
@@ -110,7 +111,8 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
         )
     )
     script = script._replace(
-        problems=tuple(_failing(program, tree, source)), syntax=() if newer and is_of_others(source) else newer
+        problems=tuple(_failing(program, tree, source)),
+        python=SetupScript(newer_syntax=() if newer and is_of_others(source) else newer),
     )
     if program.end or not program.setups:
         reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
@@ -181,14 +183,18 @@ def _with(
     """Return a build script with the results of one call of setup() added."""
     name, version = options.get("name"), options.get("version")
     return script._replace(
-        name=str(name) if isinstance(name, str) else "",
-        name_span=place(name, call) if isinstance(name, str) else None,
-        version=str(version) if isinstance(version, str) else "",
-        version_span=place(version, call) if isinstance(version, str) else None,
-        installs=(*script.installs, *distribution.provides),
-        entry_points=(*script.entry_points, *distribution.entry_points),
-        python_packages=(*script.python_packages, *distribution.python_packages),
-        relocated_modules=(*script.relocated_modules, *distribution.moved),
+        project=BuildProject(
+            name=str(name) if isinstance(name, str) else "",
+            name_span=place(name, call) if isinstance(name, str) else None,
+            version=str(version) if isinstance(version, str) else "",
+            version_span=place(version, call) if isinstance(version, str) else None,
+        ),
+        products=script.products._replace(
+            installs=(*script.products.installs, *distribution.provides),
+            entry_points=(*script.products.entry_points, *distribution.entry_points),
+            python_packages=(*script.products.python_packages, *distribution.python_packages),
+        ),
+        python=script.python._replace(relocated_modules=(*script.python.relocated_modules, *distribution.moved)),
         opaque=(*script.opaque, *distribution.opaque),
         problems=(*script.problems, *distribution.problems),
     )

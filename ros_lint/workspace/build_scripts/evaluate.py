@@ -31,13 +31,13 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     """Return the evaluated script of each package in the given order, None if it has no script."""
     result: list[BuildScript | None] = [None] * len(packages)
     helpers: dict[str, Helper] = {}
-    around = Surroundings(tree)
+    surroundings = Surroundings(tree)
     in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
     for number in in_order:
         parts = packages[number]
         try:
             if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, around))
+                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, surroundings))
             elif script := _python(tree, parts.found):
                 result[number] = with_files(tree, parts.found, parts.commands, script)
         except Exception as error:  # a bug in ros-lint for one script must not cost the user the others
@@ -45,23 +45,23 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     return result
 
 
-def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], around: Surroundings) -> BuildScript:
+def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], surroundings: Surroundings) -> BuildScript:
     from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
     from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
 
-    seen = sources(tree, parts, around)
+    seen = sources(tree, parts, surroundings)
     script = cmake.evaluate(seen, distro, helpers)
-    if script.config_extras and parts.found.name not in opaque_packages():
+    if script.exports.config_extras and parts.found.name not in opaque_packages():
         helpers[parts.found.name] = Helper(seen, script)
     folder = parts.found.path
     written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
-    return script._replace(calls=tuple(chain.from_iterable(written)))
+    return script._replace(commands=script.commands._replace(calls=tuple(chain.from_iterable(written))))
 
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
     path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
-    return BuildScript(path, opaque=(Opaque(ALL_FACETS, reason, file_start(path)),), failed=True)
+    return BuildScript(path, opaque=(Opaque(ALL_FACETS, reason, file_start(path), unchecked=True),))
 
 
 def _python(tree: Tree, found: DiscoveredPackage) -> BuildScript | None:
@@ -76,9 +76,11 @@ def _python(tree: Tree, found: DiscoveredPackage) -> BuildScript | None:
     unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
     opaque = [Opaque(ALL_FACETS, "it cannot be read", file_start(path)) for path in unread]
     return script._replace(
-        editable_lists=slots,
-        editable_texts=(*script.editable_texts, *texts),
-        entry_point_modules=tuple(_modules(tree, found, script)),
+        python=script.python._replace(
+            editable_lists=slots,
+            editable_texts=(*script.python.editable_texts, *texts),
+            entry_point_modules=tuple(_modules(tree, found, script)),
+        ),
         opaque=(*script.opaque, *opaque),
     )
 
@@ -86,7 +88,7 @@ def _python(tree: Tree, found: DiscoveredPackage) -> BuildScript | None:
 def _modules(tree: Tree, found: DiscoveredPackage, script: BuildScript) -> Iterator[PythonModule]:
     """Yield the modules of the package that its entry points name."""
     files = frozenset(found.files)
-    for name in dict.fromkeys(entry.module for entry in script.entry_points):
+    for name in dict.fromkeys(entry.module for entry in script.products.entry_points):
         stem = name.replace(".", "/")
         ends = (f"{stem}.py", f"{stem}/__init__.py")
         path = next((f"{top}{end}" for end in ends for top in ("", "src/") if f"{top}{end}" in files), None)

@@ -12,7 +12,7 @@ from ros_lint.base.tree import Tree, contents, text_of
 from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.collectors.launch.detect import is_of_ros_1
 from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
-from ros_lint.facts.build import BuildScript, ScriptFile
+from ros_lint.facts.build import BuildFiles, BuildScript, ScriptFile
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.build_scripts import resources as resource_files
 from ros_lint.workspace.discovery.discover import DiscoveredPackage
@@ -34,15 +34,15 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
 
     ``commands`` are its CMake files, by path relative to the package.
     """
-    named = {call.texts[1] for call in script.calls if call.name.startswith("pluginlib_export") and len(call.args) > 1}
+    named = {call.texts[1] for call in script.commands.calls if call.name.startswith("pluginlib_export") and len(call.args) > 1}
     markup = [file for file in found.files if file.endswith(".xml")]
     candidates = [file for file in markup if file in named or _PLUGIN_FILE.search(file)]
     described = (plugin_xml.collect(file, text) for file in candidates if (text := text_in(tree, found, file)))
     plugins = tuple([plugin for plugin in described if plugin])
     started = (f"lib/{found.name}/", "bin/")
-    sources = dict.fromkeys([p.source for p in script.installs if p.source and p.path.startswith(started)])
+    sources = dict.fromkeys([p.source for p in script.products.installs if p.source and p.path.startswith(started)])
     folders = {file.rpartition("/")[0] for file in sources}
-    if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.installs):
+    if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.products.installs):
         folders.add(found.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(found.files, folders)))
     executables = Executables(tree, found)
@@ -50,7 +50,7 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
     files = [_script_file(file, text, file in executables) for file, text in texts.items()]
     files = [file._replace(helper=_is_helper(file, texts)) for file in files]
     files = _with_runs(tree, found, script, files)
-    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled_resources(found.files, script.installed)
+    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled_resources(found.files, script.products.installed)
     if not (plugins or files or missing):
         return script
     texts_that_name = contents(tree, found.path, filter(resource_files.may_name, found.files)) if missing else ()
@@ -59,15 +59,13 @@ def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Pars
     naming = [(path, data) for path, data in every if not (macros and macros.search(data))]
     in_sources = [data for _, data in every if macros and macros.search(data)]
     pages = [*contents(tree, found.path, (file for file in found.files if file.endswith(".md")))] if missing else []
+    build_inputs = (
+        *_inputs(commands, missing, [file.path for file in files]),
+        *_read_in_sources(found, missing, [*naming, *pages]),
+        *(f"{folder}/" for folder in missing if any(b'"/%s/' % to_bytes(folder) in data for data in in_sources)),
+    )
     return script._replace(
-        plugin_files=plugins,
-        scripts=tuple(files),
-        referenced_resources=tuple(_named(tree, found, missing, naming)),
-        build_inputs=(
-            *_inputs(commands, missing, [file.path for file in files]),
-            *_read_in_sources(found, missing, [*naming, *pages]),
-            *(f"{folder}/" for folder in missing if any(b'"/%s/' % to_bytes(folder) in data for data in in_sources)),
-        ),
+        files=BuildFiles(plugins, tuple(files), tuple(_named(tree, found, missing, naming)), build_inputs),
     )
 
 
@@ -187,12 +185,12 @@ def _with_runs(tree: Tree, found: DiscoveredPackage, script: BuildScript, files:
     candidates, too, because entry points make programs of them.
     """
     if script.of_cmake:
-        kept = script.installed
+        kept = script.products.installed
         lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
         run = _run(tree, found, lost, _TELLS) if lost else {}
         return [file._replace(run=run.get(file.path)) for file in files] if run else files
-    names = {provided.path.rpartition("/")[2] for provided in script.installs if not provided.path.startswith("share/")}
-    named = {entry.module.replace(".", "/") for entry in script.entry_points}
+    names = {provided.path.rpartition("/")[2] for provided in script.products.installs if not provided.path.startswith("share/")}
+    named = {entry.module.replace(".", "/") for entry in script.products.entry_points}
     inside = (file for file in found.files if file.startswith(f"{found.name}/") and file.endswith(".py"))
     modules = [file for file in inside if file.removesuffix(".py") not in named]
     lost = [f for f in (*modules, *_programs(found.files, ())) if names.isdisjoint(_called(f)) and not is_auxiliary(f)]

@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 
 from ros_lint.base.paths import is_below, join, strip_folder
 from ros_lint.base.tree import Entry, Tree, text_of
-from ros_lint.collectors.cmake.evaluator.sources import Around, Sources
+from ros_lint.collectors.cmake.evaluator.sources import OutsideTree, Sources
 from ros_lint.collectors.cmake.syntax import Parsed, parse
 from ros_lint.workspace.build_scripts.files import Executables, text_in
 from ros_lint.workspace.discovery.discover import NEVER, DiscoveredPackage
@@ -35,7 +35,7 @@ class Parts(NamedTuple):
 
 
 class Surroundings:
-    """A tree as the scripts of its packages see it; :class:`Around` documents the methods.
+    """A tree as the scripts of its packages see it; :class:`OutsideTree` documents the methods.
 
     Targets of links that lead out of the tree are not visible. For a package that is reached by a link nothing
     around it is visible, because ``..`` then depends on the path.
@@ -48,10 +48,10 @@ class Surroundings:
         self._files: dict[str, Sequence[str]] = {}
         self._scripts: dict[str, Parsed | None] = {}
 
-    def of(self, package: str) -> Around:
+    def of(self, package: str) -> OutsideTree:
         """Return the view for the scripts of the package at a path."""
         plain = not package or self._tree.identity(package) == join(self._base, package)
-        return Around(self.kind, self.below, self.script) if plain else Around()
+        return OutsideTree(self.kind, self.below, self.script) if plain else OutsideTree()
 
     def kind(self, path: str) -> str:
         folder, _, name = path.rpartition("/")
@@ -97,8 +97,8 @@ class Surroundings:
         return found
 
 
-def sources(tree: Tree, parts: Parts, around: Surroundings) -> Sources:
-    """Return the inputs for the scripts of a package; ``around`` is shared by all packages of the tree."""
+def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
+    """Return the inputs for the scripts of a package; ``surroundings`` is shared by all packages of the tree."""
     found, depends = parts.found, parts.depends
     built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
     version = found.manifest.version if found.manifest else ""
@@ -117,8 +117,8 @@ def sources(tree: Tree, parts: Parts, around: Surroundings) -> Sources:
         depends.get("s", ()),
         unseen,
         texts,
-        partial(_look, found, around),
-        around.of(found.path),
+        partial(_look, found, surroundings),
+        surroundings.of(found.path),
     )
 
 
@@ -148,8 +148,8 @@ class _Scripts(Mapping[str, Parsed]):
         return len(self._parsed)
 
 
-def _look(found: DiscoveredPackage, around: Surroundings, folder: str) -> list[str]:
+def _look(found: DiscoveredPackage, surroundings: Surroundings, folder: str) -> list[str]:
     """Return the files below a skipped folder of a package; empty if not all are visible."""
     if any(skipped.path == folder and skipped.link for skipped in found.unseen):
         return []
-    return [strip_folder(found.path, file) for file in around.below(join(found.path, folder))]
+    return [strip_folder(found.path, file) for file in surroundings.below(join(found.path, folder))]

@@ -145,7 +145,7 @@ class FileRoles:
 
         If all tests that are run are known, only an installed file may be run.
         """
-        sees_all = self._script.interpreted_tests is not None or self._tests_nothing
+        sees_all = self._script.cmake.interpreted_tests is not None or self._tests_nothing
         return path in self._launched and (not sees_all or path in self._installed)
 
     def _is_of_ros_1(self, path: str) -> bool:
@@ -155,7 +155,7 @@ class FileRoles:
 
     def _is_of_tests(self, path: str) -> bool:
         """Return whether a file is in a folder that is built only for tests, and is not always installed."""
-        of_tests = tuple([f"{folder}/" for folder in self._script.test_subdirectories])
+        of_tests = tuple([f"{folder}/" for folder in self._script.cmake.test_subdirectories])
         return path.startswith(of_tests) and path not in self._always_installed
 
     def _is_of_python_package(self, path: str, *, idle: bool) -> bool:
@@ -178,7 +178,7 @@ class FileRoles:
     def _is_run(self, path: str) -> bool:
         """Return whether a Python file is run as a test, or is next to such a file."""
         folder, _, name = path.rpartition("/")
-        runs = self._script.interpreted_tests
+        runs = self._script.cmake.interpreted_tests
         if runs is None:
             return _is_test(name) or folder in self._folders_with_tests
         if path in runs or "" in runs or path.startswith(tuple([f"{run}/" for run in runs])):
@@ -200,12 +200,12 @@ class FileRoles:
     @cached_property
     def _sees_sources(self) -> bool:
         """True if the sources of each target are known."""
-        return all(target.sources_known for target in self._script.targets)
+        return all(target.sources_known for target in self._script.products.targets)
 
     @cached_property
     def _named(self) -> frozenset[str]:
         """Folders with built or installed files, each with the suffix of such a file."""
-        files = {source for target in self._script.targets for source in target.sources}
+        files = {source for target in self._script.products.targets for source in target.sources}
         files.update(self._installed)
         split = [file.rpartition("/") for file in files]
         return frozenset([f"{folder}/*{name[name.rfind('.') :]}" for folder, _, name in split])
@@ -221,18 +221,18 @@ class FileRoles:
         """Folders with separate projects that are not certainly part of the build of this package."""
         split = (file.rpartition("/") for file in self._files)
         return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(
-            self._script.subdirectories
+            self._script.cmake.subdirectories
         )
 
     @cached_property
     def _runs_python_tests(self) -> bool:
         """True if Python tests are run: always in a Python package, in CMake packages if the script says so."""
-        return self._script.runs_tests or not self._script.of_cmake
+        return self._script.cmake.runs_tests or not self._script.of_cmake
 
     @cached_property
     def _tests_nothing(self) -> bool:
         """True if CMake builds and runs no tests: then nothing starts the files among them."""
-        return not self._runs_python_tests and not any(target.test for target in self._script.targets)
+        return not self._runs_python_tests and not any(target.test for target in self._script.products.targets)
 
     @cached_property
     def _folders_with_tests(self) -> frozenset[str]:
@@ -247,7 +247,7 @@ class FileRoles:
 
     @cached_property
     def _installed_headers(self) -> frozenset[str]:
-        return frozenset([p.source for p in self._script.installs if p.path.startswith("include/")])
+        return frozenset([p.source for p in self._script.products.installs if p.path.startswith("include/")])
 
     @cached_property
     def _public(self) -> frozenset[str]:
@@ -274,8 +274,8 @@ class FileRoles:
         script = self._script
         if not self._sees_targets or not self._sees_sources or not self._production:
             return frozenset()
-        if any(target.kind != "executable" for target in script.targets if not target.test) or _OFFERS.intersection(
-            script.command_names
+        if any(target.kind != "executable" for target in script.products.targets if not target.test) or _OFFERS.intersection(
+            script.commands.names
         ):
             return frozenset()
         return self._public - self._own.reached(self._installed_headers) - self._production - self._tests - self._optional
@@ -283,7 +283,7 @@ class FileRoles:
     @cached_property
     def _installed_for_tests(self) -> frozenset[str]:
         """Files that are installed only when tests are built."""
-        provides = self._script.installs
+        provides = self._script.products.installs
         always = {p.source for p in provides if not p.test}
         return frozenset([p.source for p in provides if p.test and p.source not in always])
 
@@ -293,7 +293,7 @@ class FileRoles:
         if not self._sees_script or self._script.hides(Facet.INTERFACES):
             return None
         files = (file for file in self._files if file.endswith(INTERFACES))
-        return frozenset([file for file in files if _interface(file) in self._script.interfaces])
+        return frozenset([file for file in files if _interface(file) in self._script.products.interfaces])
 
     @cached_property
     def _production(self) -> frozenset[str]:
@@ -306,7 +306,7 @@ class FileRoles:
     @cached_property
     def _optional(self) -> frozenset[str]:
         """Files that are compiled, or included by compiled files, in some builds only."""
-        sources = {source for target in self._script.targets for source in target.optional_sources}
+        sources = {source for target in self._script.products.targets for source in target.optional_sources}
         return self._own.reached(sources) - self._production - self._tests if sources else frozenset()
 
     @cached_property
@@ -318,7 +318,7 @@ class FileRoles:
         """Return the sources compiled in every build, also by one of two alternative targets of one name."""
         found: set[str] = set()
         sometimes: dict[str, list[set[str]]] = {}
-        for target in self._script.targets:
+        for target in self._script.products.targets:
             if target.test is test:
                 found.update(
                     target.sources if not target.optional_sources else set(target.sources).difference(target.optional_sources)
@@ -332,20 +332,20 @@ class FileRoles:
 
     @cached_property
     def _installed(self) -> frozenset[str]:
-        return self._script.installed
+        return self._script.products.installed
 
     @cached_property
     def _started(self) -> frozenset[str]:
         """Files that users start: launch files and programs that are always installed, and entry points."""
-        always = [(p.source, p.path) for p in self._script.installs if p.source and not p.conditional]
+        always = [(p.source, p.path) for p in self._script.products.installs if p.source and not p.conditional]
         found = {source for source, path in always if source in self._launched or path.startswith(_PROGRAMS)}
-        commands = [entry for entry in self._script.entry_points if entry.group in ("console_scripts", "gui_scripts")]
+        commands = [entry for entry in self._script.products.entry_points if entry.group in ("console_scripts", "gui_scripts")]
         modules = [entry.module.replace(".", "/") for entry in commands]
         return frozenset([*found, *(f"{folder}{module}.py" for module in modules for folder in ("", "src/"))])
 
     @cached_property
     def _always_installed(self) -> frozenset[str]:
-        always = [p.source for p in self._script.installs if p.source and not p.conditional]
+        always = [p.source for p in self._script.products.installs if p.source and not p.conditional]
         return self._in_python_packages.union(always)
 
     @cached_property
@@ -361,16 +361,16 @@ class FileRoles:
 
     @cached_property
     def _installed_python(self) -> frozenset[str]:
-        found = {p.source for p in self._script.installs if p.source and p.path.startswith(_PROGRAMS)}
+        found = {p.source for p in self._script.products.installs if p.source and p.path.startswith(_PROGRAMS)}
         return self._in_python_packages | found
 
     @cached_property
     def _in_python_packages(self) -> frozenset[str]:
         """Files of installed Python packages, as far as Python can import them."""
-        if not self._script.python_packages:
+        if not self._script.products.python_packages:
             return frozenset()
-        packages = [name.replace(".", "/") for name in self._script.python_packages]
-        moved = self._script.relocated_modules
+        packages = [name.replace(".", "/") for name in self._script.products.python_packages]
+        moved = self._script.python.relocated_modules
         inside = (*(f"{package}/" for package in packages), *(path for path in moved if path.endswith("/")))
         modules = frozenset([*moved, *(f"{package}{suffix}" for package in packages for suffix in (".py", ".py.in"))])
         below = [file for file in self._files if file.startswith(inside)]
@@ -390,7 +390,7 @@ class FileRoles:
     def _imported_folders(self) -> frozenset[str]:
         """Folders from which a file imports or that contain an entry point, including those of other packages."""
         names = {mention.name for facts in self._facts.values() for mention in facts.mentions if mention.via == "import"}
-        names.update([entry.module for entry in self._script.entry_points])
+        names.update([entry.module for entry in self._script.products.entry_points])
         paths = {path for name in names for path in accumulate(name.split("."), "{}/{}".format)}
         return frozenset([*paths, *(f"src/{path}" for path in paths)])
 

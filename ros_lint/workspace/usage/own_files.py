@@ -87,7 +87,7 @@ class OwnFiles:
 
         Left out are tests, sources that some builds omit, and targets with unknown include directories.
         """
-        targets = [t for t in (self.script or NOTHING_BUILT).targets if t.headers is not None and not t.test]
+        targets = [t for t in (self.script or NOTHING_BUILT).products.targets if t.headers is not None and not t.test]
         sources = dict.fromkeys([source for t in targets for source in t.sources if source not in t.optional_sources])
         return {source: self._along(source) for source in sources if source in self.facts}
 
@@ -176,7 +176,7 @@ class OwnFiles:
 
     @cached_property
     def _installed_modules(self) -> frozenset[str]:
-        names = self.script.python_packages if self.script else ()
+        names = self.script.products.python_packages if self.script else ()
         return frozenset([name.partition(".")[0] for name in names])
 
 
@@ -193,9 +193,9 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
     no folder that is missing from ``packages``.
     """
     yield from _unlisted(files, script, facts)
-    provides = script.installs
+    provides = script.products.installs
     programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
-    modules = [(m.name, m.path) for m in script.entry_point_modules if m.path in facts and "." in m.name]
+    modules = [(m.name, m.path) for m in script.python.entry_point_modules if m.path in facts and "." in m.name]
     if not (programs or modules):
         return
     known = frozenset(files)
@@ -223,10 +223,10 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
 
     An entry point's module is certainly started.
     """
-    if not script.python_packages or script.of_cmake:
+    if not script.products.python_packages or script.of_cmake:
         return
-    packages = frozenset(script.python_packages)
-    started = {module.path for module in script.entry_point_modules}
+    packages = frozenset(script.products.python_packages)
+    started = {module.path for module in script.python.entry_point_modules}
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
     known = frozenset(files)
     for path, of_file in facts.items():

@@ -14,7 +14,7 @@ def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[s
     Such a header includes a file of the package that is not installed, a header that Qt generates from a form
     (``ui_*.h``), or another such header. ``facts``, ``files`` and the result have paths relative to the package.
     """
-    provided = [file for file in script.installs if file.path.startswith("include/")]
+    provided = [file for file in script.products.installs if file.path.startswith("include/")]
     headers = sorted({file.source for file in provided if file.source in facts})
     if not headers:
         return ()

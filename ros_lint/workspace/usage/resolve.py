@@ -81,7 +81,7 @@ class Resolver:
         self.names = names
         self._headers = include_index(sources)
         self._sources = frozenset([source.name for source in sources])
-        self._empty = frozenset([source.name for source in sources if source.built.makes_nothing])
+        self._empty = frozenset([source.name for source in sources if source.built.cmake.makes_nothing])
         self._ask: Mapping[Via, Callable[[str], Answer]] = {
             "include": self._include,
             "import": self._imported,
@@ -206,7 +206,7 @@ def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...
 def _add_script(source: Source, uses: _Uses) -> None:
     """Add the names in the build script, and the packages that it finds on behalf of dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
-    untaken = frozenset(source.built.unused_optional_finds)
+    untaken = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:
         if mention.purpose == "plugins":
             continue  # the loader of the plugins is optional, and headers name the package of the base class
@@ -216,7 +216,7 @@ def _add_script(source: Source, uses: _Uses) -> None:
         ours.append(mention._replace(optional=True) if only_named else mention)
     for (path, role), mentions in by_role.items():
         uses.add(strip_folder(source.path, path), mentions, role, role, sure=True)
-    for mention, always in source.built.exported_packages:
+    for mention, always in source.built.exports.packages:
         uses.add(strip_folder(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
     _unspoken(source, uses)
 
@@ -236,8 +236,8 @@ class _Uses:
         self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].optional_modules])
         self._added = frozenset([span for facts in source.facts.values() for span in facts.path_additions])
         script = source.built
-        self._reaches_out = script.includes_outside_package
-        self._bundled = frozenset([name.lower() for name in script.bundled_projects])
+        self._reaches_out = script.cmake.includes_outside_package
+        self._bundled = frozenset([name.lower() for name in script.cmake.bundled_projects])
         self._found_always = frozenset(
             [mention.name for mention in script.mentions if mention.via == "cmake" and not (mention.optional or mention.test)]
         )
@@ -318,7 +318,7 @@ def _lenient(source: Source, alive: FileRoles) -> list[str]:
 
 def _unspoken(source: Source, uses: _Uses) -> None:
     """Add the implicit use of action_msgs: rosidl generates actions with its types."""
-    if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.interfaces):
+    if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.products.interfaces):
         return
     for mention in source.built.mentions:
         if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):

@@ -108,7 +108,7 @@ def unwritten(tree: Tree, package: Package) -> frozenset[str]:
     Empty if a macro may compose names, because the full name need not be in a source.
     """
     made = {registration.name for registration in package.registrations}
-    plugins = package.built.plugin_files
+    plugins = package.built.files.plugin_files
     described = [entry.type for plugin in plugins for library in plugin.libraries for entry in library.classes]
     wanted = [name for name in dict.fromkeys(described) if name not in made]
     if not wanted:

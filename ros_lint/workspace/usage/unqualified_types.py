@@ -82,7 +82,7 @@ class Types:
 
     def _wanted(self, source: Source, name: str) -> _Wanted:
         other = self._by_name.get(name)
-        if other is not None and not (other.script and other.script.interfaces):
+        if other is not None and not (other.script and other.script.products.interfaces):
             return self._declared(other)
         along = self._along(source.name)
         types = [self._of_messages(name, *place) for place in self._naming.get(name, ()) if place[0] in along]

@@ -46,7 +46,7 @@ def _reads_interfaces(package: Package) -> bool:
     """Return whether all generated interface files are read, so that the types of their fields are known."""
     given = generated_from(package)
     read = {package.relative(file.path) for file in package.interface_files if not file.problems}
-    return len(given) == len(package.built.interfaces) and given <= read and not package.hidden(Facet.INTERFACES)
+    return len(given) == len(package.built.products.interfaces) and given <= read and not package.hidden(Facet.INTERFACES)
 
 
 def generated_from(package: Package) -> frozenset[str]:
@@ -55,7 +55,7 @@ def generated_from(package: Package) -> frozenset[str]:
     Paths are relative to the package.
     """
     script = package.built
-    if package.builds_with != "ament_cmake" or "rosidl_generate_interfaces" not in script.command_names:
+    if package.builds_with != "ament_cmake" or "rosidl_generate_interfaces" not in script.commands.names:
         return frozenset()
-    ends = tuple([f"/{interface}.{interface.partition('/')[0]}" for interface in script.interfaces])
-    return frozenset([p.source for p in script.installs if p.source and p.path.endswith(ends) and not p.conditional])
+    ends = tuple([f"/{interface}.{interface.partition('/')[0]}" for interface in script.products.interfaces])
+    return frozenset([p.source for p in script.products.installs if p.source and p.path.endswith(ends) and not p.conditional])

@@ -53,7 +53,7 @@ def makes_something(package: Package) -> bool:
     if script is None or package.opaque or builds_something(package):
         return True
     by_rote = ("share/ament_index/", f"share/{package.name}/package.xml", f"share/{package.name}/cmake/")
-    return any(not provided.path.startswith(by_rote) for provided in script.installs)
+    return any(not provided.path.startswith(by_rote) for provided in script.products.installs)
 
 
 def builds_something(package: Package) -> bool:
@@ -64,5 +64,5 @@ def builds_something(package: Package) -> bool:
     script = package.script
     if script is None:
         return False
-    made = script.targets or script.interfaces or script.python_packages or script.components
-    return bool(made) or any(provided.path.startswith("include/") for provided in script.installs)
+    made = script.products.targets or script.products.interfaces or script.products.python_packages or script.products.components
+    return bool(made) or any(provided.path.startswith("include/") for provided in script.products.installs)

@@ -141,7 +141,7 @@ class LookUp:
         packages = self._workspace.by_name.get(package, ())
         name = path.removeprefix(f"share/{package}/")
         for candidate in packages:
-            for provided in candidate.built.installs:
+            for provided in candidate.built.products.installs:
                 if provided.path == path:
                     if not provided.source:
                         return Absent("it is generated when the package is built", surely=False)
@@ -176,4 +176,4 @@ class LookUp:
 
 def _share_files(package: Package) -> list[str]:
     share_folder = f"share/{package.name}/"
-    return [file.path[len(share_folder) :] for file in package.built.installs if file.path.startswith(share_folder)]
+    return [file.path[len(share_folder) :] for file in package.built.products.installs if file.path.startswith(share_folder)]

@@ -32,7 +32,7 @@ _TESTER = re.compile(
 _GENERATES: Final = "rosidl_generate_interfaces"
 
 
-def foreign(run: Run, name: str, args: list[str]) -> int | None:
+def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
     """Run a command that neither CMake nor the package defines."""
     macro = released(name)
     if macro is not None:
@@ -46,8 +46,8 @@ def foreign(run: Run, name: str, args: list[str]) -> int | None:
     run.open_world = True
     hidden = Facet.USES
     if not _TESTER.search(name):
-        run.wild = True
-        run.builds = run.builds or _BUILDER.search(name) is not None
+        run.any_variable_may_be_set = True
+        run.may_define_targets = run.may_define_targets or _BUILDER.search(name) is not None
         if _PRODUCER.search(name):
             hidden = ALL_FACETS
         elif _is_given_data(run, args):
@@ -62,7 +62,7 @@ def _is_given_data(run: Run, args: list[str]) -> bool:
     The command probably installs such a folder.
     """
     words = frozenset([plain for arg in args if is_known(plain := sure(arg)[0])])
-    below = [file for file in run.files if not words.isdisjoint(_folders(file))]
+    below = [file for file in run.paths.files if not words.isdisjoint(_folders(file))]
     return bool(below) and not any(file.endswith(SOURCES) for file in below)
 
 
@@ -79,20 +79,20 @@ def _component(run: Run, args: list[str]) -> None:
         if not is_known(name):
             run.hide(Facet.COMPONENTS, "the class of a component is not known")
         elif not run.muted:
-            run.components.append(Component(name, run.conditional or run.testing or not certain, run.where(arg)))
-            run.registered.append(run.scopes[-1])
+            run.results.components.append(Component(name, run.conditional or run.testing or not certain, run.where(arg)))
+            run.component_scopes.append(run.scopes[-1])
 
 
 def _exported(run: Run, args: list[str]) -> None:
     """``ros_lint_exported(sets...)``: packages that find this one have the targets of these export sets."""
     if not (run.muted or run.conditional or run.testing):
-        run.exported_sets.update(dict.fromkeys([name for name, certain in map(sure, args) if certain]))
+        run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(sure, args) if certain]))
 
 
 def _interfaces(run: Run, args: list[str]) -> None:
     """``ros_lint_interfaces(install|- files...)``: interface files to generate code from."""
     project = run.get("PROJECT_NAME") or ""
-    package = project if is_known(project) else run.sources.name or run.name
+    package = project if is_known(project) else run.paths.sources.name or run.results.project.name
     for arg in args[1:]:
         plain, certain = sure(arg)
         path = plain.rpartition(":")[2] if ":" in plain else plain
@@ -104,21 +104,23 @@ def _interfaces(run: Run, args: list[str]) -> None:
             continue
         if run.muted:
             continue
-        run.interfaces[f"{suffix if suffix != 'idl' else kind}/{stem}"] = None
+        run.results.interfaces[f"{suffix if suffix != 'idl' else kind}/{stem}"] = None
         span = run.where(arg)
-        source = run.source(plain.replace(":", "/") if ":" in plain else plain)
+        source = run.paths.source(plain.replace(":", "/") if ":" in plain else plain)
         conditional = run.conditional or run.testing or not certain
-        if source is not None and source not in run.files:
-            run.missing.append((source, span, conditional))
+        if source is not None and source not in run.paths.files:
+            run.results.missing_files.append((source, span, conditional))
         if args[0] == "install":
-            written = source if source is not None and source not in run.generated else ""
+            written = source if source is not None and source not in run.paths.generated else ""
             # rosidl_adapter writes a generated .idl file to the folder of its kind (msg, srv, action)
             places = [(folder, "idl", written)] if suffix == "idl" else [(kind, suffix, written), (suffix, "idl", "")]
             for place, end, made in places:
-                run.installed.append(InstalledFile(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span))
+                run.results.installed.append(
+                    InstalledFile(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span)
+                )
     if not run.muted and len(args) > 1:
-        run.python_packages[package] = None
-    elif not run.wild:
+        run.results.python_packages[package] = None
+    elif not run.any_variable_may_be_set:
         run.problem("no-interfaces", f"{_GENERATES}() is called without interface files", run.here(), package)
 
 
@@ -130,39 +132,41 @@ def _python(run: Run, args: list[str]) -> None:
     if run.muted or not args:
         return
     name = args[0].replace("/", ".")
-    run.python_packages[name] = None
-    folder = run.reached(args[1]) if len(args) > 1 else None
-    if folder is None or (is_outside(folder) and not run.below(folder)):
-        if len(args) > 1 and (HOLE in args[1] or run.leads_out(args[1])):
+    run.results.python_packages[name] = None
+    folder = run.paths.reached(args[1]) if len(args) > 1 else None
+    if folder is None or (is_outside(folder) and not run.paths.below(folder)):
+        if len(args) > 1 and (HOLE in args[1] or run.paths.leads_out(args[1])):
             run.hide(Facet.PYTHON, "the folder of a Python package is not known")
         return
     span = run.where(args[0])
     base = run.get("PYTHON_INSTALL_DIR") or ""
     skip = len(folder) + 1 if folder else 0
     conditional = run.conditional or run.testing
-    more = unlisted(run, folder, Facet.PYTHON, span) if run.sources.unseen else []
-    files = (*run.below(folder), *more)
+    more = unlisted(run, folder, Facet.PYTHON, span) if run.paths.sources.unseen else []
+    files = (*run.paths.below(folder), *more)
     run.charge(FILE * len(files))
     for file in files:
         if file.endswith(".py"):
             inner = posixpath.dirname(file[skip:])
             if inner:
-                run.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
+                run.results.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
         path = join_path(join_path(base, args[0]), file[skip:])
         if is_known(path) and not file.endswith((".pyc", ".pyo")):
-            run.installed.append(InstalledFile(path, run.listed(file), False, conditional, span))
+            run.results.installed.append(InstalledFile(path, run.paths.listed(file), False, conditional, span))
 
 
 def _scripts(run: Run, args: list[str]) -> None:
     """``ros_lint_console_scripts(destination setup.cfg)``: its console_scripts are installed as programs."""
-    path = run.source(args[1])
-    text = run.sources.texts.get(path) if path is not None else None
-    destination = run.destination(args[0])
+    path = run.paths.source(args[1])
+    text = run.paths.sources.texts.get(path) if path is not None else None
+    destination = run.paths.destination(args[0])
     if text is None or destination is None:
         run.hide(Facet.EXECUTABLES, "the console_scripts of a setup.cfg cannot be read")
         return
     for name in console_scripts(text):
-        run.installed.append(InstalledFile(join_path(destination, name), "", True, run.conditional or run.testing, run.here()))
+        run.results.installed.append(
+            InstalledFile(join_path(destination, name), "", True, run.conditional or run.testing, run.here())
+        )
 
 
 def console_scripts(text: str) -> list[str]:
@@ -180,10 +184,10 @@ def console_scripts(text: str) -> list[str]:
 
 def _provide(run: Run, args: list[str]) -> None:
     """``ros_lint_provide(path [program])``: a generated file is installed."""
-    path = run.destination(args[0])
+    path = run.paths.destination(args[0])
     if path is not None and not run.muted:
         program = "program" in args[1:]
-        run.installed.append(InstalledFile(path, "", program, run.conditional or run.testing, run.here()))
+        run.results.installed.append(InstalledFile(path, "", program, run.conditional or run.testing, run.here()))
 
 
 def _headers(run: Run, args: list[str]) -> None:
@@ -203,21 +207,23 @@ def _package(run: Run, args: list[str]) -> None:
     name = run.get("PROJECT_NAME") or ""
     span = run.here()
     conditional = run.conditional or run.testing
-    given = sections(args, dict.fromkeys(_EXTRAS, -1)) if args else {}
+    parts = sections(args, dict.fromkeys(_EXTRAS, -1)) if args else {}
     for word in _EXTRAS:
-        files = [*given.get(word, ()), *elements(run.normal(f"{name}_{word}") or "")]
+        files = [*parts.get(word, ()), *elements(run.normal(f"{name}_{word}") or "")]
         if files:
             _extras(run, name, files, conditional)
     if is_known(name):
-        found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.files else []
+        found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.paths.files else []
         found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
-        run.installed += [InstalledFile(path, source, False, conditional, span) for path, source in found]
-    if run.registered and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
-        for number, scope in enumerate(run.registered):
+        run.results.installed += [InstalledFile(path, source, False, conditional, span) for path, source in found]
+    if run.component_scopes and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
+        for number, scope in enumerate(run.component_scopes):
             if not any(scope is seen for seen in run.scopes):
-                run.components[number] = run.components[number]._replace(lost=True)
-        if all(component.lost for component in run.components):
-            run.installed[:] = [provided for provided in run.installed if not provided.path.startswith(_COMPONENT_INDEX)]
+                run.results.components[number] = run.results.components[number]._replace(lost=True)
+        if all(component.lost for component in run.results.components):
+            run.results.installed[:] = [
+                provided for provided in run.results.installed if not provided.path.startswith(_COMPONENT_INDEX)
+            ]
     _end(run)
 
 
@@ -233,25 +239,32 @@ def _needed(run: Run, args: list[str]) -> None:
     """``ros_lint_needed(files...)``: files without which ament stops with an error (assert_file_exists)."""
     for arg in args:
         plain, certain = sure(arg)
-        path, span = run.source(plain), run.where(arg)
+        path, span = run.paths.source(plain), run.where(arg)
         # The path is relative to the file with the call, which is the current directory only for a CMakeLists.txt.
-        if path and path not in run.files and not (run.muted or run.is_unseen(path)) and span.path.endswith("CMakeLists.txt"):
-            run.missing.append((path, span, run.conditional or run.testing or not certain))
+        if (
+            path
+            and path not in run.paths.files
+            and not (run.muted or run.paths.is_unseen(path))
+            and span.path.endswith("CMakeLists.txt")
+        ):
+            run.results.missing_files.append((path, span, run.conditional or run.testing or not certain))
 
 
 def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
     _needed(run, files)
     for file in files:
         plain, certain = sure(file)
-        path = run.source(plain)
-        source = next((candidate for candidate in (path, f"{path}.in") if path is not None and candidate in run.files), None)
+        path = run.paths.source(plain)
+        source = next(
+            (candidate for candidate in (path, f"{path}.in") if path is not None and candidate in run.paths.files), None
+        )
         written = posixpath.basename(source or plain)
         if source is not None:
-            run.extras.append(source)
+            run.results.config_extras.append(source)
         elif path is not None or not is_known(written):
             continue
         installed = f"share/{name}/cmake/{written.removesuffix('.in')}"
-        run.installed.append(InstalledFile(installed, source or "", False, conditional or not certain, run.where(file)))
+        run.results.installed.append(InstalledFile(installed, source or "", False, conditional or not certain, run.where(file)))
 
 
 def _end(run: Run) -> None:
@@ -260,15 +273,21 @@ def _end(run: Run) -> None:
     If a blank line precedes ament_package(), the end of the command before it is recorded as well.
     """
     frame = next(frame for frame in reversed(run.frames) if frame.own)
-    top = join_path(run.sources.path, "CMakeLists.txt")
-    if run.end is None and not run.unsure and frame.procedure is None and frame.path == top and frame.command:
-        run.end = frame.command.place(frame.path).start()
-        commands = run.sources.scripts["CMakeLists.txt"].commands
+    top = join_path(run.paths.sources.path, "CMakeLists.txt")
+    if (
+        run.results.insertion is None
+        and not run.uncertain_conditions
+        and frame.procedure is None
+        and frame.path == top
+        and frame.command
+    ):
+        run.results.insertion = frame.command.place(frame.path).start()
+        commands = run.paths.sources.scripts["CMakeLists.txt"].commands
         before = next((earlier for earlier, later in pairwise(commands) if later.start == frame.command.start), None)
         if before is not None:
             lines = frame.command.line - before.line - len(before.breaks)
             if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # LF or CRLF
-                run.behind = before.span(frame.path, before.end, before.end)
+                run.results.insertion_after = before.span(frame.path, before.end, before.end)
 
 
 def _unknown(run: Run, args: list[str]) -> None:
@@ -281,23 +300,23 @@ def _unknown(run: Run, args: list[str]) -> None:
 def _of_index(run: Run, args: list[str]) -> None:
     """``ros_lint_of_index(variable)``: the value of a variable is read from the ament index."""
     _unknown(run, args)
-    run.of_index.update(args)
+    run.index_variables.update(args)
 
 
 def _package_xml(run: Run, _args: list[str]) -> None:
     """``ros_lint_package_xml()``: sets the name and the version of the package from package.xml."""
-    name = run.sources.name
+    name = run.paths.sources.name
     run.set("_AMENT_PACKAGE_NAME", name)
-    run.set(f"{name}_VERSION", run.sources.version or HOLE)
+    run.set(f"{name}_VERSION", run.paths.sources.version or HOLE)
     run.set(f"{name}_MAINTAINER", HOLE)
 
 
 def _test_executable(run: Run, args: list[str]) -> None:
     """``ros_lint_test_executable(target sources...)``: a test program, even outside of if(BUILD_TESTING)."""
     testing, run.testing = run.testing, True
-    given = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # drops SKIP_TEST etc.
+    arguments = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # drops SKIP_TEST etc.
     try:
-        run_handler(run, "add_executable", sections(given, _TEST_WORDS)[""])
+        run_handler(run, "add_executable", sections(arguments, _TEST_WORDS)[""])
     finally:
         run.testing = testing
 
@@ -318,11 +337,11 @@ def _vendor(run: Run, args: list[str]) -> None:
 def _tests(run: Run, args: list[str]) -> None:
     """``ros_lint_runs(paths...)`` and ``add_test()``: files or folders that an interpreter runs as tests."""
     for arg in args:
-        path = run.source(sure(arg)[0])
+        path = run.paths.source(sure(arg)[0])
         if path is None and HOLE in arg:
-            run.ran[""] = None
-        elif path in run.files or (path and run.is_folder(path)):
-            run.ran[path] = None
+            run.results.interpreted_tests[""] = None
+        elif path in run.paths.files or (path and run.paths.is_folder(path)):
+            run.results.interpreted_tests[path] = None
 
 
 RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})

@@ -28,6 +28,7 @@ from ros_lint.collectors.cmake.evaluator.values import (
     split,
 )
 from ros_lint.collectors.cmake.syntax import parse
+from ros_lint.facts.build import BuildProject
 from ros_lint.facts.visibility import ALL_FACETS
 
 
@@ -82,7 +83,7 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
         run.set(name, HOLE)
     elif new or force or kind == "INTERNAL":
         run.put(run.cache, name, value)
-        if run.versions < (3, 21):  # policy CMP0126
+        if run.policy_version < (3, 21):  # policy CMP0126
             run.set(name, None)
 
 
@@ -112,7 +113,7 @@ def _option(run: Run, args: list[str]) -> None:
     usual = _switch(args[2]) if len(args) > 2 else "OFF"
     run.settable.add(name)
     value = run.normal(name)
-    if value is not None and run.versions >= (3, 13):  # policy CMP0077
+    if value is not None and run.policy_version >= (3, 13):  # policy CMP0077
         if not certainly_set(value):
             run.put(run.cache, name, merge([run.cache.get(name), usual]))
             run.set(name, HOLE)
@@ -138,7 +139,7 @@ def _message(_run: Run, args: list[str]) -> int | None:
 
 
 def _return(run: Run, args: list[str]) -> int:
-    if "PROPAGATE" in args and run.versions >= (3, 25):  # policy CMP0140
+    if "PROPAGATE" in args and run.policy_version >= (3, 25):  # policy CMP0140
         for name in args[args.index("PROPAGATE") + 1 :]:
             run.return_to_caller(name, run.get(name))
     return RETURN
@@ -165,7 +166,7 @@ def _policy(run: Run, args: list[str]) -> None:
 
 
 def _policies(run: Run, wanted: str) -> None:
-    run.versions = _version(wanted) or run.versions
+    run.policy_version = _version(wanted) or run.policy_version
 
 
 @kept(256)
@@ -183,14 +184,16 @@ def _project(run: Run, args: list[str]) -> None:
     number = ""
     if "VERSION" in args[1:-1]:
         number = args[args.index("VERSION") + 1]
-    top = not run.name and not run.directory
-    if run.directory and is_known(name):
-        run.bundled[name] = None
+    top = not run.results.project.name and not run.paths.directory
+    if run.paths.directory and is_known(name):
+        run.results.bundled_projects[name] = None
     if top:
-        run.name = name if is_known(name) else ""
-        run.name_span = run.where(args[0]) if run.name else None
+        project = BuildProject(name, run.where(args[0])) if name and is_known(name) else BuildProject()
         if is_known(number) and number:
-            run.version, run.version_span = number, run.where(number)
+            run.results.project = project._replace(version=number, version_span=run.where(number))
+        else:
+            before = run.results.project
+            run.results.project = project._replace(version=before.version, version_span=before.version_span)
         run.set("CMAKE_PROJECT_NAME", name)
         run.places["CMAKE_INSTALL_DOCDIR"] = f"share/doc/{name}"
     folder, build = run.places["CMAKE_CURRENT_SOURCE_DIR"], run.places["CMAKE_CURRENT_BINARY_DIR"]
@@ -219,18 +222,18 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
         if rest is None:  # the arguments are unknown, so any keyword may be among them
             run.set_all(dict.fromkeys(parse_keywords(prefix, options, ones, multis, ()), HOLE))
             return
-        given = [arg.replace(";", "\\;") for arg in rest]
+        arguments = [arg.replace(";", "\\;") for arg in rest]
     else:
         prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
-        given = args[4:]
-        if ";" in "".join(given):
-            given = [element for arg in given for element in split(arg)]
-        elif "" in given:
-            given = [arg for arg in given if arg]
+        arguments = args[4:]
+        if ";" in "".join(arguments):
+            arguments = [element for arg in arguments for element in split(arg)]
+        elif "" in arguments:
+            arguments = [arg for arg in arguments if arg]
     if not is_known(f"{prefix}{options}{ones}{multis}"):
         return
     run.charge(len(prefix) * sum(names.count(";") for names in (options, ones, multis)))
-    run.set_all(parse_keywords(prefix, options, ones, multis, given))
+    run.set_all(parse_keywords(prefix, options, ones, multis, arguments))
 
 
 def _rest_of_call(run: Run, first: str) -> list[str] | None:
@@ -263,7 +266,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         commands = parse(Text(frame.path, " ".join(args[2:]))).commands
         return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
-        run.open_world = run.wild = run.builds = True
+        run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
         run.hide(ALL_FACETS, f"what cmake_language({mode}) runs is not known")
     elif len(args) > 1:
         run.set(args[-1], HOLE)
@@ -274,12 +277,12 @@ def _folder_sources(run: Run, args: list[str]) -> None:
     """``aux_source_directory(folder variable)``."""
     if len(args) < 2 or HOLE in args[1]:
         return
-    folder = run.source(args[0])
+    folder = run.paths.source(args[0])
     if folder is None:
         run.set(args[1], HOLE)
         return
     skip = len(folder) + 1 if folder else 0
-    files = run.below(folder)
+    files = run.paths.below(folder)
     run.charge(SLOW * len(files))
     names = [file[skip:] for file in files if "/" not in file[skip:]]
     sources = [
@@ -293,9 +296,9 @@ def _execute_process(run: Run, args: list[str]) -> None:
 
     With ``COMMAND cmake -S folder ...`` it builds a project in a folder of the package.
     """
-    folder = run.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
-    if folder and run.is_folder(folder) and not run.muted:
-        run.bundled[posixpath.basename(folder)] = None
+    folder = run.paths.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
+    if folder and run.paths.is_folder(folder) and not run.muted:
+        run.results.bundled_projects[posixpath.basename(folder)] = None
     started(run, args)
     for keyword in ("RESULT_VARIABLE", "OUTPUT_VARIABLE", "ERROR_VARIABLE", "RESULTS_VARIABLE"):
         for index in range(len(args) - 1):

@@ -118,17 +118,17 @@ def run_released(run: Run, macro: Released, args: list[str]) -> Exit:
     text = "".join(args)
     if macro.direct is not None and ";" not in text:
         primitive, words = macro.direct
-        run.calls.add(primitive)
+        run.command_names.add(primitive)
         return HANDLERS[primitive](run, [*words, *args]) or NEXT
     if macro.steps is None or _NOT_PLAIN.search(text):
         return call(run, macro.procedure, args)
     parameters = macro.procedure.parameters
-    given = [arg for arg in args[len(parameters) :] if arg]
-    values: dict[str, str | None] = parse_keywords(*macro.keywords, given) if macro.keywords else {}
+    rest = [arg for arg in args[len(parameters) :] if arg]
+    values: dict[str, str | None] = parse_keywords(*macro.keywords, rest) if macro.keywords else {}
     values.update(zip(parameters, args, strict=False))
     for name in parameters[len(args) :]:
         values[name] = ""
-    values["ARGN"] = join(given)
+    values["ARGN"] = join(rest)
     run.frames.append(macro.frame)
     try:
         return _run_steps(run, macro.steps, values, 0)
@@ -155,7 +155,7 @@ def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], 
             if handler is None or name in run.procedures:
                 ended = run_named(run, name, args)
             else:
-                run.calls.add(name)
+                run.command_names.add(name)
                 ended = handler(run, args) or NEXT
         finally:
             if tests:

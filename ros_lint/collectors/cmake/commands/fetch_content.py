@@ -22,7 +22,7 @@ def _declare(run: Run, args: list[str]) -> None:
     Scripts may use the project under names that are derived from its address.
     """
     if args and is_known(args[0]):
-        run.fetched[args[0].lower()] = _called(args)
+        run.fetched_projects[args[0].lower()] = _called(args)
 
 
 def _called(args: list[str]) -> list[str]:
@@ -47,9 +47,9 @@ def _make_available(run: Run, args: list[str]) -> None:
     _fetch(run, args, args)
 
 
-def _fetch(run: Run, given: list[str], args: list[str]) -> None:
-    names = [name for name in given if is_known(name)]
-    called = [alias for name in names for alias in run.fetched.get(name.lower(), ())]
+def _fetch(run: Run, projects: list[str], args: list[str]) -> None:
+    names = [name for name in projects if is_known(name)]
+    called = [alias for name in names for alias in run.fetched_projects.get(name.lower(), ())]
     _from_elsewhere(run, [*names, *called], args)
     for name in names:
         run.set(f"{name.lower()}_SOURCE_DIR", HOLE)
@@ -64,7 +64,7 @@ def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
     """
     run.open_world = True
     if not run.muted:
-        run.bundled.update(dict.fromkeys(names))
+        run.results.bundled_projects.update(dict.fromkeys(names))
     hidden = Facet.USES | Facet.LIBRARIES
     if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
         hidden |= Facet.EXECUTABLES | Facet.SHARE

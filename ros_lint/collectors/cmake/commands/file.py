@@ -30,8 +30,8 @@ def _file(run: Run, args: list[str]) -> None:
             generate(run, made, folder=True)
     elif mode in ("COPY_FILE", "RENAME", "CREATE_LINK") and len(args) > 2:
         generate(run, args[2])
-        if mode == "RENAME" and not run.unsure:
-            run.generated.discard(run.source(args[1]) or "")
+        if mode == "RENAME" and not run.uncertain_conditions:
+            run.paths.generated.discard(run.paths.source(args[1]) or "")
     elif mode == "COPY" and "DESTINATION" in args[:-1]:
         at = args.index("DESTINATION")
         _copy(run, args[1:at], args[at + 1])
@@ -62,8 +62,8 @@ def _copy(run: Run, copied: list[str], destination: str) -> None:
     A relative destination is in the build folder.
     """
     for path in copied if destination.startswith("/") else ():
-        source = run.source(path)
-        generate(run, f"{destination}/{posixpath.basename(path)}", folder=source is not None and run.is_folder(source))
+        source = run.paths.source(path)
+        generate(run, f"{destination}/{posixpath.basename(path)}", folder=source is not None and run.paths.is_folder(source))
 
 
 def _glob(run: Run, args: list[str], recurse: bool) -> None:
@@ -105,11 +105,11 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
     fixed = next((index for index, part in enumerate(parts) if any(letter in part for letter in "*?[")), len(parts) - 1)
     fixed = min(fixed, len(parts) - 1)
     top = "/".join(parts[:fixed])
-    folder = run.reached(top)
-    if folder is None or (is_outside(folder) and not run.below(folder)):
+    folder = run.paths.reached(top)
+    if folder is None or (is_outside(folder) and not run.paths.below(folder)):
         return [HOLE]
     whole = of_paths(parts[fixed:], recurse=recurse)
-    files = [strip_folder(folder, file) for file in run.below(folder)]
+    files = [strip_folder(folder, file) for file in run.paths.below(folder)]
     run.charge(SLOW * len(files))
     found = [file for file in files if whole.fullmatch(octets(file))]
     if folders:
@@ -198,18 +198,18 @@ def _configure(run: Run, args: list[str]) -> None:
         output = args[1]
         if not output.startswith("/") and is_fixed(output):
             output = f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{output}"
-        path = run.build(output)
+        path = run.paths.build(output)
         if path is None:
             generate(run, output)
         elif not run.muted:
-            run.configured[path] = run.configured.get(path, False) or not run.conditional
+            run.paths.configured[path] = run.paths.configured.get(path, False) or not run.conditional
 
 
 def _configure_config(run: Run, args: list[str]) -> None:
     """``configure_package_config_file(input output ...)``."""
-    path = run.source(args[0]) if args else None
-    if path in run.files and not run.unsure and not run.testing:
-        run.templates[path] = None
+    path = run.paths.source(args[0]) if args else None
+    if path in run.paths.files and not run.uncertain_conditions and not run.testing:
+        run.results.config_templates[path] = None
 
 
 COMMANDS: Final[dict[str, Handler]] = {

@@ -8,16 +8,21 @@ from typing import Final
 
 from ros_lint.base.suggestions import shorten_list
 from ros_lint.base.text import Span
-from ros_lint.collectors.cmake.commands.include import include_foreign, include_own
-from ros_lint.collectors.cmake.commands.include_directories import ALL_TARGETS, FOREIGN_VARIABLE, found_as, given, given_folders
+from ros_lint.collectors.cmake.commands.include import include_of_package, include_own
+from ros_lint.collectors.cmake.commands.include_directories import (
+    ALL_TARGETS,
+    PACKAGE_VARIABLE,
+    record_header_sources,
+    record_include_directories,
+)
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
-from ros_lint.collectors.cmake.evaluator.values import ATOM, FOREIGN, HOLE, TREE, is_known, maybe, split, sure
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, OTHER_PACKAGE, TREE, is_known, maybe, split, sure
 from ros_lint.collectors.cmake.released_macros import VISIBILITY
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sources import Purpose
 from ros_lint.facts.visibility import ALL_FACETS, Facet, Problem
 
-_FOREIGN_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
+_NAMESPACED_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
@@ -44,9 +49,13 @@ def find_package(run: Run, args: list[str]) -> int | None:
             run.hide(Facet.USES, "find_package() of a name that is not known")
         return None
     if (run.get(f"{name}_DIR") or "").startswith(f"{TREE}/") and not run.muted:
-        run.bundled[name] = None  # the script sets X_DIR to a folder of the sources
+        run.results.bundled_projects[name] = None  # the script sets X_DIR to a folder of the sources
     required = "REQUIRED" in args
-    module = run.modules.get(name) if run.modules and "CONFIG" not in args and "NO_MODULE" not in args else None
+    module = (
+        run.packages.find_modules.get(name)
+        if run.packages.find_modules and "CONFIG" not in args and "NO_MODULE" not in args
+        else None
+    )
     span = run.where(args[0]) if name else run.here()
     is_own_search = run.at_home() or (run.is_helped() and span != run.here())  # or the package passes the name to a helper
     if name and module is None and is_own_search and not run.is_bundled(name):
@@ -55,12 +64,17 @@ def find_package(run: Run, args: list[str]) -> int | None:
         if name in _PYTHON and any(arg.startswith("Development") for arg in args):
             run.mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
         if not required and not run.muted:
-            run.loose.setdefault(name, []).append(span)
-        if name == run.sources.name and required and certain and not (run.muted or run.unsure or run.normal(f"{name}_DIR")):
+            run.packages.optional_finds.setdefault(name, []).append(span)
+        if (
+            name == run.paths.sources.name
+            and required
+            and certain
+            and not (run.muted or run.uncertain_conditions or run.normal(f"{name}_DIR"))
+        ):
             says = f"find_package({name}) looks for this package itself, which is not installed yet; link its targets instead"
-            run.refused[Problem("no-package", says, span, subject=name)] = None
+            run.results.errors[Problem("no-package", says, span, subject=name)] = None
     found(run, name, required=required and certain)
-    if module is not None and all(frame.file != run.named(module) for frame in run.frames):
+    if module is not None and all(frame.file != run.paths.named(module) for frame in run.frames):
         return include_own(run, module)
     return None
 
@@ -79,40 +93,40 @@ def found(run: Run, name: str, *, required: bool) -> None:
         run.set(f"{name}_FOUND", "0")
         return
     # Scripts for several build tools test whether ament_cmake is found. It is, if package.xml declares it for the build.
-    if required or (name == _BUILD_TOOL and name in run.sources.build_depends):
-        run.put(run.packages, name, "1")
+    if required or (name == _BUILD_TOOL and name in run.paths.sources.build_depends):
+        run.put(run.packages.certain, name, "1")
         if run.normal(f"{name}_FOUND") is not None:
             run.set(f"{name}_FOUND", "1")
     else:
         run.set(f"{name}_FOUND", HOLE)
     run.open_world = True
-    run.prefixes[name] = True
+    run.packages.prefixes[name] = True
     if name in _SHARED_LIBRARIES and run.get("BUILD_SHARED_LIBS") is None:
         run.put(run.cache, "BUILD_SHARED_LIBS", "ON")
         run.settable.add("BUILD_SHARED_LIBS")
     helper = run.helpers.get(name)
-    if helper is None or name == run.sources.name:
+    if helper is None or name == run.paths.sources.name:
         return
-    run.set(f"{name}_DIR", f"{FOREIGN}{name}/share/{name}/cmake")
-    if name in run.included:
+    run.set(f"{name}_DIR", f"{OTHER_PACKAGE}{name}/share/{name}/cmake")
+    if name in run.packages.included:
         return
-    run.put(run.included, name, "1")
-    for source in helper.script.config_extras:
+    run.put(run.packages.included, name, "1")
+    for source in helper.script.exports.config_extras:
         if source in helper.sources.scripts:
-            include_foreign(run, name, source)
+            include_of_package(run, name, source)
         else:
             run.hide(Facet.USES, f"the CMake code of {name} is not in sight")
 
 
 def _find_all(run: Run, args: list[str]) -> None:
     """``ros_lint_find(build|test)``: the dependencies that package.xml declares are searched."""
-    names = run.sources.test_depends
+    names = run.paths.sources.test_depends
     if args[:1] == ["build"]:
-        names = run.sources.build_depends
+        names = run.paths.sources.build_depends
         run.set(f"{run.get('PROJECT_NAME') or ''}_FOUND_BUILD_DEPENDS", _FOUND_DECLARED)
     run.open_world = True
-    run.prefixes.update(dict.fromkeys(names, True))
-    packages = run.packages
+    run.packages.prefixes.update(dict.fromkeys(names, True))
+    packages = run.packages.certain
     for name in names:
         if name not in packages:
             run.put(packages, name, "1")
@@ -133,7 +147,7 @@ def _uses(run: Run, args: list[str]) -> None:
         if name in _NO_PACKAGES:
             continue
         if name == _FOUND_DECLARED and purpose == "interfaces":
-            _uses(run, [*args[:2], *map(maybe, run.sources.build_depends)])  # maybe, because rosdep keys are not found
+            _uses(run, [*args[:2], *map(maybe, run.paths.sources.build_depends)])  # maybe, because rosdep keys are not found
         if HOLE in name:
             if _may_become_package(name):
                 run.hide(Facet.USES, "the name of a package is not known")
@@ -142,47 +156,49 @@ def _uses(run: Run, args: list[str]) -> None:
                 certainly[name] = run.where(arg)
             what = f"{args[1]} {name}" if args[1] != "-" else ""
             run.mention(name, "target", run.where(arg), what, optional=not certain, purpose=purpose)
-    if certainly and not (run.muted or run.unsure):
+    if certainly and not (run.muted or run.uncertain_conditions):
         _doubt(run, args[1].partition(" ")[0], certainly)
 
 
-def _doubt(run: Run, command: str, given: Mapping[str, Span]) -> None:
+def _doubt(run: Run, command: str, places: Mapping[str, Span]) -> None:
     """Record arguments that a command rejects, because they can never be found as packages."""
-    targets = [name for name in given if "::" in name] if command.startswith("ament_") else []
+    targets = [name for name in places if "::" in name] if command.startswith("ament_") else []
     if targets:
         are = "is a target" if len(targets) == 1 else "are targets"
-        _refuse(run, command, f"{shorten_list(targets)} {are}", given[targets[0]], targets[0])
-    own = run.sources.name
-    asked = own in given and command == "ament_target_dependencies"
-    if asked and own not in run.packages and run.normal(f"{own}_FOUND") is None:
-        _refuse(run, command, f"'{own}' is this package; link its targets with target_link_libraries()", given[own], own)
+        _refuse(run, command, f"{shorten_list(targets)} {are}", places[targets[0]], targets[0])
+    own = run.paths.sources.name
+    asked = own in places and command == "ament_target_dependencies"
+    if asked and own not in run.packages.certain and run.normal(f"{own}_FOUND") is None:
+        _refuse(run, command, f"'{own}' is this package; link its targets with target_link_libraries()", places[own], own)
 
 
 def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
     says = f"{command}() expects packages that are found, but {what}"
-    run.refused[Problem("no-package", says, span, subject=name)] = None
+    run.results.errors[Problem("no-package", says, span, subject=name)] = None
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
     """``ros_lint_target_uses(how target names...)``: a target uses packages."""
     _give(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
-    given(run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names])
+    record_header_sources(
+        run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names]
+    )
     _uses(run, ["-", args[0], *args[2:]])
 
 
 def _give(run: Run, command: str, args: list[str]) -> None:
     """Record that a command modifies a target, if this is certain even without tests."""
     name, certain = sure(args[0]) if args else ("", False)
-    if certain and not (run.muted or run.unsure or run.testing) and is_known(name) and "::" not in name:
-        run.given.setdefault((name, command), run.here())
+    if certain and not (run.muted or run.uncertain_conditions or run.testing) and is_known(name) and "::" not in name:
+        run.results.modified_targets.setdefault((name, command), run.here())
 
 
 def _pkg_config(run: Run, args: list[str]) -> None:
     if not args or HOLE in args[0]:
         return
     run.open_world = True
-    run.prefixes.setdefault(args[0], False)
+    run.packages.prefixes.setdefault(args[0], False)
     run.set(f"{args[0]}_FOUND", "1" if "REQUIRED" in args else HOLE)
 
 
@@ -192,9 +208,9 @@ def link(run: Run, args: list[str]) -> None:
         if "::" not in arg:
             continue
         plain, certain = sure(arg)
-        for name in [plain] if is_known(plain) and "$" not in plain else _FOREIGN_TARGET.findall(plain):
+        for name in [plain] if is_known(plain) and "$" not in plain else _NAMESPACED_TARGET.findall(plain):
             space, _, inner = name.partition("::")
-            if name in run.targets or space in (run.name, run.sources.name) or _brings(run, space, inner):
+            if name in run.targets or space in (run.results.project.name, run.paths.sources.name) or _brings(run, space, inner):
                 continue
             run.mention(name, "target", run.where(arg), optional=not certain)
     if not run.at_home():
@@ -206,39 +222,39 @@ def link(run: Run, args: list[str]) -> None:
     for text, kind, start, end in command.args:
         if (kind != UNQUOTED and kind != QUOTED) or "_" not in text:  # noqa: PLR1714  (this is fast)
             continue
-        for match in FOREIGN_VARIABLE.finditer(text):
-            if match[1] in run.sources.name or match[1] == "PROJECT_NAME":
+        for match in PACKAGE_VARIABLE.finditer(text):
+            if match[1] in run.paths.sources.name or match[1] == "PROJECT_NAME":
                 continue
-            package = found_as(run, match[1])
-            if package and run.prefixes[package]:  # False for pkg-config, where the script chooses the prefix
+            package = run.packages.named(match[1])
+            if package and run.packages.prefixes[package]:  # False for pkg-config, where the script chooses the prefix
                 place = command.span(frame.path, start, end) if frame.own else run.here()
                 run.mention(package, "target", place, match[0])
 
 
 def _target_include_directories(run: Run, args: list[str]) -> None:
-    given_folders(run, args[0] if args else ALL_TARGETS, args[1:])
+    record_include_directories(run, args[0] if args else ALL_TARGETS, args[1:])
     _include_directories(run, args)
 
 
 def _all_include_directories(run: Run, args: list[str]) -> None:
-    given_folders(run, ALL_TARGETS, args)
+    record_include_directories(run, ALL_TARGETS, args)
     _include_directories(run, args)
 
 
 def _include_directories(run: Run, args: list[str]) -> None:
     link(run, args)
-    run.reaches_out = run.reaches_out or any(map(run.leads_out, args))
+    run.results.includes_outside_package = run.results.includes_outside_package or any(map(run.paths.leads_out, args))
 
 
 def _link_all(run: Run, args: list[str]) -> None:
     """``link_libraries(names...)``."""
-    given(run, ALL_TARGETS, args)
+    record_header_sources(run, ALL_TARGETS, args)
     link(run, args)
 
 
 def _brings(run: Run, space: str, inner: str) -> bool:
     """Return whether a target ``space::inner`` is of a bundled project, or of a found package ``inner``."""
-    return run.is_bundled(space) or (space not in run.prefixes and inner in run.prefixes)
+    return run.is_bundled(space) or (space not in run.packages.prefixes and inner in run.packages.prefixes)
 
 
 _LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFACE_LIBRARIES", "debug", "optimized", "general"}
@@ -247,12 +263,12 @@ _LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFAC
 def _link_libraries(run: Run, args: list[str]) -> None:
     """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
     link(run, args)
-    given(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
+    record_header_sources(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
     _give(run, "target_link_libraries", args)
-    if run.muted or not args or run.unsure or (run.testing and "TEST" not in run.targets.get(args[0], ())):
+    if run.muted or not args or run.uncertain_conditions or (run.testing and "TEST" not in run.targets.get(args[0], ())):
         return
     span = run.here()
-    links = run.links.setdefault(args[0], {})
+    links = run.results.links.setdefault(args[0], {})
     for arg in args[1:]:
         links.setdefault(arg, span)
 

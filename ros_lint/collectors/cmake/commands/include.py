@@ -10,9 +10,9 @@ from ros_lint.base.paths import is_outside, relative
 from ros_lint.base.paths import join as join_path
 from ros_lint.collectors.cmake.evaluator.flow import run_file
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
-from ros_lint.collectors.cmake.evaluator.sources import AROUND
+from ros_lint.collectors.cmake.evaluator.sources import OUTSIDE
 from ros_lint.collectors.cmake.evaluator.state import NEXT, Frame, Variables
-from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, FOREIGN, HOLE, PREFIX, TREE, is_fixed
+from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, HOLE, OTHER_PACKAGE, PREFIX, TREE, is_fixed
 from ros_lint.collectors.cmake.syntax import Command, Parsed
 from ros_lint.facts.visibility import ALL_FACETS, Facet
 
@@ -36,16 +36,16 @@ def _include(run: Run, args: list[str]) -> int | None:
 
 
 def _include_file(run: Run, name: str, optional: bool) -> int | None:
-    if name.startswith(FOREIGN):
-        return _include_foreign(run, name)
+    if name.startswith(OTHER_PACKAGE):
+        return _include_installed(run, name)
     is_module = "/" not in name and "." not in name
     folders = run.get("CMAKE_MODULE_PATH") or ""
     candidates = [name]
     if not name.startswith("/"):
         candidates[:0] = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
     for candidate in candidates:
-        path = run.reached(candidate)
-        parsed = run.script(path) if path is not None else None
+        path = run.paths.reached(candidate)
+        parsed = run.paths.script(path) if path is not None else None
         if path is not None and parsed is not None:
             return _run_script(run, path, parsed)
     if optional:
@@ -58,39 +58,39 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         return None
     if name.startswith(f"/{ATOM}") and not name.startswith((TREE, BINARY, PREFIX)):
         return _skip(run, f"{posixpath.basename(name)} of another package")
-    path = run.source(name)
-    if path is not None and not name.startswith(BINARY) and path not in run.files:
+    path = run.paths.source(name)
+    if path is not None and not name.startswith(BINARY) and path not in run.paths.files:
         run.problem("missing-script", f"include({path}): the file does not exist", run.where(name), path)
         return None
-    run.open_world = run.wild = run.builds = True
-    shown = run.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
+    run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
+    shown = run.paths.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
     run.hide(ALL_FACETS, f"include() of {shown} cannot be followed")
     return None
 
 
 def include_own(run: Run, path: str) -> int | None:
     """Run a script of the package in the current scope."""
-    return _run_script(run, path, run.sources.scripts[path])
+    return _run_script(run, path, run.paths.sources.scripts[path])
 
 
 def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
     """Run a script of the package or of the tree around it. ``path`` is relative to the package."""
-    around = is_outside(path)
-    if around:
-        run.around.append(parsed)
+    outside = is_outside(path)
+    if outside:
+        run.outside_scripts.append(parsed)
         if parsed.problems:
             run.hide(ALL_FACETS, f"{path} cannot be read to its end")
-    frame = Frame(not around, run.place(path), run.named(path), provider=AROUND if around else "")
+    frame = Frame(not outside, run.paths.place(path), run.paths.named(path), provider=OUTSIDE if outside else "")
     return run_file(run, parsed.commands, frame)
 
 
-def _include_foreign(run: Run, name: str) -> int | None:
-    package, _, installed = name[len(FOREIGN) :].partition("/")
+def _include_installed(run: Run, name: str) -> int | None:
+    package, _, installed = name[len(OTHER_PACKAGE) :].partition("/")
     helper = run.helpers.get(package)
     if helper is not None:
-        source = next((file.source for file in helper.script.installs if file.path == installed), None)
+        source = next((file.source for file in helper.script.products.installs if file.path == installed), None)
         if source is not None and source in helper.sources.scripts:
-            return include_foreign(run, package, source)
+            return include_of_package(run, package, source)
     return _skip(run, f"{installed} of {package}")
 
 
@@ -108,21 +108,21 @@ def _is_registered(run: Run) -> bool:
     """Return whether the path of an include() begins with a value from the ament index."""
     command = run.frames[-1].command
     match = _BEGINS.match(command.args[0][0]) if command is not None and command.args else None
-    return match is not None and match[1] in run.of_index
+    return match is not None and match[1] in run.index_variables
 
 
 _BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
 
 
-def include_foreign(run: Run, package: str, source: str) -> int | None:
+def include_of_package(run: Run, package: str, source: str) -> int | None:
     """Run a script of another package of the workspace in the current scope."""
     helper = run.helpers[package]
     installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
-    installed = next((file.path for file in helper.script.installs if file.source == source), installed)
-    frame = Frame(False, join_path(helper.sources.path, source), f"{FOREIGN}{package}/{installed}", provider=package)
+    installed = next((file.path for file in helper.script.products.installs if file.source == source), installed)
+    frame = Frame(False, join_path(helper.sources.path, source), f"{OTHER_PACKAGE}{package}/{installed}", provider=package)
     commands = helper.sources.scripts[source].commands
     if source.endswith(".in"):
-        commands = tuple([_configured(command, helper.script.name or package) for command in commands])
+        commands = tuple([_configured(command, helper.script.project.name or package) for command in commands])
     return run_file(run, commands, frame)
 
 
@@ -153,36 +153,36 @@ def _module(run: Run, name: str) -> None:
 
 def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     name = args[0] if args else ""
-    path = run.reached(name) if is_fixed(name) else None
+    path = run.paths.reached(name) if is_fixed(name) else None
     script = join_path(path or "", _TOP)
-    parsed = run.script(script) if path is not None else None
+    parsed = run.paths.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
-        run.open_world = run.wild = run.builds = True
+        run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
         run.hide(ALL_FACETS, "add_subdirectory() of a folder that is not in sight")
         return None
-    if not (run.unsure or run.muted or is_outside(path)):
-        run.entered[path] = None
+    if not (run.uncertain_conditions or run.muted or is_outside(path)):
+        run.results.subdirectories[path] = None
     if run.testing and not is_outside(path):
-        run.entered_for_tests[path] = None
-    last = posixpath.basename(run.place(path))
-    if path and (parsed is None or run.is_folder(f"{path}/include/{last}")):
-        run.bundled[last] = None  # a library in its own folder, or a submodule that is not checked out
+        run.results.test_subdirectories[path] = None
+    last = posixpath.basename(run.paths.place(path))
+    if path and (parsed is None or run.paths.is_folder(f"{path}/include/{last}")):
+        run.results.bundled_projects[last] = None  # a library in its own folder, or a submodule that is not checked out
     if parsed is None:
-        if run.is_folder(path):
-            run.open_world = run.wild = run.builds = True
+        if run.paths.is_folder(path):
+            run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
             run.hide(ALL_FACETS, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
         else:
             run.problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.where(name), path)
         return None
-    run.enter_directory(path, _built_in(run, path, args[1:]))
+    run.paths.enter_directory(path, _built_in(run, path, args[1:]))
     run.scopes.append(Variables())
-    kept = run.versions
+    kept = run.policy_version
     try:
         return _run_script(run, script, parsed)
     finally:
-        run.versions = kept
+        run.policy_version = kept
         run.scopes.pop()
-        run.leave_directory()
+        run.paths.leave_directory()
 
 
 _TOP: Final = "CMakeLists.txt"
@@ -194,7 +194,7 @@ def _built_in(run: Run, path: str, args: list[str]) -> str:
     Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
     """
     argument = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
-    below = argument or relative(run.place(run.directory), run.place(path))
+    below = argument or relative(run.paths.place(run.paths.directory), run.paths.place(path))
     if not is_fixed(below) or (is_outside(below) and not argument):
         return HOLE
     return below if below.startswith("/") else posixpath.normpath(f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{below}")

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.collectors.cmake.evaluator.run import folded
+from ros_lint.collectors.cmake.evaluator.found_packages import folded
 from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, TREE, elements
 from ros_lint.collectors.cmake.released_macros import VISIBILITY
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.run import Handler, Run
     from ros_lint.collectors.cmake.evaluator.state import Properties
 
-FOREIGN_VARIABLE: Final = re.compile(
+PACKAGE_VARIABLE: Final = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
 )
 """A reference to a variable of a found package. The group is the name of the package."""
@@ -33,12 +33,12 @@ _OF_OURS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
 """Folders without headers of other ROS packages."""
 
 
-def given(run: Run, target: str, args: Iterable[str]) -> None:
+def record_header_sources(run: Run, target: str, args: Iterable[str]) -> None:
     """Record the sources of headers of a target: evaluated targets, libraries and paths.
 
     A package ends with ``::``.
     """
-    have = run.headers.setdefault(target, {})
+    have = run.results.headers.setdefault(target, {})
     known = True
     for arg in args:
         if _PLAIN.match(arg):  # by far the most frequent case
@@ -54,11 +54,11 @@ def given(run: Run, target: str, args: Iterable[str]) -> None:
 _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 
 
-def given_folders(run: Run, target: str, args: Iterable[str]) -> None:
+def record_include_directories(run: Run, target: str, args: Iterable[str]) -> None:
     """Record the include directories of a target."""
     folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
     here = run.places["CMAKE_CURRENT_SOURCE_DIR"]
-    given(run, target, [f"{here}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
+    record_header_sources(run, target, [f"{here}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
 
 
 _NO_FOLDERS: Final = VISIBILITY | {"BEFORE", "AFTER", "SYSTEM"}
@@ -71,8 +71,8 @@ def _names(run: Run, arg: str) -> tuple[str, ...]:
     if "$<" in arg:
         return (_ANYTHING,) if "TARGET_PROPERTY" in arg else tuple(_NAME.findall(arg))
     if arg.startswith("/") or ATOM in arg:
-        return () if arg.startswith(_OF_OURS) and not run.leads_out(arg) else (_ANYTHING,)
-    return (_ANYTHING,) if run.leads_out(arg) else (arg,)
+        return () if arg.startswith(_OF_OURS) and not run.paths.leads_out(arg) else (_ANYTHING,)
+    return (_ANYTHING,) if run.paths.leads_out(arg) else (arg,)
 
 
 def _written(run: Run) -> list[str]:
@@ -84,36 +84,27 @@ def _written(run: Run) -> list[str]:
     found: list[str] = []
     for text, kind, _, _ in command.args if command is not None else ():
         if kind in (UNQUOTED, QUOTED) and HOLE in run.evaluated(text):
-            found += [_package(run, match) for match in FOREIGN_VARIABLE.finditer(text)]
-            if HOLE in run.evaluated(FOREIGN_VARIABLE.sub("", text)):
+            found += [_package(run, match) for match in PACKAGE_VARIABLE.finditer(text)]
+            if HOLE in run.evaluated(PACKAGE_VARIABLE.sub("", text)):
                 found.append(_ANYTHING)
     return found or [_ANYTHING]
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
     """Return the package of a variable, _ANYTHING if no found package sets it or the script itself does."""
-    name = found_as(run, variable[1]) if run.normal(variable[0][2:-1]) is None else ""
+    name = run.packages.named(variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING
 
 
-def found_as(run: Run, prefix: str) -> str:
-    """Return the found package whose variables have a prefix, ignoring case; "" if there is none."""
-    if run.prefixes.get(prefix):
-        return prefix
-    letters = folded(prefix)
-    names = [name for name in run.prefixes if folded(name) == letters]
-    return next((name for name in names if run.prefixes[name]), names[0] if names else "")
-
-
-def _given(run: Run, args: list[str]) -> None:
+def _headers_of(run: Run, args: list[str]) -> None:
     """``ros_lint_headers_of(target names...)``: the target has the include directories of packages."""
-    given(run, args[0], args[1:])
+    record_header_sources(run, args[0], args[1:])
 
 
 def _options(run: Run, args: list[str]) -> None:
     """Record include directories in compiler options (-I, -isystem)."""
     if any(_FOLDER_OPTION.search(arg) for arg in args):
-        given(run, ALL_TARGETS, [f"/{ATOM}"])
+        record_header_sources(run, ALL_TARGETS, [f"/{ATOM}"])
 
 
 _FOLDER_OPTION = re.compile(r"(?:\A|[\s:;])-(?:I|isystem|include)")
@@ -139,6 +130,7 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
     found: dict[str, None] = {}
     waiting = [name, ALL_TARGETS]
     seen: set[str] = set()
+    interfaces = f"{run.paths.sources.name}__"  # prefix of the targets of generated interfaces
     while waiting:
         current = waiting.pop()
         if current in seen:
@@ -150,12 +142,12 @@ def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str
                 return None
             if target["KIND"] == "alias":
                 waiting.append(target["ALIASED"])
-        elif current not in (name, ALL_TARGETS) and not current.startswith(f"{run.sources.name}__"):  # except its interfaces
+        elif current not in (name, ALL_TARGETS) and not current.startswith(interfaces):
             owners = _owners(run, current)
             if not owners:
                 return None
             found.update(dict.fromkeys(owners))
-        waiting += run.headers.get(current, ())
+        waiting += run.results.headers.get(current, ())
         if _ANYTHING in waiting:
             return None
     return tuple(sorted(found))
@@ -169,16 +161,16 @@ def _owners(run: Run, name: str) -> tuple[str, ...]:
     space, sign, inner = name.partition("::")
     if not sign or not inner:
         return (space,)
-    if space in run.prefixes:
+    if space in run.packages.prefixes:
         return (space,)
-    if inner in run.prefixes:
+    if inner in run.packages.prefixes:
         return (space, inner)
     letters = folded(space)
-    return (space,) if any(folded(prefix).startswith(letters) for prefix in run.prefixes) else ()
+    return (space,) if any(folded(prefix).startswith(letters) for prefix in run.packages.prefixes) else ()
 
 
 COMMANDS: Final[Mapping[str, Handler]] = {
-    "ros_lint_headers_of": _given,
+    "ros_lint_headers_of": _headers_of,
     "add_compile_options": _options,
     "add_definitions": _options,
     "target_compile_options": _options,

@@ -73,25 +73,25 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
         return
     plain = sure(value)[0]
     span = run.where(value)
-    source = run.source(plain)
+    source = run.paths.source(plain)
     conditional = run.conditional or run.testing or not certain
     if source is None:
-        source = run.beside(plain)
+        source = run.paths.beside(plain)
         conditional = conditional or (source is None and (optional or not _may_lie(run, plain)))
-    elif run.is_unseen(source):
+    elif run.paths.is_unseen(source):
         source = None
-    if source is not None and not run.is_file(source):
-        if run.is_folder(source) and source:
+    if source is not None and not run.paths.is_file(source):
+        if run.paths.is_folder(source) and source:
             run.problem("file-is-directory", f"install(FILES) cannot install '{source}', because it is a directory", span, source)
             return
         if optional:
             return
-        run.missing.append((source, span, conditional))
-        if source not in run.generated:
-            run.installed.append(InstalledFile(path, source, program, True, span))
+        run.results.missing_files.append((source, span, conditional))
+        if source not in run.paths.generated:
+            run.results.installed.append(InstalledFile(path, source, program, True, span))
             return
         source = ""
-    run.installed.append(InstalledFile(path, source or "", program, conditional, span, test=run.testing))
+    run.results.installed.append(InstalledFile(path, source or "", program, conditional, span, test=run.testing))
 
 
 def _may_lie(run: Run, value: str) -> bool:
@@ -99,19 +99,19 @@ def _may_lie(run: Run, value: str) -> bool:
 
     True for a path outside of the package.
     """
-    home = f"{run.named('')}/"
+    home = f"{run.paths.named('')}/"
     if value.startswith(home):
         inside = value[len(home) :]
     elif value[:1] in ("/", "$", HOLE):
         return True
     else:
-        inside = join_path(run.directory, value)
+        inside = join_path(run.paths.directory, value)
     if is_known(inside):
         return True
     if len(inside) > LONGEST:
         return False
     like = re.compile(spaced(list(map(re.escape, _UNKNOWN.split(inside))), ".*", count()))
-    return any(map(like.fullmatch, (*run.files, *run.generated)))
+    return any(map(like.fullmatch, (*run.paths.files, *run.paths.generated)))
 
 
 _UNKNOWN: Final = re.compile(rf"[{HOLE}\3]+|{ATOM}[^/]*")

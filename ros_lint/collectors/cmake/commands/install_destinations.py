@@ -27,7 +27,7 @@ def facet_of(run: Run, destination: str | None) -> Facet:
         return Facet.SHARE
     if destination.startswith("lib/python"):
         return Facet.PYTHON
-    if destination in ("bin", f"lib/{run.sources.name}") or destination.startswith(f"lib/{run.sources.name}/"):
+    if destination in ("bin", f"lib/{run.paths.sources.name}") or destination.startswith(f"lib/{run.paths.sources.name}/"):
         return Facet.EXECUTABLES
     return Facet.LIBRARIES
 
@@ -47,6 +47,6 @@ def place_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
     """
     found = parts.get("DESTINATION")
     if found:
-        return run.destination(sure(found[0])[0]) if len(found) == 1 else None
+        return run.paths.destination(sure(found[0])[0]) if len(found) == 1 else None
     kind = parts.get("TYPE")
     return _TYPES.get(kind[0]) if kind else None

@@ -57,13 +57,13 @@ def install_directories(run: Run, args: list[str]) -> None:
     rule = _Rule(patterns, "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:], executable, "OPTIONAL" in parts)
     for value in parts[""]:
         plain = sure(value)[0]
-        source = run.reached(plain)
+        source = run.paths.reached(plain)
         name = posixpath.basename(plain)  # the folder keeps its name, even if it is outside of the package
         if destination is None or HOLE in plain or (source is not None and ATOM in name):
             known = destination is not None and name not in ("", ".", "..") and is_known(name)
             place = join_path(destination or "", name) if known else destination
             hide(run, place, "install(DIRECTORY) of a folder or to a place that is not known")
-        elif source is None or (is_outside(source) and not (run.below(source) or run.is_file(source))):
+        elif source is None or (is_outside(source) and not (run.paths.below(source) or run.paths.is_file(source))):
             hide(run, destination, "install(DIRECTORY) of a folder that is not in the sources")
             _install_configured(run, value, destination, rule)
         elif not run.muted:
@@ -75,19 +75,19 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     plain, certain = sure(value)
     span = run.where(value)
     conditional = run.conditional or run.testing or not certain
-    if run.is_file(source):
+    if run.paths.is_file(source):
         run.problem("directory-is-file", f"install(DIRECTORY) cannot install '{source}', because it is a file", span, source)
         return
-    more = unlisted(run, source, facet_of(run, target), span) if run.sources.unseen else []
-    own = run.below(source)
+    more = unlisted(run, source, facet_of(run, target), span) if run.paths.sources.unseen else []
+    own = run.paths.below(source)
     made, filled = _made(run, source)
-    top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.directory, plain)}".rstrip("/")
+    top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.paths.directory, plain)}".rstrip("/")
     if filled:
         hide(run, target, "install(DIRECTORY) of a folder that the build fills")
-    elif not (own or made) and source and not run.is_unseen(source):
+    elif not (own or made) and source and not run.paths.is_unseen(source):
         # CMake treats a path that does not exist as a file, and ignores it if patterns exclude that file.
         if not rule.optional and _chosen(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
-            run.missing.append((f"{source}/", span, conditional))
+            run.results.missing_files.append((f"{source}/", span, conditional))
         return
     skip = len(source) + 1 if source else 0
     start = f"{target}/" if target else ""
@@ -95,21 +95,21 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     files = (*own, *more, *made) if more or made else own
     run.charge(FILE * len(files))
     for file in files:
-        program = file in run.sources.executables if rule.executable is None else rule.executable
+        program = file in run.paths.sources.executables if rule.executable is None else rule.executable
         if chosen:
-            wanted, given = _chosen(file[skip:], top, rule)
+            wanted, executable = _chosen(file[skip:], top, rule)
             if not wanted:
                 continue
-            program = program if given is None else given
+            program = program if executable is None else executable
         path = f"{start}{file[skip:]}"
-        run.installed.append(InstalledFile(path, run.listed(file), program, conditional, span, test=run.testing))
+        run.results.installed.append(InstalledFile(path, run.paths.listed(file), program, conditional, span, test=run.testing))
 
 
 def _made(run: Run, folder: str) -> tuple[list[str], bool]:
     """Return the files that the build generates below a folder, and whether it generates unknown ones."""
     below = f"{folder}/" if folder else ""
-    new = sorted(path for path in run.generated if path.startswith(below) and path not in run.files)
-    return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.below(path[:-1]) for path in new)
+    new = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
+    return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.paths.below(path[:-1]) for path in new)
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
@@ -118,16 +118,16 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
     The build may write more there.
     """
     plain, certain = sure(value)
-    folder = run.build(plain)
+    folder = run.paths.build(plain)
     if folder is None or run.muted:
         return
     span = run.where(value)
     target = destination if plain.endswith("/") or not folder else join_path(destination, posixpath.basename(folder))
-    for path, always in run.configured.items():
+    for path, always in run.paths.configured.items():
         inner = path if not folder else path[len(folder) + 1 :] if path.startswith(f"{folder}/") else ""
         if inner and _chosen(inner, plain.rstrip("/"), rule)[0]:
             conditional = run.conditional or run.testing or not certain or not always
-            run.installed.append(InstalledFile(join_path(target, inner), "", False, conditional, span))
+            run.results.installed.append(InstalledFile(join_path(target, inner), "", False, conditional, span))
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
@@ -136,10 +136,10 @@ def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
     They are files of nested packages, or of folders with a COLCON_IGNORE.
     """
     found: list[str] = []
-    for folder in run.sources.unseen:
+    for folder in run.paths.sources.unseen:
         inside = source == folder or source.startswith(f"{folder}/")
         if inside or not source or folder.startswith(f"{source}/"):
-            files = run.sources.look(folder)
+            files = run.paths.sources.look(folder)
             if not files:
                 run.hide(facet, "install(DIRECTORY) of a folder whose files are not listed", span)
             found += [file for file in files if not source or file.startswith(f"{source}/")]
@@ -163,8 +163,8 @@ def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
     matching = [pattern for pattern in rule.patterns if pattern.matches.search(octets(f"{top}/{file}"))]
     if any(pattern.excluded for pattern in matching) or (rule.only and not matching):
         return False, None
-    given = [pattern.executable for pattern in matching if pattern.executable is not None]
-    return True, any(given) if given else None
+    permissions = [pattern.executable for pattern in matching if pattern.executable is not None]
+    return True, any(permissions) if permissions else None
 
 
 def _patterns(args: list[str]) -> list[_Pattern] | None:

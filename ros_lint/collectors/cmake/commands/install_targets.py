@@ -45,11 +45,11 @@ def install_targets(run: Run, args: list[str]) -> None:
             if not is_known(exported_in):
                 run.hide(Facet.LIBRARIES, "the set that targets are exported in is not known")
     everywhere = destinations.get("")
-    runtime = run.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
-    library = run.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
-    archive = run.destination(sure(destinations.get("ARCHIVE") or everywhere or "lib")[0])
+    runtime = run.paths.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
+    library = run.paths.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
+    archive = run.paths.destination(sure(destinations.get("ARCHIVE") or everywhere or "lib")[0])
     of_headers = [artifact for artifact in destinations if artifact.startswith(FILE_SET) or artifact.endswith("_HEADER")]
-    headers = tuple([(artifact, run.destination(sure(destinations[artifact])[0])) for artifact in of_headers])
+    headers = tuple([(artifact, run.paths.destination(sure(destinations[artifact])[0])) for artifact in of_headers])
     for name in names:
         plain, certain = sure(name)
         if not is_known(plain):
@@ -58,7 +58,7 @@ def install_targets(run: Run, args: list[str]) -> None:
             conditional = run.conditional or run.testing or not certain
             span = run.where(name)
             made = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers)
-            run.installed_targets.append(made)
+            run.results.installed_targets.append(made)
 
 
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
@@ -66,14 +66,14 @@ _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 def installed_targets(run: Run) -> Iterator[InstalledFile]:
     """Yield the files of the installed targets. Call it after the whole script has run."""
-    for installed in run.installed_targets:
+    for installed in run.results.installed_targets:
         name, span, conditional = installed.target, installed.span, installed.conditional
         target = real_target(run, name)
         if target is None:
             if not run.open_world or "::" not in name:
-                run.undefined.append((name, span, conditional))
+                run.results.undefined_targets.append((name, span, conditional))
             reason = f"what the target {name} is, is not known"
-            run.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
+            run.results.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
             if installed.executables is not None:  # if the target exists, it is most likely a program
                 yield InstalledFile(join_path(installed.executables, name), "", True, True, span, name)
             continue
@@ -92,12 +92,12 @@ def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsur
     file = output_name(target)
     if where is None or file is None:
         facet = Facet.EXECUTABLES if kind == "executable" else Facet.LIBRARIES | Facet.PYTHON
-        run.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
+        run.results.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
         return
     path = join_path(where, file)
     yield InstalledFile(path, "", kind == "executable", unsure, span, name)
     if path.startswith(_PYTHON) and not file.startswith("lib"):
-        run.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
+        run.results.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
     if kind == "shared":
         for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
             if is_known(number):

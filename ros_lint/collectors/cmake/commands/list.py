@@ -234,7 +234,7 @@ def _action(mode: str, args: list[str]) -> Callable[[str], str]:
     if mode == "PREPEND":
         return lambda text: flat(args[0]) + text
     if mode == "REPLACE":
-        return lambda text: anywhere(lambda given: replace_all(args[0], args[1], given), text)
+        return lambda text: anywhere(lambda piece: replace_all(args[0], args[1], piece), text)
     functions = {"TOUPPER": ascii_upper, "TOLOWER": ascii_lower, "STRIP": strip, "GENEX_STRIP": genex_strip}
     return functions.get(mode, lambda _: HOLE)
 

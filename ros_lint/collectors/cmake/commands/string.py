@@ -114,7 +114,7 @@ def _replace(old: str, new: str, *inputs: str) -> str:
         return HOLE
     if ATOM not in text or old in (TREE, BINARY, PREFIX) or old.startswith((f"{TREE}/", f"{BINARY}/", f"{PREFIX}/")):
         return text.replace(old, flat_value(new))
-    return anywhere(lambda given: given.replace(old, new), text) if is_fixed(new) and ATOM not in new else HOLE
+    return anywhere(lambda piece: piece.replace(old, new), text) if is_fixed(new) and ATOM not in new else HOLE
 
 
 def _length(text: str) -> str:
@@ -291,7 +291,7 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
         forget(run)
         return HOLE
     try:
-        value = anywhere(lambda given, template: replace_all(regex, template, given), text, new)
+        value = anywhere(lambda piece, template: replace_all(regex, template, piece), text, new)
         if is_known(text):
             clear(run)
             for _, _, groups in every(regex, text)[:-1]:

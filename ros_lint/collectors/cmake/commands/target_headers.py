@@ -33,7 +33,7 @@ def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
         found += files
         for name in parts.get("FILE_SET", []):
             for key, values in ((f"HEADER_SET_{name}", files), (f"HEADER_DIRS_{name}", parts.get("BASE_DIRS", []))):
-                paths = [run.source(sure(value)[0]) for value in values]
+                paths = [run.paths.source(sure(value)[0]) for value in values]
                 known = [path if path is not None else "?" for path in paths]
                 run.put(target, key, join([*elements(target.get(key, "")), *known]))
     return found
@@ -50,15 +50,15 @@ def installed_headers(
         if artifact.startswith(FILE_SET):
             of_set = artifact.removeprefix(FILE_SET)
             files = elements(target.get(f"HEADER_SET_{of_set}", "?"))
-            folders = elements(target.get(f"HEADER_DIRS_{of_set}", "")) or [run.source(".") or ""]
+            folders = elements(target.get(f"HEADER_DIRS_{of_set}", "")) or [run.paths.source(".") or ""]
         else:
-            files, folders = [run.source(sure(file)[0]) or "?" for file in elements(target.get(artifact, ""))], []
+            files, folders = [run.paths.source(sure(file)[0]) or "?" for file in elements(target.get(artifact, ""))], []
         for file in files:
             ends = [
                 file[len(folder) + 1 :] if folder else file for folder in folders if not folder or file.startswith(f"{folder}/")
             ]
             end = min(ends, key=len, default=posixpath.basename(file))
             if file == "?" or where is None:
-                run.opaques.setdefault(Opaque(Facet.LIBRARIES, f"the headers of the target {name} are not known", span))
+                run.results.opaques.setdefault(Opaque(Facet.LIBRARIES, f"the headers of the target {name} are not known", span))
             else:
                 yield InstalledFile(join_path(where, end), file, False, unsure, span, name)

@@ -70,7 +70,7 @@ def _build(run: Run, name: str, target: Properties, args: list[str], keywords: t
         target["CONDITIONAL"] = "1"
     if run.testing:
         target["TEST"] = "1"
-    run.built.append((name, target, run.where(args[0])))
+    run.results.targets.append((name, target, run.where(args[0])))
     _add_sources(run, target, [arg for arg in args[1:] if arg not in keywords])
 
 
@@ -80,14 +80,14 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
     have = elements(target.get("SOURCES", ""))
     for source in sources:
         plain, certain = sure(source)
-        path = run.source(plain)
-        if path in run.files:
+        path = run.paths.source(plain)
+        if path in run.paths.files:
             have.append(path if certain else source[0] + path)
         elif path is not None and "$<" not in plain:
-            path = next((f"{path}{suffix}" for suffix in SOURCES if f"{path}{suffix}" in run.files), path)
+            path = next((f"{path}{suffix}" for suffix in SOURCES if f"{path}{suffix}" in run.paths.files), path)
             have.append(path if certain else source[0] + path)
-            if certain and path not in run.files:
-                run.missing.append((path, run.where(source), bool(run.muted or run.unsure)))
+            if certain and path not in run.paths.files:
+                run.results.missing_files.append((path, run.where(source), bool(run.muted or run.uncertain_conditions)))
         elif HOLE in plain:
             have.append(HOLE)
     run.put(target, "SOURCES", join(have))
@@ -187,9 +187,9 @@ def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> Non
 
 def generate(run: Run, path: str, *, folder: bool = False) -> None:
     """Record that the build generates a file, or a folder with unknown files."""
-    place = run.source(path)
+    place = run.paths.source(path)
     if place is not None:
-        run.generated.add(f"{place}/" if folder else place)
+        run.paths.generated.add(f"{place}/" if folder else place)
 
 
 def _custom_target(run: Run, args: list[str]) -> None:
@@ -215,7 +215,7 @@ def targets(run: Run) -> tuple[BuildTarget, ...]:
     """Return the targets that the package builds, in the order of their definition."""
     found = []
     anywhere = are_in_flags(run)
-    for name, target, span in run.built:
+    for name, target, span in run.results.targets:
         kind = target["KIND"]
         if kind == "imported":
             continue
@@ -224,7 +224,7 @@ def targets(run: Run) -> tuple[BuildTarget, ...]:
         sources = tuple(dict.fromkeys([path for path, _ in named]))
         firm = frozenset() if "CONDITIONAL" in target else {path for path, certain in named if certain}
         optional = tuple([path for path in sources if path not in firm])
-        links = _links(run, name) if name in run.links else ()
+        links = _links(run, name) if name in run.results.links else ()
         whole = len(named) == len(listed)
         headers = None if anywhere or not sources or "TEST" in target else reached(run, name, run.targets)
         found.append(
@@ -239,7 +239,7 @@ _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "e
 def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
     """Return the targets of the package that a target is linked with. An alias is replaced by its target."""
     found: dict[str, Span] = {}
-    for library, span in run.links[name].items():
+    for library, span in run.results.links[name].items():
         target = real_target(run, library)
         if target is not None and target.get("KIND") != "imported" and "NAME" in target:
             found.setdefault(target["NAME"], span)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 
-from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, WILD, join, split
+from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, UNPAIRED_HOLE, join, split
 
 _FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
 
@@ -25,7 +25,7 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
     """Return the variables that cmake_parse_arguments() sets; the value None unsets a variable."""
     kinds, initial = _keywords(prefix, options, ones, multis)
     values = initial.copy()
-    given: dict[str, list[str]] = {}
+    arguments: dict[str, list[str]] = {}
     unparsed: list[str] = []
     state = ""
     taking = 0
@@ -39,12 +39,12 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
             taking = 0
         elif kind is not None:
             state, taking = arg, kind
-            given.setdefault(arg, [])
+            arguments.setdefault(arg, [])
         elif taking == _SINGLE:
             values[f"{prefix}_{state}"] = arg
-            taking = _MAYBE if arg in (HOLE, WILD) or arg.startswith(MAYBE) else 0
+            taking = _MAYBE if arg in (HOLE, UNPAIRED_HOLE) or arg.startswith(MAYBE) else 0
         elif taking == _LIST:
-            given[state].append(arg)
+            arguments[state].append(arg)
         elif taking == _MAYBE and arg.startswith(MAYBE):
             values[f"{prefix}_{state}"] = HOLE
         else:
@@ -52,11 +52,11 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
             unparsed.append(arg)
         if arg[:1] == MAYBE and arg[1:] in kinds:
             return dict.fromkeys(values, HOLE)
-    if given:
-        lists = [name for name in given if kinds[name] == _LIST]
-        values.update({f"{prefix}_{name}": join(given[name]) for name in lists})
-        missing = [name for name in lists if not given[name]]
-        missing += [name for name in given if kinds[name] == _SINGLE and values[f"{prefix}_{name}"] is None]
+    if arguments:
+        lists = [name for name in arguments if kinds[name] == _LIST]
+        values.update({f"{prefix}_{name}": join(arguments[name]) for name in lists})
+        missing = [name for name in lists if not arguments[name]]
+        missing += [name for name in arguments if kinds[name] == _SINGLE and values[f"{prefix}_{name}"] is None]
         if missing:
             values[f"{prefix}_KEYWORDS_MISSING_VALUES"] = join(missing)
     if unparsed:

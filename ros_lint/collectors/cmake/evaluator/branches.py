@@ -93,13 +93,13 @@ def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
     onward: list[tuple[_Way, Exit]] = []
     some_usual = any(way.usual for way in ways)
     for way in ways:
-        run.unsure += not way.usual
-        run.unusual += some_usual and not way.usual
+        run.uncertain_conditions += not way.usual
+        run.non_default_conditions += some_usual and not way.usual
         try:
             outcome, changes = run.branch(partial(_run_way, run, way))
         finally:
-            run.unsure -= not way.usual
-            run.unusual -= some_usual and not way.usual
+            run.uncertain_conditions -= not way.usual
+            run.non_default_conditions -= some_usual and not way.usual
         if outcome == STOP:
             continue
         if outcome & NEXT:

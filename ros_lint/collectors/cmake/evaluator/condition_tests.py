@@ -21,7 +21,7 @@ def _defined(run: Run, token: Token) -> Truth:
     if not is_known(name):
         return Truth(UNKNOWN)
     if name.startswith("ENV{") and name.endswith("}"):
-        run.tested.add(name)
+        run.tested_variables.add(name)
         return Truth(TRUE if run.lookup(name[4:-1], "ENV") and is_known(run.lookup(name[4:-1], "ENV")) else UNKNOWN)
     if name.startswith("CACHE{") and name.endswith("}"):
         return Truth(TRUE if certainly_set(run.cache.get(name[6:-1], HOLE)) else UNKNOWN)
@@ -45,17 +45,17 @@ def _command(run: Run, token: Token) -> Truth:
 
 
 def _exists(run: Run, token: Token) -> Truth:
-    path = run.reached(token.text) if token.text.startswith(TREE) else None
+    path = run.paths.reached(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
-    return Truth(TRUE if run.is_file(path) or run.is_folder(path) else UNLIKELY)
+    return Truth(TRUE if run.paths.is_file(path) or run.paths.is_folder(path) else UNLIKELY)
 
 
 def _is_directory(run: Run, token: Token) -> Truth:
-    path = run.reached(token.text) if token.text.startswith(TREE) else None
+    path = run.paths.reached(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
-    return Truth(TRUE if run.is_folder(path) else UNLIKELY)
+    return Truth(TRUE if run.paths.is_folder(path) else UNLIKELY)
 
 
 def _is_absolute(_run: Run, token: Token) -> Truth:
@@ -101,7 +101,7 @@ def _operands(run: Run, token: Token) -> tuple[str, ...]:
     """
     if token.quoted:
         # Before policy CMP0054, quoted arguments were also looked up as variables.
-        return (token.text if run.versions >= (3, 1) or run.get(token.text) is None else HOLE,)
+        return (token.text if run.policy_version >= (3, 1) or run.get(token.text) is None else HOLE,)
     value = run.get(token.text) if is_known(token.text) else None
     if value is None:
         return (token.text,)

@@ -64,7 +64,7 @@ def condition(run: Run, command: Command) -> Truth:
         else:
             tokens.append(Token(text, kind in (LITERAL, BRACKET), False))
         if "_FOUND}" in text:
-            run.tested.update(_ASKED.findall(text))
+            run.tested_variables.update(_ASKED.findall(text))
     if len(tokens) > 1:
         truth = _Parser(run, tokens).whole()
         if sum(token.text == "MATCHES" for token in tokens) > 1:
@@ -204,7 +204,7 @@ def _word(run: Run, token: Token) -> Truth:
         return _tests_enabled(run, text)
     value = run.get(text)
     if text.endswith("_FOUND"):
-        run.tested.add(text)
+        run.tested_variables.add(text)
     if value is None:
         soft = token.soft or run.may_be_set(text)
         return Truth(UNLIKELY if soft else FALSE)

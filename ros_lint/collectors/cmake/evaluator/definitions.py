@@ -24,8 +24,8 @@ def _define(run: Run, node: Definition) -> Exit:
         return NEXT
     frame = run.frames[-1]
     body = node.body
-    if frame.given is not None:
-        body = rewritten(body, partial(_substituted, frame.given))
+    if frame.macro_arguments is not None:
+        body = rewritten(body, partial(_substituted, frame.macro_arguments))
     file = next(frame for frame in reversed(run.frames) if frame.procedure is None)
     procedure = Procedure(
         args[0],
@@ -62,10 +62,10 @@ def _counts(command: Command) -> bool:
     return command.name == "include" or any("ARGV" in text or "ARGC" in text for text, *_ in command.args)
 
 
-def _substituted(given: dict[str, str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
+def _substituted(macro_arguments: dict[str, str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
     found = []
     for text, kind, start, end in args:
-        changed = substituted(text, given) if kind in (UNQUOTED, QUOTED) else text
+        changed = substituted(text, macro_arguments) if kind in (UNQUOTED, QUOTED) else text
         found.append((changed, kind, start, end))
     return tuple(found)
 

@@ -96,19 +96,19 @@ def _joined(parts: list[Part]) -> Template:
 _SIMPLE = re.compile(r"\$\{(\w+)\}")
 
 
-def substituted(text: str, given: Mapping[str, str]) -> str:
+def substituted(text: str, values: Mapping[str, str]) -> str:
     """Return an argument in a macro with the references to parameters replaced by their values.
 
     HOLE if it is too long.
     """
     alone = _SIMPLE.fullmatch(text)
     if alone is not None:
-        return given.get(alone[1], text)
+        return values.get(alone[1], text)
     size = len(text)
 
     def value(reference: re.Match[str]) -> str:
         nonlocal size
-        found = flat(given.get(reference[1], reference[0]))
+        found = flat(values.get(reference[1], reference[0]))
         size += len(found)
         if size > LONGEST:
             raise OverflowError

@@ -47,10 +47,10 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
             if name in procedures:
                 ended = run_named(run, name, run.arguments(node))
             else:
-                run.calls.add(name)
+                run.command_names.add(name)
                 handler = HANDLERS.get(name)
                 args = run.arguments(node)
-                ended = (handler(run, args) if handler is not None else run.foreign(run, name, args)) or NEXT
+                ended = (handler(run, args) if handler is not None else run.run_external_command(run, name, args)) or NEXT
         else:
             ended = BLOCKS[type(node)](run, node)
         if ended == NEXT:
@@ -68,25 +68,25 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
 
 def perhaps(run: Run, piece: Callable[[], Exit], reached: Exit = NEXT) -> tuple[Exit, Changes]:
     """Run ``piece`` as code that may not run. The bits USUAL and TESTS of ``reached`` say when it runs."""
-    unsure, testing = run.unsure, run.testing
-    run.unsure += not reached & USUAL
+    unsure, testing = run.uncertain_conditions, run.testing
+    run.uncertain_conditions += not reached & USUAL
     run.testing = testing or bool(reached & TESTS)
     try:
         return run.branch(piece)
     finally:
-        run.unsure, run.testing = unsure, testing
+        run.uncertain_conditions, run.testing = unsure, testing
 
 
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
     """Run the command ``name`` (in lower case) with evaluated arguments."""
-    run.calls.add(name)
+    run.command_names.add(name)
     procedure = run.procedures.get(name)
     if procedure is not None:
         return call(run, procedure, args)
     handler = HANDLERS.get(name)
     if handler is not None:
         return handler(run, args) or NEXT
-    return run.foreign(run, name, args) or NEXT
+    return run.run_external_command(run, name, args) or NEXT
 
 
 def count_step(run: Run) -> None:
@@ -117,8 +117,8 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     firm = len(args)
     gaps: Container[str] = ()
     command = frames[-1].command
-    given = "".join(args)
-    if (HOLE in given or MAYBE in given) and command is not None:
+    text = "".join(args)
+    if (HOLE in text or MAYBE in text) and command is not None:
         index = run.firm_arguments(command)
         if index is not None:  # cmake_language(CALL name) has two arguments more than the called command
             firm = max(0, index - (len(run.arguments(command)) - len(args)))
@@ -129,7 +129,7 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
     frames.append(frame)
     if procedure.macro:
-        frame.given = values
+        frame.macro_arguments = values
         try:
             return run_body(run, body)
         finally:

@@ -12,7 +12,7 @@ from ros_lint.collectors.cmake.evaluator.flow import count_step, perhaps, run_bo
 from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
 from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
 from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
-from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, WILD, effort, elements, split, sure
+from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, UNPAIRED_HOLE, effort, elements, split, sure
 from ros_lint.collectors.cmake.syntax import UNQUOTED, Command
 
 
@@ -34,7 +34,7 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     seen = {name: run.get(name) or "" for name in names}
     ended = _run_rounds(run, node.body, names, rounds)
     for name, value in kept:
-        if value in (_ABSENT, None) and run.versions < (3, 21):  # policy CMP0124
+        if value in (_ABSENT, None) and run.policy_version < (3, 21):  # policy CMP0124
             run.set(name, seen[name])
         elif value is _ABSENT:
             run.remove(run.scopes[-1], name)
@@ -90,7 +90,7 @@ def _elements(run: Run, name: str) -> list[str]:
 
 def _unknown_whole(items: list[str]) -> list[str]:
     """Return list elements. Each one with an unknown piece becomes a HOLE, because it may be several."""
-    return [WILD if WILD in item else HOLE if HOLE in item else item for item in items]
+    return [UNPAIRED_HOLE if UNPAIRED_HOLE in item else HOLE if HOLE in item else item for item in items]
 
 
 def _quoted(run: Run, command: Command) -> list[bool]:
@@ -124,7 +124,7 @@ def _range(args: list[str]) -> list[str]:
 def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, ...]], start: int = 0) -> Exit:
     for index in range(start, len(rounds)):
         items = rounds[index]
-        if items[0] in (HOLE, WILD):
+        if items[0] in (HOLE, UNPAIRED_HOLE):
             ended = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
         else:
             plain = tuple(sure(item)[0] for item in items)

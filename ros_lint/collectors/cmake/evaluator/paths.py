@@ -1,4 +1,4 @@
-"""The current directory and file of a CMake run, and the meaning of paths in it."""
+"""The current directory of a CMake run, and the meaning of paths in it."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from functools import lru_cache
 from ros_lint.base.paths import is_outside, relative, resolve, strip_folder
 from ros_lint.base.paths import join as join_path
 from ros_lint.base.wildcards import LONGEST
-from ros_lint.collectors.cmake.evaluator.sources import AROUND, Sources
-from ros_lint.collectors.cmake.evaluator.state import Frame, State
+from ros_lint.collectors.cmake.evaluator.sources import Sources
 from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, HOLE, MAYBE, PREFIX, TREE
 from ros_lint.collectors.cmake.released_macros import VARIABLES
 from ros_lint.collectors.cmake.syntax import Parsed
@@ -20,23 +19,21 @@ from ros_lint.collectors.cmake.syntax import Parsed
 _OF_BUILD = "$<BUILD_INTERFACE:"
 
 
-class Paths(State):
-    """A State with the files of the package, the current directory and the current file."""
+class Paths:
+    """The files of the package, the current directory, and the meaning of paths in it."""
 
-    def __init__(self, sources: Sources) -> None:
-        super().__init__()
+    def __init__(self, sources: Sources, places: dict[str, str]) -> None:
         self.sources = sources
         self.files = frozenset(sources.files)
-        self.frames: list[Frame] = []
+        self.generated: set[str] = set()
+        """Files that the build generates in the package; folders with unknown files end with a slash."""
+        self.configured: dict[str, bool] = {}
+        """Files that configure_file() writes below the build folder, and whether this is certain."""
         self.directories: list[tuple[str, str]] = [("", BINARY)]
         """The current directories, outermost first: each relative to the package, with its build folder."""
-        self.places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.named("")))
+        self._places = places
+        self._places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.named("")))
         self._place_directory()
-
-    def at_home(self) -> bool:
-        """Return whether the current command is in a file of the package, or in a script around it (AROUND)."""
-        frame = self.frames[-1]
-        return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == AROUND
 
     @property
     def directory(self) -> str:
@@ -72,7 +69,7 @@ class Paths(State):
         None if none is visible.
         """
         path = self.relative(value)
-        return path if path is not None and is_outside(path) and self.sources.around.kind(self.place(path)) else None
+        return path if path is not None and is_outside(path) and self.sources.outside.kind(self.place(path)) else None
 
     def reached(self, value: str) -> str | None:
         """Return the result of :meth:`source`, or of :meth:`beside` if that is None."""
@@ -84,7 +81,7 @@ class Paths(State):
 
         None if no such file is visible.
         """
-        return self.sources.around.script(self.place(path)) if is_outside(path) else self.sources.scripts.get(path)
+        return self.sources.outside.script(self.place(path)) if is_outside(path) else self.sources.scripts.get(path)
 
     def leads_out(self, value: str) -> bool:
         """Return whether a path is a source folder outside of the package.
@@ -125,12 +122,12 @@ class Paths(State):
     def is_folder(self, path: str) -> bool:
         """Return whether a folder exists. A folder in the package must contain a file."""
         if is_outside(path):
-            return self.sources.around.kind(self.place(path)) == "directory"
+            return self.sources.outside.kind(self.place(path)) == "directory"
         return not path or bool(self.below(path)) or self.is_unseen(path)
 
     def is_file(self, path: str) -> bool:
         """Return whether a file exists."""
-        return self.sources.around.kind(self.place(path)) == "file" if is_outside(path) else path in self.files
+        return self.sources.outside.kind(self.place(path)) == "file" if is_outside(path) else path in self.files
 
     def is_unseen(self, path: str) -> bool:
         """Return whether a path is in a folder of the package whose files are not listed."""
@@ -143,7 +140,7 @@ class Paths(State):
         """
         if is_outside(path):
             place = self.place(path)
-            return [f"{path}/{strip_folder(place, file)}" for file in self.sources.around.below(place)]
+            return [f"{path}/{strip_folder(place, file)}" for file in self.sources.outside.below(place)]
         files = self.sources.files
         if not path:
             return files
@@ -161,21 +158,8 @@ class Paths(State):
 
     def _place_directory(self) -> None:
         directory, build = self.directories[-1]
-        self.places["CMAKE_CURRENT_SOURCE_DIR"] = self.named(directory)
-        self.places["CMAKE_CURRENT_BINARY_DIR"] = build
-
-    def enter_file(self, frame: Frame) -> None:
-        """Make a file the current one."""
-        self.frames.append(frame)
-        self.place_file()
-
-    def place_file(self) -> None:
-        """Set the variables that name the current file."""
-        for frame in reversed(self.frames):
-            if frame.procedure is None:
-                self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
-                self.places["CMAKE_CURRENT_LIST_DIR"] = frame.folder
-                break
+        self._places["CMAKE_CURRENT_SOURCE_DIR"] = self.named(directory)
+        self._places["CMAKE_CURRENT_BINARY_DIR"] = build
 
 
 @lru_cache(maxsize=4096)

@@ -7,13 +7,15 @@ from typing import Final
 
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.expansion import ExpansionError, expand, substituted, template, templates
+from ros_lint.collectors.cmake.evaluator.found_packages import FoundPackages, folded
 from ros_lint.collectors.cmake.evaluator.paths import Paths
-from ros_lint.collectors.cmake.evaluator.sources import AROUND, Helper, Sources
-from ros_lint.collectors.cmake.evaluator.state import MISSING, Frame, InstalledTarget, Properties, Variables
-from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, effort, kept, split, wild
+from ros_lint.collectors.cmake.evaluator.results import Results
+from ros_lint.collectors.cmake.evaluator.sources import OUTSIDE, Helper, Sources
+from ros_lint.collectors.cmake.evaluator.state import MISSING, Frame, State, Variables
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, effort, split, with_unpaired_holes
 from ros_lint.collectors.cmake.released_macros import SOFT_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.collectors.cmake.syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
-from ros_lint.facts.build import REPOSITORIES, Component, InstalledFile
+from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.environment import ROS_2
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
@@ -27,12 +29,6 @@ _SHORT: Final = 1024
 _OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})
 
 
-@kept(4096)
-def folded(name: str) -> str:
-    """Return a name without ``_``, ``-`` and upper case, to compare spellings of a package's name."""
-    return name.replace("_", "").replace("-", "").lower()
-
-
 def _inside(path: str, command: Command, argument: Argument) -> Span:
     """Return the span of an argument without its quotes."""
     _, kind, start, end = argument
@@ -40,112 +36,59 @@ def _inside(path: str, command: Command, argument: Argument) -> Span:
     return command.span(path, start + quotes, end - quotes)
 
 
-class Run(Paths):
-    """The state of an evaluation and its results so far."""
+class Run(State):
+    """The state of an evaluation: variables, the code that runs, and how certain it is that it runs."""
 
     def __init__(
-        self, sources: Sources, distro: str, helpers: Mapping[str, Helper], foreign: Callable[[Run, str, list[str]], int | None]
+        self,
+        sources: Sources,
+        distro: str,
+        helpers: Mapping[str, Helper],
+        run_external_command: Callable[[Run, str, list[str]], int | None],
     ) -> None:
-        super().__init__(sources)
-        self.foreign = foreign
+        super().__init__()
+        self.paths = Paths(sources, self.places)
+        self.packages = FoundPackages(sources.scripts)
+        self.results = Results()
+        self.run_external_command = run_external_command
         """Runs a command that neither CMake nor the package defines, given its name and arguments."""
         self.distro = distro
         self.helpers = helpers
+        self.frames: list[Frame] = []
+        """The files, functions and macros that are being run, outermost first."""
         self.steps = 0
-        self.unsure = 0
+        self.uncertain_conditions = 0
         """Number of enclosing conditions that may be false."""
-        self.unusual = 0
+        self.non_default_conditions = 0
         """Number of enclosing conditions that are false with default options."""
         self.testing = False
+        """True if the current command runs only if tests are enabled."""
         self.muted = 0
-        self.modules = {
-            path[path.rindex("Find") + 4 : -6]: path
-            for path in sources.scripts
-            if path.endswith(".cmake") and path.rpartition("/")[2].startswith("Find")
-        }
-        """Paths of the package's own find modules (FindX.cmake), by the name X."""
-        self.packages: Properties = Properties()
-        """Packages that are certainly found."""
-        self.prefixes: dict[str, bool] = {}
-        """Prefixes of variables that found packages may have set, each with whether it is a package name.
-
-        It is none for pkg_check_modules(), whose first argument chooses the prefix."""
-        self._folded: tuple[str, ...] = ()
+        """Number of enclosing first rounds of loops, which record no results because a second round follows."""
         self.open_world = False
         """True if code that cannot be read has run."""
-        self.wild = False
+        self.any_variable_may_be_set = False
         """True if that code may have set any variable."""
-        self.builds = False
+        self.may_define_targets = False
         """True if that code may have defined targets."""
         self.settable: set[str] = set()
         """Variables that the user may set on the command line: options and cache entries."""
-        self.tested: set[str] = set()
+        self.tested_variables: set[str] = set()
         """Variables of the form X_FOUND or ENV{X} that a condition tests."""
+        self.index_variables: set[str] = set()
+        """Variables whose value was read from the ament index, where any package may register it."""
         self.literals: dict[str, tuple[str, Command, Argument]] = {}
         """The first place at which each list element is written."""
-        self.versions: tuple[int, int] = (3, 0)
+        self.policy_version: tuple[int, int] = (3, 0)
         """The CMake version up to which policies have their NEW behaviour."""
-        self.included: Properties = Properties()
-        """Packages of the workspace whose CMake code has run."""
-        self.of_index: set[str] = set()
-        """Variables whose value was read from the ament index, where any package may register it."""
-        self.loose: dict[str, list[Span]] = {}
-        """Places of find_package() calls without REQUIRED, by package."""
-        self.generated: set[str] = set()
-        self.configured: dict[str, bool] = {}
-        """Files that configure_file() writes below the build folder, and whether this is certain."""
-        self.calls: set[str] = set()
-        self.around: list[Parsed] = []
-        """Scripts around the package that have run."""
-        self.mentions: dict[Mention, None] = {}
-        self.opaques: dict[Opaque, None] = {}
-        self.problems: dict[Problem, None] = {}
-        self.components: list[Component] = []
-        self.registered: list[Variables] = []
-        """The scope in which each of the ``components`` is registered."""
-        self.interfaces: dict[str, None] = {}
-        self.python_packages: dict[str, None] = {}
-        self.installed: list[InstalledFile] = []
-        """Installed files. A file whose source does not exist counts only if the source is generated."""
-        self.installed_targets: list[InstalledTarget] = []
-        self.exported_sets: dict[str, None] = {}
-        """Export sets whose targets are certainly available to packages that find this one."""
-        self.built: list[tuple[str, Properties, Span]] = []
-        """Targets in the order of their definition."""
-        self.links: dict[str, dict[str, Span]] = {}
-        """Libraries of each target, with the place at which each is linked."""
-        self.headers: dict[str, dict[str, None]] = {}
-        """Packages and targets that may provide include directories, by target."""
-        self.missing: list[tuple[str, Span, bool]] = []
-        """Named files that do not exist unless they are generated, and whether this may be harmless.
-
-        The path of a folder ends with a slash."""
-        self.undefined: list[tuple[str, Span, bool]] = []
-        """Installed targets that are not defined, and whether the install() is conditional."""
-        self.refused: dict[Problem, None] = {}
-        self.given: dict[tuple[str, str], Span] = {}
-        """Places of the first command of each name that certainly modifies a target, by target and command."""
-        self.extras: list[str] = []
-        self.templates: dict[str, None] = {}
-        """Templates of the files that packages read when they find this one, relative to the package."""
-        self.entered: dict[str, None] = {}
-        """Folders below the package whose CMakeLists.txt certainly runs."""
-        self.entered_for_tests: dict[str, None] = {}
-        """Folders below the package whose CMakeLists.txt runs only if tests are built."""
-        self.bundled: dict[str, None] = {}
-        """Other projects that the build of the package builds, such as those of FetchContent."""
-        self.reaches_out = False
-        """True if include directories are source folders outside of the package."""
-        self.fetched: dict[str, list[str]] = {}
+        self.fetched_projects: dict[str, list[str]] = {}
         """Names of the projects of FetchContent_Declare(), taken from their addresses (such as owner/name)."""
-        self.ran: dict[str, None] = {}
-        """Files and folders that an interpreter runs as tests."""
-        self.name = ""
-        self.name_span: Span | None = None
-        self.version = ""
-        self.version_span: Span | None = None
-        self.end: Span | None = None
-        self.behind: Span | None = None
+        self.command_names: set[str] = set()
+        """Names of the commands that have run, in lower case."""
+        self.outside_scripts: list[Parsed] = []
+        """Scripts outside of the package that have run."""
+        self.component_scopes: list[Variables] = []
+        """The scope in which each of the components is registered."""
 
     # --- variables
 
@@ -164,12 +107,12 @@ class Run(Paths):
         return self._read(found) if found else found
 
     def _read(self, value: str) -> str | None:
-        """Charge the cost of reading a value, and return it; a HOLE becomes WILD if brackets may be unpaired."""
+        """Charge the cost of reading a value, and return it; a HOLE becomes UNPAIRED_HOLE if brackets may be unpaired."""
         self.charge(len(value))
         if not self.unpaired:
             return value
         self.charge(SLOW * len(value))
-        return wild(value)
+        return with_unpaired_holes(value)
 
     def default(self, name: str) -> str | None:
         """Return the value of a variable that no script has set."""
@@ -180,15 +123,13 @@ class Run(Paths):
             return HOLE
         if not self.open_world:
             return None
-        if name.endswith("_FOUND") and self.packages.get(name[:-6]) == "1":
+        if name.endswith("_FOUND") and self.packages.certain.get(name[:-6]) == "1":
             return "1"
-        if name in (f"{self.name}_LIBRARIES", f"{self.name}_EXECUTABLES"):
-            return HOLE if self.builds else None  # ament_auto lists the targets of the package here
-        if self.wild and not name.startswith("CMAKE_"):
+        if name in (f"{self.results.project.name}_LIBRARIES", f"{self.results.project.name}_EXECUTABLES"):
+            return HOLE if self.may_define_targets else None  # ament_auto lists the targets of the package here
+        if self.any_variable_may_be_set and not name.startswith("CMAKE_"):
             return HOLE
-        if len(self.prefixes) != len(self._folded):
-            self._folded = tuple(map(folded, self.prefixes))
-        if folded(name).startswith(self._folded):
+        if self.packages.may_set(name):
             # Folders (outside of the package) and versions are single texts. Other variables may be lists, or unset.
             if name.endswith(("_DIR", "_PREFIX")):
                 return f"/{ATOM}{name}"
@@ -214,7 +155,9 @@ class Run(Paths):
         if command is None or command.name == "message":
             return
         if not (command.args and command.args[0][0].startswith("CPACK_")):  # CPack runs after the build
-            self.mention("ros_environment", "package", self.here(), f"$ENV{{{name}}}", optional=f"ENV{{{name}}}" in self.tested)
+            self.mention(
+                "ros_environment", "package", self.here(), f"$ENV{{{name}}}", optional=f"ENV{{{name}}}" in self.tested_variables
+            )
 
     def is_soft(self, name: str) -> bool:
         """Return whether the user, the platform or the compiler determines the value of a variable."""
@@ -260,18 +203,18 @@ class Run(Paths):
 
     def evaluated(self, text: str) -> str:
         """Return the value of an argument before it is split."""
-        given = self.frames[-1].given
+        arguments = self.frames[-1].macro_arguments
         try:
             parts = templates.get(text) or template(text)
             if type(parts) is str:  # the name of a variable, by far the most frequent case
-                if given is None or parts not in given:
+                if arguments is None or parts not in arguments:
                     return self.get(parts) or ""
-                text = given[parts]
+                text = arguments[parts]
                 if "$" not in text and "\\" not in text:
                     return text
                 parts = template(text)
-            elif given is not None and "${" in text:
-                text = substituted(text, given)
+            elif arguments is not None and "${" in text:
+                text = substituted(text, arguments)
                 self.charge(len(text))
                 parts = template(text)
             if isinstance(parts, str):
@@ -281,6 +224,26 @@ class Run(Paths):
             return value
         except ExpansionError:
             return HOLE
+
+    # --- files
+
+    def at_home(self) -> bool:
+        """Return whether the current command is in a file of the package, or in a script around it (OUTSIDE)."""
+        frame = self.frames[-1]
+        return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == OUTSIDE
+
+    def enter_file(self, frame: Frame) -> None:
+        """Make a file the current one."""
+        self.frames.append(frame)
+        self.place_file()
+
+    def place_file(self) -> None:
+        """Set the variables that name the current file."""
+        for frame in reversed(self.frames):
+            if frame.procedure is None:
+                self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
+                self.places["CMAKE_CURRENT_LIST_DIR"] = frame.folder
+                break
 
     # --- places
 
@@ -331,15 +294,15 @@ class Run(Paths):
 
     def is_bundled(self, name: str) -> bool:
         """Return whether the build of the package also builds the project ``name``."""
-        if not self.bundled:
+        if not self.results.bundled_projects:
             return False
         name = folded(name)
-        return not {folded(bundled) for bundled in self.bundled}.isdisjoint((name, REPOSITORIES.get(name, name)))
+        return not {folded(bundled) for bundled in self.results.bundled_projects}.isdisjoint((name, REPOSITORIES.get(name, name)))
 
     @property
     def conditional(self) -> bool:
         """Return whether the current command may not run."""
-        return self.unsure > 0
+        return self.uncertain_conditions > 0
 
     def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False, purpose: Purpose = "") -> None:
         """Record that a place names a package."""
@@ -347,7 +310,7 @@ class Run(Paths):
             purpose = "helper"
         if not self.muted:
             test = self.testing or (bool(self.gained) and self._is_gained(name))
-            self.mentions[Mention(name, via, span, what, optional or self.unsure > 0, test, purpose)] = None
+            self.results.mentions[Mention(name, via, span, what, optional or self.uncertain_conditions > 0, test, purpose)] = None
 
     def note_gained(self, name: str, elements: Iterable[str]) -> None:
         """Record the elements that a list is about to gain only if tests are enabled.
@@ -371,7 +334,7 @@ class Run(Paths):
             if frame.own:
                 return False
             provider = frame.procedure.provider if frame.procedure else frame.provider
-            if provider == AROUND or provider in self.helpers:
+            if provider == OUTSIDE or provider in self.helpers:
                 return True
         return False
 
@@ -381,15 +344,15 @@ class Run(Paths):
         ``below`` limits what is hidden to a folder of the install prefix, ``inside`` to the build of a source folder. Code that
         does not run with default options hides only possible uses of packages.
         """
-        if self.unusual:
+        if self.non_default_conditions:
             facet &= Facet.USES
         if facet and not self.muted:
-            self.opaques[Opaque(facet, reason, span or self.here(), below=below, inside=inside)] = None
+            self.results.opaques[Opaque(facet, reason, span or self.here(), below=below, inside=inside)] = None
 
     def problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
         """Record an error of a command, if the command certainly runs."""
-        if not self.muted and not self.unsure:
-            self.problems[Problem(kind, message, span, subject=path)] = None
+        if not self.muted and not self.uncertain_conditions:
+            self.results.problems[Problem(kind, message, span, subject=path)] = None
 
 
 Handler = Callable[[Run, list[str]], "int | None"]

@@ -9,13 +9,13 @@ from typing import Final, NamedTuple
 from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.facts.build import BuildScript
 
-AROUND: Final = ".."
+OUTSIDE: Final = ".."
 """The provider of scripts that lie outside of the package, but in the same tree.
 
 They run like its own scripts."""
 
 
-class Around(NamedTuple):
+class OutsideTree(NamedTuple):
     """Access to the tree around a package.
 
     Paths are relative to the base of the tree; nothing outside of it is visible.
@@ -55,7 +55,7 @@ class Sources(NamedTuple):
     """Lists the files below one of the ``unseen`` folders, relative to the package.
 
     Empty if that is not possible."""
-    around: Around = Around()
+    outside: OutsideTree = OutsideTree()
 
 
 class Helper(NamedTuple):

@@ -341,7 +341,7 @@ class InstalledTarget(NamedTuple):
 class Frame:
     """A file, function or macro that is being run."""
 
-    __slots__ = ("command", "file", "folder", "given", "own", "path", "procedure", "provider")
+    __slots__ = ("command", "file", "folder", "macro_arguments", "own", "path", "procedure", "provider")
 
     def __init__(self, own: bool, path: str, file: str, procedure: Procedure | None = None, provider: str = "") -> None:
         self.own = own
@@ -350,6 +350,6 @@ class Frame:
         self.folder = "" if procedure else file.rpartition("/")[0]
         self.procedure = procedure
         self.provider = provider
-        self.given: dict[str, str] | None = None
+        self.macro_arguments: dict[str, str] | None = None
         """Texts that replace references to the parameters of a macro."""
         self.command: Command | None = None

@@ -3,7 +3,7 @@
 A value is a ``str``. Four control characters, which occur in no parsed CMake file, mark the unknown pieces:
 
 - :data:`HOLE` is any text, such as none or several list elements. Its square brackets come in pairs.
-- :data:`WILD` is a HOLE whose square brackets may be unpaired, so it is unknown which later elements are joined to it.
+- :data:`UNPAIRED_HOLE` is a HOLE whose square brackets may be unpaired, so it is unknown which later elements are joined to it.
 - :data:`ATOM` with the letters after it is one fixed, non-empty text that is unknown, such as the folder of the package
   on the disk. It has no semicolon, and two equal atoms are the same text.
 - :data:`MAYBE` at the start of a list element marks an element that may be missing.
@@ -21,7 +21,7 @@ T = TypeVar("T")
 HOLE: Final = "\0"
 ATOM: Final = "\1"
 MAYBE: Final = "\2"
-WILD: Final = f"{HOLE}\3{HOLE}"  # a search for a HOLE also finds a WILD, even at the ends of a text
+UNPAIRED_HOLE: Final = f"{HOLE}\3{HOLE}"  # a search for a HOLE also finds a UNPAIRED_HOLE, even at the ends of a text
 
 TREE: Final = f"/{ATOM}source"
 """The root of the analysed tree, which contains the folder of the package."""
@@ -29,7 +29,7 @@ BINARY: Final = f"/{ATOM}build"
 """The build folder of the package."""
 PREFIX: Final = f"/{ATOM}prefix"
 """The install prefix of the package."""
-FOREIGN: Final = f"/{ATOM}foreign-"
+OTHER_PACKAGE: Final = f"/{ATOM}package-"
 """The install prefix of another package of the workspace, whose name follows."""
 
 LONGEST: Final = 1 << 20
@@ -118,7 +118,7 @@ def _split(value: str) -> list[str]:
             position += 2
             continue
         if letter == "\3":
-            return [*found, WILD]
+            return [*found, UNPAIRED_HOLE]
         if letter == "[":
             depth += 1
         elif letter == "]":
@@ -131,7 +131,7 @@ def _split(value: str) -> list[str]:
         position += 1
     found.append("".join(piece))
     if depth and (MAYBE in value or HOLE in value):
-        return [WILD]  # an unpaired bracket joins the elements after it
+        return [UNPAIRED_HOLE]  # an unpaired bracket joins the elements after it
     return found
 
 
@@ -151,13 +151,13 @@ def unpaired(value: str) -> bool:
     return depth != 0 or lowest < 0
 
 
-def wild(value: str | None) -> str | None:
+def with_unpaired_holes(value: str | None) -> str | None:
     """Return a value as read in a script whose unknown texts may have unpaired brackets."""
     if not value:
         return value
     if MAYBE in value and unpaired(value):
-        return WILD  # the elements that are joined depend on which ones are missing
-    return value.replace(HOLE, WILD) if HOLE in value and WILD not in value else value
+        return UNPAIRED_HOLE  # the elements that are joined depend on which ones are missing
+    return value.replace(HOLE, UNPAIRED_HOLE) if HOLE in value and UNPAIRED_HOLE not in value else value
 
 
 def join(values: Iterable[str]) -> str:
@@ -191,7 +191,7 @@ def sure(element: str) -> tuple[str, bool]:
 
 def maybe(element: str) -> str:
     """Return a list element marked as one that may be missing."""
-    return element if element.startswith(MAYBE) or element in (HOLE, WILD) else MAYBE + element
+    return element if element.startswith(MAYBE) or element in (HOLE, UNPAIRED_HOLE) else MAYBE + element
 
 
 def certainly_set(value: str) -> bool:
@@ -199,7 +199,7 @@ def certainly_set(value: str) -> bool:
 
     A variable that one branch sets to the empty text and another leaves unset counts as empty.
     """
-    return any(element and element not in (HOLE, WILD) and not element.startswith(MAYBE) for element in elements(value))
+    return any(element and element not in (HOLE, UNPAIRED_HOLE) and not element.startswith(MAYBE) for element in elements(value))
 
 
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
@@ -225,7 +225,7 @@ def merge(values: Sequence[str | None], default: int | None = None) -> str | Non
         more = dict.fromkeys(
             maybe(element) for value in values for element in elements(value or "") if sure(element)[0] not in have
         )
-        return join([base, *(element for element in more if element not in (HOLE, WILD))])
+        return join([base, *(element for element in more if element not in (HOLE, UNPAIRED_HOLE))])
     return _merge_lists(values)
 
 

@@ -1,0 +1,52 @@
+"""Packages that the scripts have found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ros_lint.base.text import Span
+from ros_lint.collectors.cmake.evaluator.state import Properties
+from ros_lint.collectors.cmake.evaluator.values import kept
+
+
+@kept(4096)
+def folded(name: str) -> str:
+    """Return a name without ``_``, ``-`` and upper case, to compare spellings of a package's name."""
+    return name.replace("_", "").replace("-", "").lower()
+
+
+class FoundPackages:
+    """The packages that find_package() and similar commands have found so far."""
+
+    def __init__(self, scripts: Iterable[str]) -> None:
+        self.find_modules = {
+            path[path.rindex("Find") + 4 : -6]: path
+            for path in scripts
+            if path.endswith(".cmake") and path.rpartition("/")[2].startswith("Find")
+        }
+        """Paths of the package's own find modules (FindX.cmake), by the name X."""
+        self.certain: Properties = Properties()
+        """Packages that are certainly found."""
+        self.prefixes: dict[str, bool] = {}
+        """Prefixes of variables that found packages may have set, each with whether it is a package name.
+
+        It is none for pkg_check_modules(), whose first argument chooses the prefix."""
+        self.included: Properties = Properties()
+        """Packages of the workspace whose CMake code has run."""
+        self.optional_finds: dict[str, list[Span]] = {}
+        """Places of find_package() calls without REQUIRED, by package."""
+        self._folded_prefixes: tuple[str, ...] = ()
+
+    def may_set(self, variable: str) -> bool:
+        """Return whether a found package may have set a variable, which then has the prefix of the package."""
+        if len(self.prefixes) != len(self._folded_prefixes):
+            self._folded_prefixes = tuple(map(folded, self.prefixes))
+        return folded(variable).startswith(self._folded_prefixes)
+
+    def named(self, prefix: str) -> str:
+        """Return the found package whose variables have a prefix, ignoring case; "" if there is none."""
+        if self.prefixes.get(prefix):
+            return prefix
+        letters = folded(prefix)
+        names = [name for name in self.prefixes if folded(name) == letters]
+        return next((name for name in names if self.prefixes[name]), names[0] if names else "")
