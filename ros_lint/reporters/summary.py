@@ -46,13 +46,16 @@ def some(packages: Sequence[str]) -> str:
 
 def blind_spots(report: Report) -> Iterator[str]:
     """Yield sentences without a full stop about everything that was not analysed or not shown."""
-    if more := Counter({name: number for hidden in report.hidden for name, number in hidden.rules}):
+    more: Counter[str] = Counter()
+    for hidden in report.hidden:
+        more.update(dict(hidden.rules))
+    if more:
         by_rule = [f"{name} {number}" for name, number in more.most_common(_NAMED)]
         if others := sum(number for _, number in more.most_common()[_NAMED:]):
             by_rule.append(f"other rules {others}")
         yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
-    if hidden := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
-        yield f"Hidden: {'; '.join(hidden)}"
+    if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
+        yield f"Hidden: {'; '.join(kinds)}"
     if report.unseen:
         sides: dict[tuple[str, ...], list[str]] = {}
         for unseen in report.unseen:

@@ -16,7 +16,11 @@ distributions do not have the package.
 
 ## Limitations
 
-The rule is off by default, because most ROS packages rely on transitive dependencies, such as `rclcpp` on `rcl`.
+The severity depends on the use:
+
+- a warning if CMake finds the package outside of tests, because nine of ten packages declare what they find;
+- an info for all other uses: headers, imports, interfaces, launch files, tests. It does not change the exit code, unless
+  `--fail-on info` is given. The `text` format shows all infos of a package together.
 
 Not reported:
 
@@ -26,7 +30,8 @@ Not reported:
 - Packages that CMake finds but no code uses: see `unused-find-package`.
 - Packages for which `package.xml` declares a wrong name: see `unknown-dependency`.
 - A library of a declared vendor package, or of a declared key that stands for the whole library.
-- Packages that no declared dependency provides: see `undeclared-dependency` and `launch-outside-closure`.
+- Packages that no declared dependency provides, or only one with a tag for another purpose: see `undeclared-dependency` and
+  `launch-outside-closure`.
 - Optional uses of a package that depends on this one.
 
 Reported with medium confidence:
@@ -34,8 +39,15 @@ Reported with medium confidence:
 - All files that use the package may not be built or installed, or colcon rejects `package.xml`.
 - The package depends on this one, with any tag, so declaring it would close a cycle that colcon rejects. There is no fix.
 
-Optional uses are reported with low confidence and without a fix. There is also no fix if no rosdep key resolves for the
-distribution.
+Reported with low confidence, because packages rarely declare it:
+
+- Parts of launch that launch files import.
+- Tools that run tests, such as GoogleTest, pytest and `launch_testing`, if another test dependency provides them.
+- Linters that `ament_lint_common` provides.
+- Packages that launch files use and a released metapackage provides.
+- Optional uses. They have no fix.
+
+There is also no fix if no rosdep key resolves for the distribution.
 """
 
 from __future__ import annotations
@@ -85,7 +97,7 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
     if all(use.via in ("launch", "package") for use in need.uses) and dependencies.only_brings(workspace.world, carrier):
         return True
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
-    return bool(outside_tests) and dependencies.is_part_of_launch(package, outside_tests)
+    return dependencies.is_part_of_launch(package, outside_tests or need.uses)
 
 
 def _is_found_by_cmake(need: dependencies.Need) -> bool:
