@@ -40,6 +40,7 @@ Not reported:
 
 - Packages that a declared dependency with a tag for the same purpose provides: see `transitive-dependency`.
 - Packages that come with a dependency which needs another tag itself: see `wrong-dependency-kind`.
+- Packages that come with a dependency with the right tag in another distribution, if the distribution is not set.
 - Packages for tests, if a dependency with any tag provides what they use, because all of it serves tests.
 - Names that only launch files start, include or look up, except in tests: see `launch-outside-closure`.
 - Templates for other packages, scripts that build the documentation, and copies made by editors.

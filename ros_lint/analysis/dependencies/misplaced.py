@@ -68,7 +68,8 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
     - packages for tests, because their dependencies serve tests anyway,
     - needs of unguarded tests, because they have to move to the tests,
     - needs that come with a declared name which itself needs another tag, because that tag is reported,
-    - needs that a dependency with the right tag and unknown dependencies may provide.
+    - needs that a dependency with the right tag may provide: its dependencies are unknown, or it does so in another
+      distribution and none was chosen.
     """
     every = needs(package, workspace)
     waiting = [need for need in every if need.brought and not need.declared]
@@ -86,7 +87,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
             uses = _outside(closure, _of_phase(phase, need.uses))
             if not uses or need.name in unguarded or any(need is other.need for other in result):
                 continue
-            if any(may_provide(closure.unknown, name, workspace) for use in uses for name in use.providers):
+            if any(_may_provide(closure, name, workspace) for use in uses for name in use.providers):
                 continue
             if depend := _provider(package, workspace, uses[0].providers):
                 result.append(Misplaced(need, tuple(uses), depend, phase.purpose))
@@ -96,6 +97,14 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
 def _outside(closure: Closure, uses: Iterable[Use]) -> list[Use]:
     """Return the uses that no name of a closure satisfies."""
     return [use for use in uses if not any(name in closure for name in use.providers)]
+
+
+def _may_provide(closure: Closure, name: str, workspace: Workspace) -> bool:
+    """Return whether a dependency may provide a name: an unknown one, or any in the distribution of the user."""
+    if may_provide(closure.unknown, name, workspace):
+        return True
+    brings = workspace.world.knowledge.brings_elsewhere
+    return not workspace.target.explicit and any(brings(dependency, name) for dependency in closure)
 
 
 def _of_phase(phase: _Phase, uses: Iterable[Use]) -> list[Use]:
