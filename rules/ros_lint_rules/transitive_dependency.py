@@ -42,7 +42,8 @@ Reported with medium confidence:
 Reported with low confidence, because packages rarely declare it:
 
 - Parts of launch that launch files import.
-- Tools that run tests, such as GoogleTest, pytest and `launch_testing`, if another test dependency provides them.
+- Tools that run tests, such as GoogleTest, pytest and `launch_testing`.
+- `ament_cmake_core`, because every build tool provides it.
 - Linters that `ament_lint_common` provides.
 - Packages that launch files use and a released metapackage provides.
 - Optional uses. They have no fix.
@@ -58,11 +59,12 @@ from ros_lint.api import Confidence, Finding, Package, Related, Role, Rule, Seve
 
 _LAUNCHER = "ros2launch"
 _LINTERS = "ament_lint_common"
-_TEST_TOOLS = dependencies.TEST_LIBRARIES | {
-    "ament_cmake_pytest", "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake",
-    "launch_testing_ros", "python3-pytest",
-}  # fmt: skip
+_TEST_MODULES = frozenset({
+    "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros", "python3-pytest",
+})  # fmt: skip
 """Packages and keys that tests use and that usually come with a package for a kind of tests."""
+_PARTS = dependencies.TEST_LIBRARIES | {"ament_cmake_core", "ament_cmake_pytest"}
+"""Packages and keys that usually come with a build tool."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -92,7 +94,7 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
 
     This holds for launch in launch files, tools that run tests, linters, and what launch files use of a metapackage.
     """
-    if need.role is Role.TEST and (need.name in _TEST_TOOLS or carrier == _LINTERS):
+    if need.name in _PARTS or (need.role is Role.TEST and (need.name in _TEST_MODULES or carrier == _LINTERS)):
         return True
     if all(use.via in ("launch", "package") for use in need.uses) and dependencies.only_brings(workspace.world, carrier):
         return True
