@@ -87,12 +87,17 @@ def test_version_and_help() -> None:
         assert run(command, "--help").returncode == 0
 
 
-HEAVY = {"networkx", "libcst", "yaml", "importlib.metadata", "dataclasses", "json", "argparse"}
+HEAVY = {"networkx", "libcst", "lxml", "yaml", "importlib.metadata", "dataclasses", "json", "argparse"}
 
 
 @pytest.mark.parametrize(
     ("arguments", "allowed"),
-    [(["--version"], set()), (["--help"], {"argparse"}), (["CLEAN", "--format", "concise"], {"argparse"})],
+    [
+        (["--version"], set()),
+        (["--help"], {"argparse"}),
+        (["CLEAN", "--format", "concise"], {"argparse", "lxml"}),
+        (["CLEAN", "--format", "concise", "--ignore", "manifest-schema"], {"argparse"}),
+    ],
 )
 def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str], allowed: set[str]) -> None:
     given = [str(clean) if argument == "CLEAN" else argument for argument in arguments]

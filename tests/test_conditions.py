@@ -150,7 +150,7 @@ def test_build_types_and_problems_of_a_manifest() -> None:
     assert conditions.build_types(manifest, {"A": "1"}) == (("catkin", True), ("ament_cmake", None))
     assert conditions.build_types(manifest, {"A": "2", "B": "1"}) == (("ament_cmake", True),)
     assert [problem.message for problem in conditions.problems(manifest)] == [
-        "condition $A of <depend> does not parse: at character 3, expected a comparison such as ==",
+        "condition '$A' of <depend> does not parse: at character 3, expected a comparison such as ==",
         "condition of <depend> is empty; remove the attribute",
-        "condition x y of <other> does not parse: at character 3, expected a comparison such as ==",
+        "condition 'x y' of <other> does not parse: at character 3, expected a comparison such as ==",
     ]

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from ros_lint.base.text import Span, Text, read
 from ros_lint.collectors.cpp import collect as cpp
-from ros_lint.collectors.cpp.includes import STANDARD, Found, exact, mentions
+from ros_lint.collectors.cpp.includes import STANDARD, IncludeScan, exact, mentions
 from ros_lint.facts.sources import Mention
 
 pytestmark = pytest.mark.slow
 
 
-def includes(text: str) -> Found:
+def includes(text: str) -> IncludeScan:
     """Return what both ways to find includes find."""
     source = Text("a.cpp", text)
     found = mentions(source)

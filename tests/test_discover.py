@@ -153,7 +153,7 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
         "test/c.cpp",
     )
     assert [manifest.name for manifest in package.nested] == ["inner"]
-    assert [skipped.path for skipped in package.unseen] == ["build", "old", "scripts/more", "test/inner", "unused", "venv"]
+    assert [skipped.path for skipped in package.unvisited] == ["build", "old", "scripts/more", "test/inner", "unused", "venv"]
 
 
 @pytest.mark.parametrize(
@@ -232,7 +232,7 @@ def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
     (package / "shared").symlink_to("../shared")
     found = discover(DiskTree(str(tmp_path / "ws")), [""])
     assert found.packages[0].files == ("alias/a.yaml", "config/a.yaml", "package.xml", "shared/deep/b.yaml")
-    assert found.packages[0].unseen == (
+    assert found.packages[0].unvisited == (
         Skipped("alias/up", "a link to a folder that contains it", link=True),
         Skipped("config/up", "a link to a folder that contains it", link=True),
         Skipped("outside", "a link that leads out of the workspace", link=True),

@@ -158,7 +158,7 @@ def test_what_is_not_read(place: Place, change: Callable[[Place], object]) -> No
 
 
 def test_large_files_are_not_read(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept_files, "_MOST_BYTES", place.file.stat().st_size - 1)
+    monkeypatch.setattr(kept_files, "_MAX_BYTES", place.file.stat().st_size - 1)
     assert kept_files.load(str(place.file), "state") is None
     other = place.folder / "other"
     assert not kept_files.save(str(other), "state", KEPT)  # it could not be read again

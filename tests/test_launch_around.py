@@ -154,7 +154,7 @@ def generate_launch_description():
     }
     alone = _completed((_package("app", files, {}), files))["app/launch/a.launch.py"]
     assert [opaque.reason for opaque in alone.opaque] == [
-        "what is launched is not known: AgentLaunchDescription() cannot be followed"
+        "the launched actions are not known: AgentLaunchDescription() cannot be followed"
     ]
     packages = [(_package("app", files, {}), files), (_package("bringup", library, {}), library)]
     after = _completed(*packages)["app/launch/a.launch.py"]

@@ -142,7 +142,7 @@ def generate_launch_description():
         "node p x",
         "conditional: the condition is not known",
         "unknown parameters",
-        "? it is computed in a way that cannot be followed",
+        "? it is computed in a way that ros-lint cannot follow",
     ]
 
 
@@ -169,9 +169,9 @@ def test_why_something_is_not_known() -> None:
     lines = launch('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
     assert lines == [
         "node p ?",
-        "? the environment variable WHICH is not known here",
+        "? the environment variable 'WHICH' is not known",
         "node p ?",
-        "? nothing sets the launch configuration nobody",
+        "? the launch configuration 'nobody' is not set",
     ]
 
 

@@ -267,8 +267,8 @@ def test_the_main_guard_is_not_run_by_launch() -> None:
             "return [Node(executable=[FindPackageShare(LaunchConfiguration('p')), '/x'])]",
             "the package that is looked up is computed",
         ),
-        ("return [IncludeLaunchDescription(x)]", "which launch file is included is computed"),
-        ("return [ExecuteProcess(cmd=['ros2', 'run', x, 'b'])]", "what ros2 run starts is computed"),
+        ("return [IncludeLaunchDescription(x)]", "the included launch file is computed"),
+        ("return [ExecuteProcess(cmd=['ros2', 'run', x, 'b'])]", "the target of 'ros2 run' is computed"),
     ],
 )
 def test_what_is_computed_hides_what_is_used(body: str, reason: str) -> None:

@@ -290,7 +290,7 @@ def test_too_many_alternatives_are_perhaps_launched_each(line: str, end: str) ->
     lines = [line.format(number) for number in range(30)]
     source, found = collect("a.launch.py", body("\n".join(["node = None", *lines, end])))
     assert sorted(said(source, found)) == sorted(f"node? a b{number}" for number in range(30))
-    assert [one.reason for one in found.opaque] == ["what is launched is not known: one of too many values"]
+    assert [one.reason for one in found.opaque] == ["the launched actions are not known: one of too many values"]
 
 
 @pytest.mark.parametrize("end", ["break", "return [Node(package='a', executable='b')]"])

@@ -134,7 +134,7 @@ def test_what_a_repeated_call_returns_is_not_known() -> None:
     function = "def f(x):\n    if x.right:\n        return Node(package='a', executable='b')\n    return f(x.left)\n"
     source, found = collect(function, "return LaunchDescription([f(unknown())])")
     assert said(source, found) == ["node? a b"]
-    assert [one.reason for one in found.opaque] == ["what is launched is not known: the result of f() within itself"]
+    assert [one.reason for one in found.opaque] == ["the launched actions are not known: the result of f() within itself"]
 
 
 # Functions that call themselves, how they are called, and what they start. Known values decide how often.

@@ -79,7 +79,7 @@ def test_a_linked_package_is_checked_and_not_written(tmp_path: Path) -> None:
     assert rules(ran, "src/linked/") == rules(ran, "src/own/") == ["undeclared-dependency"]
     for flag in ("--diff", "--fix"):
         ran = lint(tmp_path / "ws", flag, text=True)
-        reason = "src/linked/package.xml is outside of the given folders"
+        reason = "'src/linked/package.xml' is outside the folders to check"
         assert f"src/linked/CMakeLists.txt:4:14: fix skipped: {reason} [undeclared-dependency]" in ran.err
         assert "b/src/linked" not in ran.text
     assert (linked / "package.xml").read_bytes() == before
@@ -121,7 +121,7 @@ def test_a_fix_does_not_create_a_file_elsewhere(tmp_path: Path) -> None:
     script_package(tmp_path / "ws" / "robot")
     (tmp_path / "ws" / "robot" / "setup.cfg").symlink_to("../../setup.cfg")
     ran = lint(tmp_path / "ws", "--fix")
-    assert "fix skipped: robot/setup.cfg is outside of the given folders" in ran.err
+    assert "fix skipped: 'robot/setup.cfg' is outside the folders to check" in ran.err
     assert not (tmp_path / "setup.cfg").exists()
 
 
@@ -133,7 +133,7 @@ def test_a_file_with_two_names_is_not_written(tmp_path: Path) -> None:
     before = (tmp_path / "first" / "CMakeLists.txt").read_bytes()
     for _ in range(2):
         ran = lint(tmp_path, "--fix", "--unsafe-fixes")
-        reason = "first/CMakeLists.txt and second/CMakeLists.txt are the same file"
+        reason = "'first/CMakeLists.txt' and 'second/CMakeLists.txt' are the same file"
         assert f"fix skipped: {reason} [name-mismatch]" in ran.err
         assert (tmp_path / "first" / "CMakeLists.txt").read_bytes() == before
     assert "nothing to fix" in ran.err

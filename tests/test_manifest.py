@@ -142,9 +142,9 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
     ("text", "where", "message"),
     [
         ("", "1:1-1:1", "the file is empty"),
-        (GOOD.replace(">d<", ">a & b<"), "4:18-4:19", "a bare & is not valid in xml; write &amp;"),
-        (GOOD.replace(">d<", ">1 < 2<"), "4:18-4:19", "a bare < is not valid in xml; write &lt;"),
-        (GOOD.replace(">d<", ">&nbsp;<"), "4:16-4:22", "&nbsp; is not defined in xml; write the character itself"),
+        (GOOD.replace(">d<", ">a & b<"), "4:18-4:19", "a bare '&' is not valid in XML; write '&amp;'"),
+        (GOOD.replace(">d<", ">1 < 2<"), "4:18-4:19", "a bare '<' is not valid in XML; write '&lt;'"),
+        (GOOD.replace(">d<", ">&nbsp;<"), "4:16-4:22", "'&nbsp;' is not defined in XML; write the character itself"),
         (
             GOOD.replace("</version>", "</Version>"),
             "3:19-3:26",
@@ -152,9 +152,9 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
         ),
         (GOOD[:-11], "7:1-7:1", "the file ends inside <package>"),
         (GOOD[:-22], "6:15-6:15", "the file ends inside <license>"),
-        (GOOD[:-20], "6:15-6:17", "</ is never closed"),
-        (GOOD.replace(">d<", "><!-- d<"), "4:16-8:1", "<!-- is never closed"),
-        (GOOD.replace(">d<", "><![CDATA[d<"), "4:16-8:1", "<![CDATA[ is never closed"),
+        (GOOD[:-20], "6:15-6:17", "'</' is never closed"),
+        (GOOD.replace(">d<", "><!-- d<"), "4:16-8:1", "'<!--' is never closed"),
+        (GOOD.replace(">d<", "><![CDATA[d<"), "4:16-8:1", "'<![CDATA[' is never closed"),
         (
             GOOD + "<depend>a</depend>",
             "8:1-8:2",
@@ -165,10 +165,10 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
             "1:1-1:10",
             "<license> comes before <package>; remove it, because only one root element is allowed",
         ),
-        (GOOD.replace("email=", "email='' email="), "5:24-5:25", "the attribute email is repeated; remove one"),
+        (GOOD.replace("email=", "email='' email="), "5:24-5:25", "the attribute 'email' is repeated; remove one"),
         (with_("<x:a/>"), "7:1-7:2", "the prefix before ':' belongs to no namespace; remove it"),
         ("<launch/>", "1:2-1:8", "the root element is <launch>, but a manifest has <package>"),
-        (with_(form="4"), "1:18-1:19", 'there is no format "4" of package.xml; write format="3"'),
+        (with_(form="4"), "1:18-1:19", "there is no format '4' of package.xml; write format=\"3\""),
         (
             with_("  <run_depend>a</run_depend>"),
             "7:3-7:29",
@@ -177,7 +177,7 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
         (
             with_("<exec_depend>a</exec_depend>", form="1"),
             "7:1-7:29",
-            'there is no <exec_depend> in format 1 of package.xml; write <run_depend>, or raise the format to "2" or "3"',
+            "there is no <exec_depend> in format 1 of package.xml; write <run_depend>, or raise the format to 2 or 3",
         ),
         (with_("<dependd>a</dependd>"), "7:1-7:21", "there is no <dependd> in format 3 of package.xml; did you mean <depend>?"),
         (
@@ -188,25 +188,29 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
         (
             with_("<member_of_group>g</member_of_group>", form="2"),
             "7:1-7:37",
-            'there is no <member_of_group> in format 2 of package.xml; raise the format to "3"',
+            "there is no <member_of_group> in format 2 of package.xml; raise the format to 3",
         ),
         (
             with_("<depend\n  condition='$A == 1'>a</depend>", form="2"),
             "8:3-8:22",
-            'the attribute condition of <depend> needs format 3; write <package format="3">',
+            "the attribute 'condition' of <depend> needs format 3; write <package format=\"3\">",
         ),
         (with_("<depend>p</depend>"), "7:1-7:19", "the package depends on itself; remove this <depend>"),
         (
             with_("<exec_depend>a</exec_depend>", "<depend>a</depend>"),
             "7:1-7:29",
-            "<depend>a</depend> is declared already; remove this <exec_depend>",
+            "'a' is already declared as <depend>; remove this <exec_depend>",
         ),
-        (GOOD.replace(">p<", "> a b <"), "2:10-2:13", '"a b" is no package name; use letters, digits and underscores only'),
-        (GOOD.replace("1.0.0", "\n 1.0 "), "4:2-4:5", 'version "1.0" is not of the form 1.2.3; write three numbers'),
+        (
+            GOOD.replace(">p<", "> a b <"),
+            "2:10-2:13",
+            "'a b' is not a valid package name; use only letters, digits and underscores",
+        ),
+        (GOOD.replace("1.0.0", "\n 1.0 "), "4:2-4:5", "version '1.0' is not of the form 1.2.3; write three numbers"),
         (
             GOOD.replace(">m<", ">Ü<").encode("latin-1"),
             "5:30-5:31",
-            "not utf-8, the encoding of manifests; save the file as utf-8",
+            "the file is not valid UTF-8, the encoding of manifests; save it as UTF-8",
         ),
     ],
 )

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parent.parent
 DEMO = ROOT / "fixtures" / "workspaces" / "demo"
-OTHERS = ("libcst", "networkx", "ros_lint_rules", "tomli", "yaml")
+OTHERS = ("libcst", "lxml", "networkx", "ros_lint_rules", "tomli", "yaml")
 PLACES = [str(Path(module.__path__[0]).parent) for module in (ros_lint, ros_lint_rules)]
 
 

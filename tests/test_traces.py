@@ -6,8 +6,8 @@ from ros_lint.base.text import read
 from ros_lint.collectors.cpp import collect as cpp
 from ros_lint.knowledge.names import Names
 from ros_lint.knowledge.store import Store
-from ros_lint.workspace.usage.package_files import Source
-from ros_lint.workspace.usage.textual_mentions import find_mentions, mentioned
+from ros_lint.workspace.usage.package_files import PackageSource
+from ros_lint.workspace.usage.textual_mentions import find_code_mentions, find_mentions
 
 
 def test_a_name_leaves_traces_in_many_spellings() -> None:
@@ -57,9 +57,9 @@ def test_what_an_include_names_is_a_trace_where_the_text_has_it() -> None:
     source = b"#include <acme/route_tools/route.hpp>\n#include <Eigen/Core>\nacme_msgs::msg::Route route;\n"
     names, words = ("acme_route_tools", "acme_msgs", "eigen", "acme_other"), {"eigen": ("eigen",)}
     facts = {file: cpp.collect(read(f"talker/{file}", source)) for file in ("a.cpp", "readme.cpp")}
-    package = Source("talker", "talker", tuple(facts), None, facts, (), "ament_cmake")
-    found = mentioned(names, package, words, lambda file: file != "readme.cpp")
+    package = PackageSource("talker", "talker", tuple(facts), None, facts, (), "ament_cmake")
+    found = find_code_mentions(names, package, words, lambda file: file != "readme.cpp")
     texts = find_mentions(names, [("talker/a.cpp", source)], words)
     assert {name: span.line for name, span in found.items()} == {name: span.line for name, span in texts.items()}
     assert found.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
-    assert not mentioned(names, package, words, lambda file: False)
+    assert not find_code_mentions(names, package, words, lambda file: False)

@@ -6,7 +6,7 @@ from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.cpp.types import declared, introduced
 from ros_lint.facts.sources import FileFacts, Mention
-from ros_lint.workspace.usage.package_files import Source
+from ros_lint.workspace.usage.package_files import PackageSource
 from ros_lint.workspace.usage.unqualified_types import Types
 
 ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Base {};\nstruct Node\n{};\nclass Other;\n}\n"
@@ -26,10 +26,10 @@ def test_what_is_introduced() -> None:
     assert introduced(DATA) == {"nav_msgs": {b"Odometry", b"Line"}}
 
 
-def source(name: str, files: dict[str, bytes], mentions: tuple[str, ...] = ()) -> Source:
+def source(name: str, files: dict[str, bytes], mentions: tuple[str, ...] = ()) -> PackageSource:
     found = tuple(Mention(each, "include", Span("f", 1, 1, 1, 2)) for each in mentions)
     facts = {file: FileFacts(found) for file in files}
-    return Source(name, name, tuple(files), None, facts, (), "ament_cmake")
+    return PackageSource(name, name, tuple(files), None, facts, (), "ament_cmake")
 
 
 def places(code: bytes) -> dict[str, tuple[int, int]]:

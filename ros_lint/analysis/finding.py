@@ -11,67 +11,83 @@ from ros_lint.base.text import Span
 
 
 class Severity(Sealed, IntEnum):
-    """The impact of a problem, given that the finding is right."""
+    """The impact of a problem if the finding is right."""
 
     INFO = 1
+    """A matter of style, or an improvement."""
     WARNING = 2
+    """It works now, or here, and fails later or for others."""
     ERROR = 3
+    """The build, the installation or the launch fails."""
 
     def __str__(self) -> str:
         return self.name.lower()
 
 
 class Confidence(Sealed, IntEnum):
-    """The probability that a finding is right. Only HIGH, at least 99 %, is shown without ``--pedantic``."""
+    """The probability that a finding is right."""
 
     LOW = 1
+    """A hint: the finding is often wrong."""
     MEDIUM = 2
+    """Probably right, but a doubt remains."""
     HIGH = 3
+    """Right in at least 99 of 100 cases."""
 
     def __str__(self) -> str:
         return self.name.lower()
 
 
 class Fix(NamedTuple):
-    """A way to fix a finding. ``title`` is a verb phrase: "declare 'std_msgs' as <depend>".
-
-    A safe fix does not change the behaviour of working code; other fixes need ``--unsafe-fixes``.
-    """
+    """A way to fix a finding. ``ros-lint --fix`` applies it, unless the fix causes another finding."""
 
     title: str
+    """Verb phrase: "declare 'std_msgs' as <depend>"."""
     edits: tuple[Edit, ...]
+    """The changes, at least one. They are made all together or not at all."""
     safe: bool = True
+    """True if the fix does not change the behaviour of working code; other fixes need ``--unsafe-fixes``."""
 
     @classmethod
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
-        """Return the fix that makes some edits, or None if there are none or if one of them is None."""
-        made = tuple([edit for edit in edits if edit is not None])
-        return cls(title, made, safe) if made and len(made) == len(edits) else None
+        """Return the fix that makes some edits, or None if there are none or if one of them is None.
+
+        The functions of ``edits`` return None if the file has no place for the edit.
+        """
+        present = tuple([edit for edit in edits if edit is not None])
+        return cls(title, present, safe) if present and len(present) == len(edits) else None
 
 
 class Related(NamedTuple):
     """Another place that matters to a finding."""
 
     message: str
+    """Text in lower case without a final full stop."""
     span: Span
+    """The place."""
 
 
 class Finding(NamedTuple):
-    """A problem at a place. The engine adds the rule and the package.
-
-    ``message`` is lower case without a final full stop; it says what is wrong and what to write. ``subject`` is the
-    dependency, file or executable concerned: the stable part of the finding's identity. ``package`` is set by workspace
-    rules only: the name of the package that has to change.
-    """
+    """A problem at a place. The engine adds the rule and the package."""
 
     message: str
+    """Text in lower case without a final full stop: what is wrong, why it matters, what to write."""
     span: Span
+    """Place of the problem."""
     subject: str
+    """The dependency, file or executable concerned.
+
+    Rule, package and subject identify a finding when lines move, for example in a baseline.
+    """
     related: tuple[Related, ...] = ()
+    """Other places that matter."""
     fix: Fix | None = None
+    """A way to fix it, if there is one. Then the rule is ``fixable``."""
     confidence: Confidence = Confidence.HIGH
+    """Probability that the finding is right. Only HIGH is shown without ``--pedantic``."""
     severity: Severity | None = None
     """Overrides the severity of the rule for a milder or graver case."""
     package: str = ""
+    """Name of the package that has to change. Only checks of a workspace set it."""
     steps: bool = False
     """True if the related places are the steps of a path, such as a cycle or a dependency chain."""

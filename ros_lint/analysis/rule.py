@@ -13,30 +13,38 @@ if TYPE_CHECKING:
 
 
 class Rule(NamedTuple):
-    """A check with its metadata. Declared once, as ``RULE``, in the module that holds the check.
+    """A check with its metadata. The module that contains the check assigns it to ``RULE``.
 
-    Exactly one of ``package``, ``workspace`` and ``suppressions`` is set. Each is a pure generator of findings:
-    - ``package`` is called for each package.
-    - ``workspace`` is called once.
-    - ``suppressions`` is called after all other rules, with the suppression comments and their uses.
+    Exactly one of ``package``, ``workspace`` and ``suppressions`` is set. Each is a pure generator of findings.
     """
 
     name: str
+    """Name in kebab case, as users write it in settings and suppressions: "missing-file"."""
     code: str
-    """``ROS`` and three digits, where the first digit is the group of the rule.
+    """Unique short name: letters, then digits. A plugin uses letters of its own: "ACME001".
 
-    The groups: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts, 4xx install, 5xx launch, 9xx ros-lint
-    itself."""
+    The codes of ros-lint are ``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts,
+    4xx install, 5xx launch, 9xx ros-lint itself.
+    """
     summary: str
     """Completes "checks that", lower case, no full stop: "used packages are declared"."""
     severity: Severity
+    """Severity of its findings, unless a finding overrides it."""
     since: str
+    """Version of ros-lint, or of the plugin, that introduced the rule: "0.2"."""
     doc: str
-    """The module's docstring. Headings: What it finds / Why it matters / How to fix it / Limitations."""
+    """Documentation in Markdown: ``__doc__``, the docstring of the module.
+
+    Its headings are: What it finds, Why it matters, How to fix it, Limitations. SARIF reports contain it; for rules of
+    ros-lint, ``ros-lint rule NAME`` prints it.
+    """
     default: bool = True
     """True if the rule runs unless it is deselected; false if it must be selected."""
     fixable: bool = False
     """True if some of its findings have a fix."""
     package: Callable[[Package, Workspace], Iterable[Finding]] | None = None
+    """The check of a package. It is called once for each package."""
     workspace: Callable[[Workspace], Iterable[Finding]] | None = None
+    """The check of a workspace. It is called once for each run."""
     suppressions: Callable[[SuppressionUse], Iterable[Finding]] | None = None
+    """The check of suppression comments. It is called after all other rules."""

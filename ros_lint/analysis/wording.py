@@ -11,5 +11,5 @@ _MOST_RELATED = 4
 
 
 def first_related(places: Iterable[Related]) -> tuple[Related, ...]:
-    """Return the first four related places, because more do not help the reader."""
+    """Return the first four related places. More do not help the reader."""
     return tuple(islice(places, _MOST_RELATED))

@@ -1,21 +1,29 @@
-"""Everything a rule may import: types of rules, findings and the model, and seven namespaces."""
+"""Everything a rule may import: types of rules, findings and the model, and eight namespaces."""
 
 from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import first_related
-from ros_lint.api import build, dependencies, edits, files, graph, launch, names
+from ros_lint.api import build, dependencies, edits, files, graph, launch, manifests, names
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
 from ros_lint.facts.build import (
+    BuildExports,
+    BuildFiles,
+    BuildProducts,
+    BuildProject,
     BuildScript,
+    CMakeBuild,
+    CMakeCommands,
     Component,
+    ExportedTarget,
     InstalledFile,
     PluginClass,
     PluginFile,
     PluginLibrary,
     ScriptFile,
+    SetupScript,
     UninstalledImport,
 )
 from ros_lint.facts.cmake import BuildTarget, Call
@@ -32,8 +40,14 @@ from ros_lint.workspace.target import TargetDistro
 __all__ = [
     "ALL_FACETS",
     "STANDARD_LIBRARY",
+    "BuildExports",
+    "BuildFiles",
+    "BuildProducts",
+    "BuildProject",
     "BuildScript",
     "BuildTarget",
+    "CMakeBuild",
+    "CMakeCommands",
     "Call",
     "Component",
     "Confidence",
@@ -43,6 +57,7 @@ __all__ = [
     "EditableList",
     "Element",
     "EntryPoint",
+    "ExportedTarget",
     "Facet",
     "Finding",
     "Fix",
@@ -68,6 +83,7 @@ __all__ = [
     "Role",
     "Rule",
     "ScriptFile",
+    "SetupScript",
     "Severity",
     "Span",
     "Suggestion",
@@ -85,6 +101,7 @@ __all__ = [
     "first_related",
     "graph",
     "launch",
+    "manifests",
     "names",
     "too_new",
 ]

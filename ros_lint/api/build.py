@@ -32,6 +32,7 @@ from ros_lint.analysis.build.targets import (
     programs_built,
     stem,
 )
+from ros_lint.analysis.build.xmllint import runs_xmllint
 from ros_lint.workspace.build_scripts.resources import uninstalled_resources
 from ros_lint.workspace.usage.unused_find_package import generated_from
 
@@ -62,6 +63,7 @@ __all__ = [
     "opaque_except_undefined_targets",
     "partly_installed_nodes",
     "programs_built",
+    "runs_xmllint",
     "stem",
     "stops_early",
     "unguarded_tests",

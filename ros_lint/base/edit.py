@@ -11,7 +11,9 @@ class Edit(NamedTuple):
     """Replaces the text of ``span`` by ``text``. An empty span inserts."""
 
     span: Span
+    """The text to replace; an empty span is a place to insert at."""
     text: str
+    """The new text; "" deletes."""
     kind: int = 0
     """Rank among several insertions at one place: the lowest kind comes first.
 

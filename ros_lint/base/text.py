@@ -14,14 +14,19 @@ from typing import NamedTuple
 class Span(NamedTuple):
     """A place in a file. Lines and columns count from 1, columns in code points; the end is exclusive.
 
-    ``path`` is relative to the base of the run, with forward slashes. Spans sort by file, then by place.
+    Spans sort by file, then by place. ``str(span)`` is ``path:line:column``.
     """
 
     path: str
+    """Path of the file, relative to the base of the run, with forward slashes."""
     line: int
+    """First line, from 1."""
     column: int
+    """Column of the first character, from 1."""
     end_line: int
+    """Last line."""
     end_column: int
+    """Column after the last character."""
 
     def __str__(self) -> str:
         return f"{self.path}:{self.line}:{self.column}"

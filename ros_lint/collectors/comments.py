@@ -1,7 +1,7 @@
 """Comments of a file, in the languages of a workspace.
 
-Only files with a certain word are searched, so this is exact rather than fast. A string that looks like a comment is
-none. In a broken file, whatever may be a comment or a string is left out.
+Only files with a certain word are searched, so this is exact rather than fast. Strings that look like comments are
+left out. In a broken file, text that may be a comment or a string is left out.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ _TO_LINE_END = re.compile(r"#[^\r\n]*")
 
 
 def _in_yaml(text: str) -> Ranges:
-    from ros_lint.base.safe_yaml import YamlError, tokens  # noqa: PLC0415  (few files are looked at)
+    from ros_lint.base.safe_yaml import YamlError, tokens  # noqa: PLC0415  (needed for few files)
 
     try:
         ranges = tokens(text)
@@ -114,6 +114,6 @@ def _in_yaml(text: str) -> Ranges:
         return
     at = 0
     for start, end in (*ranges, (len(text), len(text))):
-        # Between two tokens there are only space and comments.
+        # Between two tokens there are only spaces and comments.
         yield from (match.span() for match in _TO_LINE_END.finditer(text, at, start))
         at = max(at, end)

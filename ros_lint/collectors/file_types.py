@@ -40,6 +40,6 @@ def kind_of(path: str) -> Kind | None:
     if suffix in ("in", "em") and stem:  # configured by CMake, expanded by empy
         inner = _SUFFIXES.get(stem.rpartition(".")[2])
         return inner if inner in ("cmake", "python") else None
-    if name == suffix:  # without a suffix, it may be a program, except markers in resource/ and names in capitals such as LICENSE
+    if name == suffix:  # may be a program, except for markers in resource/ and names in capitals such as LICENSE
         return None if name.isupper() or path.endswith(f"resource/{name}") else "program"
     return _SUFFIXES.get(suffix) if stem else None

@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 _STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 _JAVA_TYPE = re.compile(r"(?<![\w.])([a-z]\w*)\.(?:msg|srv|action)\.[A-Z*]\w*")
 _RCLJAVA = re.compile(r"^[ \t]*import[ \t]+(?:static[ \t]+)?(org\.ros2\.rcljava(?:\.(\w+))?)\b", re.MULTILINE)
-_OF_JAVA = (".msg.", ".srv.", ".action.", "org.ros2.rcljava")
-"""Texts of which a relevant Java source has at least one: a test before comments are blanked out."""
+_JAVA_MARKS = (".msg.", ".srv.", ".action.", "org.ros2.rcljava")
+"""A relevant Java source contains at least one of these texts: a fast test before comments are removed."""
 _RCLJAVA_COMMON = frozenset({"common", "exceptions", "interfaces"})
 """Parts of org.ros2.rcljava that are in the package rcljava_common."""
 
 _CRATE = re.compile(r"(?<![\w:])(?:use\s+|extern\s+crate\s+)(rclrs|rosidl_runtime_rs)\b")
 _RUST_TYPE = re.compile(r"(?<![\w:])(?:::)?(?P<type>(?P<package>[a-z]\w*)::(?:msg|srv|action)::\w*)")
-_OF_RUST = ("::msg::", "::srv::", "::action::", "rclrs", "rosidl_runtime_rs")
-"""Texts of which a relevant Rust source has at least one."""
-_OF_CRATE = re.compile(r"\buse\s[^;]*::\s*\{[^;]*\Z")
+_RUST_MARKS = ("::msg::", "::srv::", "::action::", "rclrs", "rosidl_runtime_rs")
+"""A relevant Rust source contains at least one of these texts."""
+_CRATE_PREFIX = re.compile(r"\buse\s[^;]*::\s*\{[^;]*\Z")
 """Matches the text before a name of another crate: ``use ros_env::{std_msgs::msg::String}``."""
 _SECTION = re.compile(r"^[ \t]*\[+([^\]\n]+)\]+", re.MULTILINE)
 _ENTRY = re.compile(r"^[ \t]*([\w-]+)(?:\.\w+)?[ \t]*=[ \t]*([^\n#]*)", re.MULTILINE)
@@ -42,7 +42,7 @@ _CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
 
 def java(source: Text) -> FileFacts:
     """Return the packages of the interfaces that a Java source names, and those of the client library."""
-    if not any(word in source.text for word in _OF_JAVA):
+    if not any(word in source.text for word in _JAVA_MARKS):
         return FileFacts()
     text = _STRING.sub(_spaces, blanked(source.text))
     names = [(match.span(), match[1]) for match in _JAVA_TYPE.finditer(text)]
@@ -57,20 +57,20 @@ def rust(source: Text) -> FileFacts:
 
     Names in the unit tests of the source count for tests only.
     """
-    if not any(word in source.text for word in _OF_RUST):
+    if not any(word in source.text for word in _RUST_MARKS):
         return FileFacts()
     text = _STRING.sub(_spaces, blanked(source.text))
     names = [(match.span(1), match[1]) for match in _CRATE.finditer(text)]
     names += [
         (match.span("type"), match["package"])
         for match in _RUST_TYPE.finditer(text)
-        if not _OF_CRATE.search(text, text.rfind(";", 0, match.start()) + 1, match.start())
+        if not _CRATE_PREFIX.search(text, text.rfind(";", 0, match.start()) + 1, match.start())
     ]
     facts = _facts(source, names)
     tests = source.text.find("#[cfg(test)]")
     if tests < 0:
         return facts
-    begin = source.span(tests, tests)  # they are at the end
+    begin = source.span(tests, tests)  # unit tests are at the end of a source
     return facts._replace(mentions=tuple(mention._replace(test=mention.span > begin) for mention in facts.mentions))
 
 
@@ -126,10 +126,10 @@ def _spaces(match: re.Match[str]) -> str:
     return " " * len(match[0])
 
 
-def _facts(source: Text, found: list[tuple[tuple[int, int], str]], *, optional: bool = False) -> FileFacts:
+def _facts(source: Text, places: list[tuple[tuple[int, int], str]], *, optional: bool = False) -> FileFacts:
     """Return mentions of packages, each at its first place."""
     first: dict[str, tuple[int, int]] = {}
-    for place, package in sorted(found):
+    for place, package in sorted(places):
         first.setdefault(package, place)
     return FileFacts(
         tuple(

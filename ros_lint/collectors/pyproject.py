@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def tables(source: Text) -> Mapping[str, Any]:
-    """Return the tables of a file, none if it is no TOML, or nested too deeply for the library."""
+    """Return the tables of a file; empty if it is not valid TOML or is nested too deeply."""
     if sys.version_info >= (3, 11):
         import tomllib  # noqa: PLC0415  (few packages have such a file)
     else:
@@ -23,7 +23,7 @@ def tables(source: Text) -> Mapping[str, Any]:
 
 
 def table(content: Any, *keys: str) -> Mapping[str, Any]:
-    """Return the table below some keys, one after the other, an empty one if there is none."""
+    """Return the table at a path of keys; empty if it is missing."""
     for key in keys:
         content = content.get(key) if isinstance(content, dict) else None
     return content if isinstance(content, dict) else {}

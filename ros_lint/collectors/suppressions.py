@@ -31,42 +31,42 @@ def collect(text: Text) -> tuple[Suppression, ...]:
 
 
 def _suppressions(text: Text) -> Iterator[Suppression]:
-    whole = text.text
+    content = text.text
     ranges = comments(text)
     lines = {start: (text.position(start)[0], text.position(end)[0]) for start, end in ranges}
-    alone = {start for start, end in ranges if _is_alone(whole, start, end)}
-    own_lines = {line for start in alone for line in range(lines[start][0], lines[start][1] + 1)}
-    below: dict[int, int] = {}  # a line with only a comment -> the next line without one
+    standalone = {start for start, end in ranges if _is_standalone(content, start, end)}
+    own_lines = {line for start in standalone for line in range(lines[start][0], lines[start][1] + 1)}
+    following_line: dict[int, int] = {}  # a line with only a comment -> the next line without one
     for line in sorted(own_lines, reverse=True):
-        below[line] = below.get(line + 1, line + 1)
+        following_line[line] = following_line.get(line + 1, line + 1)
     leading = True
-    before = 0
+    previous_end = 0
     for start, end in ranges:
-        leading = leading and _says_nothing(whole[before:start])
-        before = end
+        leading = leading and _is_prolog(content[previous_end:start])
+        previous_end = end
         first, last = lines[start]
-        yield from _in_comment(text, start, end, (first, below[last] if start in alone else last), leading)
+        yield from _in_comment(text, start, end, (first, following_line[last] if start in standalone else last), leading)
 
 
 def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leading: bool) -> Iterator[Suppression]:
-    whole = text.text
-    marks = list(_MARK.finditer(whole, start, end))
+    content = text.text
+    marks = list(_MARK.finditer(content, start, end))
     for number, mark in enumerate(marks, 1):
-        opens = _OPENING.fullmatch(whole, start, mark.start()) is not None
+        opens = _OPENING.fullmatch(content, start, mark.start()) is not None
         problem = _problem(mark, leading)
         if problem is None or (not opens and mark["word"] not in ("ignore", "ignore-file")):
             continue  # a sentence that mentions ros-lint
-        stop = _reason_end(whole, mark.end(), marks[number].start() if number < len(marks) else end)
-        sole = opens and len(marks) == 1 and _CLOSING.fullmatch(whole, stop, end) is not None
-        cut = _cut_comment(whole, start, end) if sole else _cut_mark(whole, start, mark.start(), stop, end)
-        inside = mark.span("names") if mark["names"] is not None else (mark.end(), mark.end())
+        stop = _reason_end(content, mark.end(), marks[number].start() if number < len(marks) else end)
+        sole = opens and len(marks) == 1 and _CLOSING.fullmatch(content, stop, end) is not None
+        cut = _cut_comment(content, start, end) if sole else _cut_mark(content, start, mark.start(), stop, end)
+        names_range = mark.span("names") if mark["names"] is not None else (mark.end(), mark.end())
         yield Suppression(
-            tuple(_names(text, *inside)),
-            whole[mark.end() : stop].strip().lstrip("-:").strip(),
+            tuple(_names(text, *names_range)),
+            content[mark.end() : stop].strip().lstrip("-:").strip(),
             None if mark["word"] == "ignore-file" else lines,
             text.span(*mark.span()),
-            text.span(*inside),
-            Edit(text.span(*cut), _joint(whole, *cut)),
+            text.span(*names_range),
+            Edit(text.span(*cut), _separator(content, *cut)),
             problem,
         )
 
@@ -89,40 +89,40 @@ def _names(text: Text, start: int, end: int) -> Iterator[Name]:
         yield Name(word[0], text.span(start + word.start(), start + word.end()))
 
 
-def _is_alone(whole: str, start: int, end: int) -> bool:
-    line_start = max(whole.rfind("\n", 0, start), whole.rfind("\r", 0, start)) + 1
-    return not whole[line_start:start].strip() and _BLANK.match(whole, end) is not None
+def _is_standalone(content: str, start: int, end: int) -> bool:
+    line_start = max(content.rfind("\n", 0, start), content.rfind("\r", 0, start)) + 1
+    return not content[line_start:start].strip() and _BLANK.match(content, end) is not None
 
 
-def _says_nothing(between: str) -> bool:
+def _is_prolog(between: str) -> bool:
     """Return whether a comment is still leading: only space and XML declarations precede it."""
     return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
 
 
-def _reason_end(whole: str, start: int, limit: int) -> int:
+def _reason_end(content: str, start: int, limit: int) -> int:
     """Return where the reason ends: at the end of the line or comment, or at another comment sign."""
-    line = _REASON.match(whole, start, limit)
+    line = _REASON.match(content, start, limit)
     return start + len(_CLOSING.sub("", line[0] if line else "").rstrip("#/ \t"))
 
 
-def _cut_comment(whole: str, start: int, end: int) -> tuple[int, int]:
+def _cut_comment(content: str, start: int, end: int) -> tuple[int, int]:
     """Return the range that removes a comment: its lines, or the comment with the space before it."""
-    lines = _BLANK.match(whole, end) if _is_alone(whole, start, end) else None
-    while start and whole[start - 1] in " \t":
+    lines = _BLANK.match(content, end) if _is_standalone(content, start, end) else None
+    while start and content[start - 1] in " \t":
         start -= 1
     return start, lines.end() if lines else end
 
 
-def _cut_mark(whole: str, comment: int, start: int, stop: int, end: int) -> tuple[int, int]:
+def _cut_mark(content: str, comment: int, start: int, stop: int, end: int) -> tuple[int, int]:
     """Return the range that removes a suppression from a longer comment, with one comment sign."""
-    if _OPENING.fullmatch(whole, comment, start):
-        following = _SIGN.match(whole, stop, end)
+    if _OPENING.fullmatch(content, comment, start):
+        following = _SIGN.match(content, stop, end)
         return start, following.end() if following else stop
-    while start > comment and whole[start - 1] in " \t#/":
+    while start > comment and content[start - 1] in " \t#/":
         start -= 1
     return start, stop
 
 
-def _joint(whole: str, start: int, end: int) -> str:
+def _separator(content: str, start: int, end: int) -> str:
     """Return a space if a cut would join two words."""
-    return " " if start and end < len(whole) and not (whole[start - 1].isspace() or whole[end].isspace()) else ""
+    return " " if start and end < len(content) and not (content[start - 1].isspace() or content[end].isspace()) else ""

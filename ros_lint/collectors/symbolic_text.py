@@ -2,12 +2,12 @@
 
 The value of a launch configuration, the install place of a package and the output of a command are known only when
 the launch file runs. Characters of the private use area represent them, so that such texts can be joined, split and
-formatted like any others, and filled in later:
+formatted like other texts, and the marks can be replaced later:
 
 - ``UNKNOWN`` for any text at all;
 - ``OWN_FOLDER`` for the folder of the launch file;
 - an absolute path that no file system has, for the install prefix of a package;
-- marks around the name of a launch configuration, a Python expression, a command.
+- marks around the name of a launch configuration, a Python expression or a command.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ OWN_FOLDER = "/\ue002"
 _CONFIGURATION = ("\ue010", "\ue011")
 _EXPRESSION = ("\ue012", "\ue013")
 _COMMAND = ("\ue014", "\ue015")
-_OF_XACRO = f"{_COMMAND[0]}xacro"
+_XACRO_COMMAND = f"{_COMMAND[0]}xacro"
 _DEFAULT = "\ue016"
 _PRESENT = "\ue017"
 
 MOST = 24
 """The maximum number of alternatives of a text."""
 
-_DEEPEST = 30
-_MOST_CHOICES = 3_000
-_MOST_FILLED = 400
+_MAX_DEPTH = 30
+_MAX_CHOICES = 3_000
+_MAX_FILLED = 400
 """The maximum number of configurations filled into one text, nested ones included.
 
 Real texts need up to 34.
@@ -73,7 +73,7 @@ class Installed(NamedTuple):
 
     @property
     def known(self) -> bool:
-        """Return whether the package is known."""
+        """True if the name of the package is known."""
         return bool(self.package) and is_plain(self.package)
 
     @property
@@ -148,24 +148,24 @@ def command(text: str) -> str:
 
 
 def presence(package: str) -> str:
-    """Return the symbolic truth of a package being installed."""
+    """Return the symbolic truth of "the package is installed"."""
     return f"{_PRESENT}{package}"
 
 
-def asked_for(text: str) -> str:
-    """Return the package whose presence a text represents, or ""."""
+def package_of_presence(text: str) -> str:
+    """Return the package if a text is the symbolic truth of :func:`presence`, "" otherwise."""
     return text[1:] if text.startswith(_PRESENT) else ""
 
 
 def certain_part(text: str) -> str:
-    """Return the characters of a text that are certain, whatever the value of the rest is."""
+    """Return a text without its unknown parts."""
     while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
         text = text[: match.start()] + text[match.end() :]
     return _ANY_MARK.sub("", text)
 
 
 def is_plain(text: str) -> bool:
-    """Return whether a text is fully known."""
+    """Return whether a text is fully known: it contains no marks for values that are known only at launch."""
     return text.isascii() or not _ANY_MARK.search(text)
 
 
@@ -175,7 +175,7 @@ def is_settled(text: str) -> bool:
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Yield the launch configurations of a text: name, whether it has a default, and its symbolic text."""
+    """Yield the launch configurations in a text: name, True if it has a default, and the text of its marks."""
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark), match[0]
@@ -183,11 +183,11 @@ def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
 
 def runs_xacro(text: str) -> bool:
     """Return whether a text is a command line of xacro, or contains the output of one."""
-    return text.startswith("xacro ") or _OF_XACRO in text
+    return text.startswith("xacro ") or _XACRO_COMMAND in text
 
 
 def is_node_renaming(word: str) -> bool:
-    """Return whether an argument may rename a node or change its namespace (``-r __ns:=/front``)."""
+    """Return whether an argument of a node may change its name or namespace (``-r __ns:=/front``)."""
     return any(mark in word for mark in _RENAMES)
 
 
@@ -202,13 +202,13 @@ def readable(text: str) -> str:
 def _with_logic(text: str) -> str:
     """Return a text in which expressions of logic are replaced by their substitutions."""
     while match := _INNER_EXPRESSION.search(text):
-        before, said = text[: match.start()], _said(match[1])
-        inside = before.count(_EXPRESSION[0]) > before.count(_EXPRESSION[1])
-        text = f"{before}{quoted(said)[1:-1] if inside else said}{text[match.end() :]}"
+        prefix, substitution = text[: match.start()], _logic_substitution(match[1])
+        is_inside = prefix.count(_EXPRESSION[0]) > prefix.count(_EXPRESSION[1])
+        text = f"{prefix}{quoted(substitution)[1:-1] if is_inside else substitution}{text[match.end() :]}"
     return text
 
 
-def _said(inner: str) -> str:
+def _logic_substitution(inner: str) -> str:
     from ros_lint.base.python_parser import literal  # noqa: PLC0415  (only for messages)
 
     match = _LOGIC.fullmatch(inner)
@@ -233,30 +233,30 @@ def _readable_root(match: re.Match[str]) -> str:
     return f"$(find-pkg-prefix {package})/share/{path}"
 
 
-def names_places(text: str, carriers: Container[str] = ()) -> bool:
-    """Return whether a text may contain an install place, or a command of xacro.
+def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
+    """Return whether the value of a text may contain an install place, or a command of xacro.
 
-    ``carriers`` are the launch configurations whose values may.
+    ``configurations`` are the launch configurations whose values may contain one.
     """
     if _ROOT in text or "xacro" in text:
         return True
-    return any(mark == _CONFIGURATION[0] or name in carriers for name, mark in _NAME_OF_CONFIGURATION.findall(text))
+    return any(mark == _CONFIGURATION[0] or name in configurations for name, mark in _NAME_OF_CONFIGURATION.findall(text))
 
 
-def carriers_of_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
+def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Return the launch configurations whose values may contain an install place, directly or indirectly."""
-    carriers: set[str] = set()
+    result: set[str] = set()
     candidates: dict[str, tuple[str, ...]] = {}
     for name, texts in values.items():
         for text in texts:
             if not text.isascii() or "xacro" in text:
                 candidates[name] = texts
                 break
-    while new := [name for name, texts in candidates.items() if any(names_places(text, carriers) for text in texts)]:
-        carriers.update(new)
-        for name in new:
+    while matches := [name for name, texts in candidates.items() if any(may_contain_place(text, result) for text in texts)]:
+        result.update(matches)
+        for name in matches:
             del candidates[name]
-    return frozenset(carriers)
+    return frozenset(result)
 
 
 def installed(text: str) -> Iterator[Installed]:
@@ -291,9 +291,9 @@ def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
     """Return a text that holds under conditions."""
     if not conditions:
         return text
-    made = Conditional(text)
-    made.conditions = conditions
-    return made
+    result = Conditional(text)
+    result.conditions = conditions
+    return result
 
 
 def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
@@ -303,38 +303,46 @@ def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
 
 def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions can hold together: none is the opposite of another."""
-    wanted: dict[tuple[tuple[str, ...], str | None], bool] = {}
-    equal: dict[tuple[str, ...], str] = {}
+    truths: dict[tuple[tuple[str, ...], str | None], bool] = {}
+    values: dict[tuple[str, ...], str] = {}
     for condition in conditions:
-        key = (condition.texts, condition.equals)
-        if wanted.setdefault(key, condition.wanted) is not condition.wanted:
+        question = (condition.texts, condition.equals)
+        if truths.setdefault(question, condition.wanted) is not condition.wanted:
             return False
         if not condition.wanted or condition.equals is None:
             continue
-        if equal.setdefault(condition.texts, condition.equals) != condition.equals:
+        if values.setdefault(condition.texts, condition.equals) != condition.equals:
             return False
     return True
 
 
 def distinct(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return each text once for each set of its conditions; unconditionally if that is too many."""
-    every = {(text, conditions_of(text)): text for text in texts}
-    if len(every) <= MOST:
-        return tuple([text for (plain, conditions), text in every.items() if not conditions or (plain, ()) not in every])
-    results: dict[str, str] = {}
-    for (plain, _), text in every.items():
-        results[plain] = str(text) if plain in results else text
-    return tuple(results.values())
+    """Return the distinct pairs of text and conditions.
+
+    If there are more than ``MOST``, the conditions of texts that occur repeatedly are dropped.
+    """
+    by_conditions = {(text, conditions_of(text)): text for text in texts}
+    if len(by_conditions) <= MOST:
+        return tuple(
+            [text for (plain, conditions), text in by_conditions.items() if not conditions or (plain, ()) not in by_conditions]
+        )
+    by_text: dict[str, str] = {}
+    for (plain, _), text in by_conditions.items():
+        by_text[plain] = str(text) if plain in by_text else text
+    return tuple(by_text.values())
 
 
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
-    """Return the results of a function for every consistent choice of one alternative from each row."""
+    """Return the results of a function for every consistent choice of one alternative from each row.
+
+    ``(UNKNOWN,)`` if there are too many results.
+    """
     rows = tuple(rows)
     if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
         choice = tuple([row[0] for row in rows])
         return (function(choice) if sum(map(len, choice)) <= LONGEST else UNKNOWN,)
     results: list[str] = []
-    for choice in islice(product(*rows), _MOST_CHOICES):
+    for choice in islice(product(*rows), _MAX_CHOICES):
         conditions = tuple(dict.fromkeys(condition for text in choice for condition in conditions_of(text)))
         if conditions and not are_consistent(conditions):
             continue
@@ -347,48 +355,48 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
     """Return the alternatives of a text if launch configurations have values.
 
     ``values`` returns the alternatives of a configuration, None if it is not set; ``evaluate`` the value of a fully
-    known expression, UNKNOWN if it has none.
+    known expression, or UNKNOWN.
     """
     filled = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
     if len(filled) == 1:
-        return (_settle(filled[0], evaluate),)
-    return tuple(dict.fromkeys([_settle(candidate, evaluate) for candidate in filled]))
+        return (_evaluate_expressions(filled[0], evaluate),)
+    return tuple(dict.fromkeys([_evaluate_expressions(candidate, evaluate) for candidate in filled]))
 
 
 class _Filling:
-    """Replaces configurations in a text by values. A limit applies, as values can double at each step."""
+    """Replaces configurations in a text by values, up to a limit, because each step can double the text."""
 
-    __slots__ = ("_left", "_values")
+    __slots__ = ("_remaining", "_values")
 
     def __init__(self, values: Callable[[str], tuple[str, ...] | None]) -> None:
         self._values = values
-        self._left = _MOST_FILLED
+        self._remaining = _MAX_FILLED
 
     def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
         """Return the alternatives of a text while the configurations in ``busy`` are being replaced."""
-        waiting = [text]
+        pending = [text]
         done: dict[str, None] = {}
-        while waiting:
-            candidate = waiting.pop()
+        while pending:
+            candidate = pending.pop()
             match = _INNERMOST.search(candidate) if _CONFIGURATION[0] in candidate else None
             if match is None:
                 done[candidate] = None
                 continue
-            self._left -= 1
-            alternatives = self._one(match[1], busy)
-            if len(waiting) + len(done) + len(alternatives) > MOST or len(candidate) > LONGEST or self._left < 0:
+            self._remaining -= 1
+            alternatives = self._values_of(match[1], busy)
+            if len(pending) + len(done) + len(alternatives) > MOST or len(candidate) > LONGEST or self._remaining < 0:
                 return (UNKNOWN,)
             start, end = match.span()
-            waiting += [candidate[:start] + value + candidate[end:] for value in reversed(alternatives)]
+            pending += [candidate[:start] + value + candidate[end:] for value in reversed(alternatives)]
         return tuple(done)
 
-    def _one(self, configuration: str, busy: frozenset[str]) -> tuple[str, ...]:
+    def _values_of(self, configuration: str, busy: frozenset[str]) -> tuple[str, ...]:
         name, mark, default = configuration.partition(_DEFAULT)
         values = None if not mark else self._values(name)
         if values is not None and f"{_CONFIGURATION[0]}{configuration}{_CONFIGURATION[1]}" in values:
             return (default,)  # the argument has this default, whichever alternative applies
-        # A default that uses its own argument is evaluated before that argument has a value.
-        values = None if name in busy or len(busy) > _DEEPEST else self._values(name)
+        # A default that reads its own argument is evaluated before the argument has a value.
+        values = None if name in busy or len(busy) > _MAX_DEPTH else self._values(name)
         if values is None:
             return (default,) if mark else (UNKNOWN,)
         if len(values) > MOST:
@@ -399,7 +407,7 @@ class _Filling:
         return tuple([inner for value in values for inner in self.of(value, busy)])
 
 
-def _settle(text: str, evaluate: Callable[[str], str]) -> str:
+def _evaluate_expressions(text: str, evaluate: Callable[[str], str]) -> str:
     while has_expression(text) and (match := _INNER_EXPRESSION.search(text)):
         value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
         text = text[: match.start()] + value + text[match.end() :]

@@ -76,7 +76,7 @@ class FixTrials:
 
     def patch(self, changed: Mapping[str, bytes]) -> bytes:
         """Return the changes as a patch of the files that were read."""
-        return b"".join(unified_bytes(path, self._loader.held.get(path), data) for path, data in sorted(changed.items()))
+        return b"".join(unified_bytes(path, self._loader.pinned.get(path), data) for path, data in sorted(changed.items()))
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
         """Return the issues that are shown and have a fix of the selected kind that may be written.
@@ -89,7 +89,7 @@ class FixTrials:
             if not new:
                 return issues
             self._held |= new
-            self._loader.hold(new)
+            self._loader.pin(new)
             self._trials.clear()
 
     def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:

@@ -30,6 +30,7 @@ class InstalledFile(NamedTuple):
     conditional: bool
     """True if the installation depends on a condition whose value is unknown."""
     span: Span
+    """Place of the command or list element that installs the file."""
     target: str = ""
     """Name of the CMake target that builds the file."""
     test: bool = False
@@ -45,8 +46,11 @@ class Component(NamedTuple):
     """A class that can be loaded into a component container (rclcpp_components)."""
 
     name: str
+    """Name of the class, with its namespaces."""
     conditional: bool
+    """True if the registration depends on a condition whose value is unknown."""
     span: Span
+    """Place of the registration."""
     lost: bool = False
     """True if ament_package() does not see the registration: it is in a function or in a subdirectory."""
 
@@ -59,6 +63,7 @@ class PluginClass(NamedTuple):
     type: str
     """C++ type of the class, without blanks and without a leading ``::``, as in the facts of sources."""
     base: str
+    """C++ type of the base class, written like ``type``."""
     span: Span
     """Span of the type."""
 
@@ -67,9 +72,11 @@ class PluginLibrary(NamedTuple):
     """A ``<library>`` of a plugin description."""
 
     path: str
+    """Path or name of the library as written, "" if there is none."""
     span: Span
     """Span of the path, or of the element if it has no path."""
     classes: tuple[PluginClass, ...]
+    """The plugins in the library."""
 
 
 class PluginFile(NamedTuple):
@@ -78,6 +85,7 @@ class PluginFile(NamedTuple):
     path: str
     """Path relative to the package."""
     libraries: tuple[PluginLibrary, ...]
+    """The libraries that the file describes."""
     span: Span
     """Span of the root element."""
 
@@ -113,9 +121,11 @@ class UninstalledImport(NamedTuple):
     program: str
     """Install path such as ``lib/<package>/talker.py``, or the dotted module of an entry point."""
     module: str
+    """Dotted name of the module."""
     source: str
     """File, or folder with a slash at the end, relative to the package."""
     span: Span
+    """Place of the import."""
     sure: bool
     """True if the program does not change ``sys.path``."""
 
@@ -128,7 +138,9 @@ class ExportedTarget(NamedTuple):
     """A target that install(TARGETS ... EXPORT) puts into a set."""
 
     target: str
+    """Name of the target."""
     export_set: str
+    """Name of the set."""
     reaches_dependents: bool
     """True if each package that finds this one gets the target: ament_export_targets() names the set."""
 
@@ -139,17 +151,24 @@ class BuildProject(NamedTuple):
     name: str = ""
     """Name, "" if unknown."""
     name_span: Span | None = None
+    """Place of the name; None if it is unknown."""
     version: str = ""
+    """Version, "" if unknown."""
     version_span: Span | None = None
+    """Place of the version; None if it is unknown."""
 
 
 class BuildProducts(NamedTuple):
     """What the script builds and installs."""
 
     targets: tuple[BuildTarget, ...] = ()
+    """Executables and libraries that CMake builds."""
     installs: tuple[InstalledFile, ...] = ()
+    """Installed files, also built and generated ones."""
     components: tuple[Component, ...] = ()
+    """Registered classes (rclcpp_components)."""
     entry_points: tuple[EntryPoint, ...] = ()
+    """Entry points of a setup.py; those of the group "console_scripts" are programs."""
     python_packages: tuple[str, ...] = ()
     """Dotted names of importable modules and packages that the build installs."""
     interfaces: tuple[str, ...] = ()
@@ -191,6 +210,7 @@ class BuildExports(NamedTuple):
     The second value is True if the search is unconditional.
     """
     targets: tuple[ExportedTarget, ...] = ()
+    """Targets that the script puts into an export set."""
 
 
 class CMakeCommands(NamedTuple):
@@ -245,7 +265,9 @@ class SetupScript(NamedTuple):
     """Facts that only a setup.py with its setup.cfg has."""
 
     editable_lists: tuple[EditableList, ...] = ()
+    """Lists that a fix can add an element to."""
     editable_texts: tuple[WrittenText, ...] = ()
+    """Places where a fix can change a text."""
     entry_point_modules: tuple[PythonModule, ...] = ()
     """Modules that the entry points name."""
     relocated_modules: tuple[str, ...] = ()
@@ -264,16 +286,27 @@ class BuildScript(NamedTuple):
     """
 
     path: str
+    """Path of the CMakeLists.txt or setup.py, relative to the base of the run; "" if there is none."""
     project: BuildProject = BuildProject()
+    """Name and version."""
     mentions: tuple[Mention, ...] = ()
+    """Names of other packages and of their contents."""
     products: BuildProducts = BuildProducts()
+    """Targets, installed files and other products."""
     files: BuildFiles = BuildFiles()
+    """Files that are not necessarily installed: scripts, plugin descriptions, resources."""
     exports: BuildExports = BuildExports()
+    """What dependents get."""
     commands: CMakeCommands = CMakeCommands()
+    """Commands of CMake as written."""
     cmake: CMakeBuild = CMakeBuild()
+    """Further facts about a CMakeLists.txt; empty for a setup.py."""
     python: SetupScript = SetupScript()
+    """Further facts about a setup.py; empty for a CMakeLists.txt."""
     opaque: tuple[Opaque, ...] = ()
+    """Places that could not be evaluated."""
     problems: tuple[Problem, ...] = ()
+    """Errors of the script."""
 
     @property
     def of_cmake(self) -> bool:

@@ -12,11 +12,15 @@ class BuildTarget(NamedTuple):
     """An executable or a library that CMake builds."""
 
     name: str
+    """Name of the target."""
     kind: Literal["executable", "library", "interface", "other"]
+    """"interface" for an interface library, "other" for custom targets."""
     sources: tuple[str, ...]
     """Source files, relative to the package."""
     test: bool
+    """True if the target is built only when tests are built."""
     span: Span
+    """Place of the name in the command that creates the target."""
     links: tuple[tuple[str, Span], ...] = ()
     """Names that the target links in every build, each with the place of the name."""
     optional_sources: tuple[str, ...] = ()
@@ -40,13 +44,17 @@ class Call(NamedTuple):
     name: str
     """Name in lower case."""
     path: str
+    """Path of the file, relative to the base of the run."""
     args: tuple[tuple[str, int, int, int], ...]
     """Arguments as :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, start and end offset."""
     start: int
+    """Offset of the name in the file."""
     end: int
     """Offset after the closing parenthesis."""
     line: int
+    """Line of the name."""
     column: int
+    """Column of the name."""
     breaks: tuple[int, ...]
     """Offsets at which the second and later lines of the command begin."""
     blocks: tuple[str, ...]
@@ -66,6 +74,7 @@ class Call(NamedTuple):
 
     @property
     def extent(self) -> Span:
+        """Span of the whole command."""
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
     def span(self, index: int) -> Span:

@@ -19,11 +19,13 @@ class LaunchValue(NamedTuple):
     """The possible values of a text in a launch file."""
 
     texts: tuple[str, ...]
-    """Each alternative, never empty.
+    """The alternatives, at least one.
 
-    Parts that are not known yet are marks of :mod:`ros_lint.collectors.symbolic_text`.
+    Parts that are known only at launch, such as the value of a launch configuration, are marks: characters of the
+    private use area. ``launch.is_plain`` returns True for a text without marks.
     """
     span: Span
+    """Place of the text."""
     exact: bool = False
     """True if ``span`` covers exactly the only text, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
@@ -51,11 +53,14 @@ class LaunchAction(NamedTuple):
     kind: str
     """Kind of the action.
 
-    One of ``argument``, ``set``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
-    ``remap``, ``parameter``, ``environment``, ``later`` (actions of a timer or an event handler) or ``other``.
+    One of ``argument``, ``set``, ``unset``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
+    ``remap``, ``parameter``, ``environment``, ``unset_environment``, ``reset`` (of all launch configurations, except those
+    in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler) or ``other``.
     """
     span: Span
+    """Place of the action: the call in Python, else the element."""
     package: LaunchValue | None = None
+    """Package of a node or component."""
     package_span: Span | None = None
     """Place of the package that ``target`` looks up."""
     target: LaunchValue | None = None
@@ -67,7 +72,9 @@ class LaunchAction(NamedTuple):
     value: LaunchValue | None = None
     """Default of an argument (None if the argument is required), or the value that is set or pushed."""
     name: LaunchValue | None = None
+    """Name of a node or component; None if the launch file does not set it."""
     namespace: LaunchValue | None = None
+    """Namespace of a node or component; None if the action does not set it."""
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
     """Values passed by name.
 
@@ -77,19 +84,22 @@ class LaunchAction(NamedTuple):
     argument_spans: tuple[Span, ...] = ()
     """Places of the names of the arguments of an include: one for each of ``arguments``, or none."""
     choices: tuple[str, ...] = ()
+    """Values that an argument accepts; () if it accepts any."""
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """Parameters by name.
 
-    A parameter file has the name "", any number of unknown parameters the name UNKNOWN.
+    A parameter file has the name "". Unknown parameters together have a name that is not plain (``launch.is_plain``).
     """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
+    """Remappings of a node or component: old name and new name."""
     conditions: tuple[LaunchCondition, ...] = ()
-    """Conditions that must all hold; an unknown condition has the text UNKNOWN."""
+    """Conditions that must all hold."""
     children: tuple[LaunchAction, ...] = ()
+    """Actions inside: of a group, a container, an event handler or a timer."""
     conditional_arguments: tuple[str, ...] = ()
     """Names of arguments that an include gets only under a condition of unknown value."""
     builtin_model: bool = False
-    """True if a helper of a released package names the executable, which is thus its dependency."""
+    """True if a launch helper of a released package names the executable, so that the helper depends on it."""
 
     @property
     def has_scope(self) -> bool:
@@ -108,7 +118,9 @@ class LaunchReference(NamedTuple):
     """A place in a launch file that names a package, and mostly something in it."""
 
     kind: ReferenceKind
+    """Kind of the thing that the file names."""
     package: str
+    """Name of the package."""
     name: str
     """Name of the thing in the package, "" for a plain look-up of the package.
 
@@ -117,6 +129,7 @@ class LaunchReference(NamedTuple):
     span: Span
     """Span of the name, or of the package if there is no name."""
     package_span: Span
+    """Place of the name of the package."""
     conditional: bool = False
     """True if the action is under a condition that may be false."""
     exact: bool = True
@@ -150,10 +163,15 @@ class LaunchFile(NamedTuple):
     """A launch file, as far as it is known without running it."""
 
     path: str
+    """Path of the file, relative to the base of the run."""
     language: Literal["python", "xml", "yaml"]
+    """Front end of launch that reads the file."""
     references: tuple[LaunchReference, ...] = ()
+    """Packages, executables and files that the file names."""
     opaque: tuple[Opaque, ...] = ()
+    """Places that could not be evaluated."""
     problems: tuple[Problem, ...] = ()
+    """Errors for which launch rejects the file."""
     test: bool = False
     """True if the file serves tests only: it has generate_test_description() (launch_testing)."""
     helper: bool = False
@@ -163,15 +181,16 @@ class LaunchFile(NamedTuple):
     without arguments.
     """
     actions: tuple[LaunchAction, ...] = ()
+    """Actions at the top level of the file, in order. ``launch.walk_actions`` also yields those in groups."""
     imports: tuple[tuple[str, Span], ...] = ()
     """Dotted names of modules that a Python launch file imports whenever it is loaded.
 
     Empty if the file changes ``sys.path``.
     """
     configurations_read: tuple[str, ...] = ()
-    """Launch configurations that the file reads for any purpose, sorted; UNKNOWN for any other."""
+    """Launch configurations that the file reads, sorted. A name that is not plain means: any other, too."""
     missing_inputs: tuple[str, ...] = ()
-    """Inputs of a Python launch file that were not available when it was interpreted, sorted.
+    """Inputs of a Python launch file that were not available when ros-lint interpreted it, sorted.
 
     Modules are dotted names, files are install paths.
     """

@@ -15,10 +15,13 @@ class Role(Sealed, Flag):
     """A purpose for which a package needs another package."""
 
     BUILD = auto()
+    """Needed to build this package."""
     EXPORT = auto()
     """Needed to build against this package: by its public headers and exported targets."""
     EXEC = auto()
+    """Needed to run this package."""
     TEST = auto()
+    """Needed by the tests only."""
     TOOL = auto()
     """Needed as a program on the build machine."""
 
@@ -61,12 +64,18 @@ class Element(NamedTuple):
     """An element of a manifest that is not a dependency: a child of ``<package>`` or of ``<export>``."""
 
     tag: str
+    """Name of the element."""
     text: str
+    """Text of the element, without surrounding white space."""
     attributes: tuple[tuple[str, str], ...]
+    """Names and values of the attributes."""
     span: Span
+    """Place of the whole element."""
     text_span: Span
+    """Place of the text."""
 
     def get(self, attribute: str, default: str = "") -> str:
+        """Return the value of an attribute."""
         return dict(self.attributes).get(attribute, default)
 
 
@@ -74,7 +83,9 @@ class Depend(NamedTuple):
     """A dependency element of a manifest, ``group_depend``, ``member_of_group``, ``conflict`` and ``replace`` included."""
 
     name: str
+    """Name of the package, rosdep key or group."""
     tag: str
+    """Name of the element, such as "exec_depend"."""
     condition: str
     """Text of the attribute ``condition`` (REP 149), "" if absent.
 
@@ -83,7 +94,9 @@ class Depend(NamedTuple):
     versions: tuple[tuple[str, str], ...]
     """Version attributes, such as ("version_gte", "1.2.0")."""
     span: Span
+    """Place of the whole element."""
     name_span: Span
+    """Place of the name."""
     close: int = 0
     """Length of the end tag in code points.
 
@@ -98,14 +111,23 @@ class Manifest(NamedTuple):
     """
 
     path: str
+    """Path of the file, relative to the base of the run."""
     format: int
+    """Value of the attribute ``format``; 1 if it is absent."""
     name: str
+    """Text of ``<name>``, "" if there is none."""
     version: str
+    """Text of ``<version>``, "" if there is none."""
     elements: tuple[Element, ...]
+    """Children of ``<package>`` that declare no dependency, ``<export>`` included."""
     depends: tuple[Depend, ...]
+    """Dependency tags in the order of the file, whatever their condition is."""
     exports: tuple[Element, ...]
+    """Children of ``<export>``."""
     problems: tuple[Problem, ...]
+    """Errors for which colcon or catkin_pkg rejects the file."""
     name_span: Span
+    """Place of the name, or of the root element if there is no name."""
     end: Span
     """The empty span just before ``</package>``, where an element can be added."""
     begin: Span | None = None
@@ -119,6 +141,11 @@ class Manifest(NamedTuple):
     indent: str = "  "
     """White space before a child of ``<package>``."""
     newline: str = "\n"
+    """Line end of the file."""
+    text: str = ""
+    """The file, for its validation by the XML schema; "" if it has no ``<package>``."""
+    codec: str = "utf-8"
+    """Codec that encodes the text to the bytes of the file."""
 
 
 class ColconDepend(NamedTuple):
@@ -128,8 +155,11 @@ class ColconDepend(NamedTuple):
     """
 
     name: str
+    """Name of the package."""
     role: Role
+    """Purposes that the place declares."""
     span: Span
+    """The place."""
 
 
 class ColconSettings(NamedTuple):

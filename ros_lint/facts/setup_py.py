@@ -11,10 +11,13 @@ class EntryPoint(NamedTuple):
     """An entry point of a Python distribution."""
 
     group: str
+    """Group, such as "console_scripts"."""
     name: str
+    """Name in the group: of a console script, the name of the program."""
     target: str
     """The target as ``module:attribute``."""
     span: Span
+    """The place of the entry."""
 
     @property
     def module(self) -> str:

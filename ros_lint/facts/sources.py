@@ -32,7 +32,9 @@ class Mention(NamedTuple):
     name: str
     """Name as written: a header, a dotted module, an argument of find_package, a package, ``pkg/Type``."""
     via: Via
+    """Kind of the name."""
     span: Span
+    """The place."""
     what: str = ""
     """Quotation of the place for a message, if the name alone is not enough."""
     optional: bool = False
@@ -43,6 +45,7 @@ class Mention(NamedTuple):
     test: bool = False
     """True if the place is known to serve tests only."""
     purpose: Purpose = ""
+    """Purpose for which CMake uses the package."""
 
 
 class Use(NamedTuple):
@@ -57,8 +60,11 @@ class Use(NamedTuple):
     what: str
     """Quotation of the place for a message: "#include <std_msgs/msg/string.hpp>"."""
     via: Via
+    """Kind of the name."""
     optional: bool
+    """True if the code works without the package."""
     span: Span
+    """The place."""
     certain: bool = True
     """False if the file may be unused: it is not in a target, not installed and not a test."""
     name: str = ""
@@ -69,9 +75,11 @@ class LookUp(NamedTuple):
     """A file that code looks up in the share directory of a package."""
 
     package: str
+    """Package in whose share directory the file is looked up."""
     path: str
     """Path below share/<package>."""
     span: Span
+    """The place."""
 
 
 class MachinePath(NamedTuple):
@@ -86,6 +94,7 @@ class MachinePath(NamedTuple):
     Examples: ``/home/jay/ros2_ws/src/robot/config/robot.yaml``, ``src/robot/config/robot.yaml``.
     """
     span: Span
+    """The place of the path."""
     is_written: bool = False
     """True if the path is an output: a program opens it for writing, or the variable's name says so."""
     relative_to_file: bool = False
@@ -105,6 +114,7 @@ class ImportedType(NamedTuple):
     name: str
     """Name as ``robot/msg/State``."""
     span: Span
+    """The place of the name."""
     module: Span
     """Span of the module as written.
 
@@ -116,6 +126,7 @@ class ParameterFile(NamedTuple):
     """A YAML file, as far as it contains parameters of nodes (rcl_yaml_param_parser)."""
 
     path: str
+    """Path of the file, relative to the base of the run."""
     nodes: tuple[tuple[str, Span], ...]
     """Full names of nodes with parameters, with a leading slash; ``*`` and ``**`` are wildcards.
 
@@ -131,9 +142,11 @@ class Registration(NamedTuple):
     """A C++ macro that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
 
     kind: Literal["component", "plugin"]
+    """"component" for RCLCPP_COMPONENTS_REGISTER_NODE, "plugin" for PLUGINLIB_EXPORT_CLASS."""
     name: str
     """Class as written, without a leading ``::``."""
     span: Span
+    """The place of the class."""
     base: str = ""
     """Base class of a plugin, without a leading ``::``; "" for a component."""
 

@@ -20,14 +20,18 @@ class Name(NamedTuple):
     """A reference to a rule in a suppression, by name or code."""
 
     text: str
+    """Name or code of a rule as written."""
     span: Span
+    """The place."""
 
 
 class Suppression(NamedTuple):
     """A comment that suppresses findings of some rules, or has a ``problem`` and suppresses nothing."""
 
     names: tuple[Name, ...]
+    """The rules."""
     reason: str
+    """Text after the closing bracket, "" if there is none."""
     lines: tuple[int, int] | None
     """First and last line that the suppression covers, its own included; None for the whole file."""
     span: Span
@@ -59,14 +63,18 @@ class Unused(NamedTuple):
     """Names in a suppression whose rules reported nothing there."""
 
     suppression: Suppression
+    """The comment."""
     names: tuple[Name, ...]
+    """The names without effect."""
 
 
 class Unknown(NamedTuple):
     """A name in a suppression that is not the name of a rule."""
 
     suppression: Suppression
+    """The comment."""
     name: Name
+    """The name that no rule has."""
     suggestion: str
     """The nearest name or code, or ""."""
 
@@ -83,6 +91,8 @@ class SuppressionUse(NamedTuple):
     """Suppressions without effect, by reason."""
 
     unused: tuple[Unused, ...]
+    """Names of rules that reported nothing at the place."""
     unknown: tuple[Unknown, ...]
+    """Names that no rule has."""
     malformed: tuple[Suppression, ...]
     """Suppressions with a ``problem``."""

@@ -29,15 +29,18 @@ class Facet(Sealed, Flag):
 
 
 ALL_FACETS = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+"""All parts of a package."""
 
 
 class Opaque(NamedTuple):
     """A place that could not be evaluated. A rule that claims absence reports nothing about what it hides."""
 
     hides: Facet
+    """The parts of the package that may contain more than is known."""
     reason: str
     """Reason as a clause without subject, such as "include() of ${name} cannot be followed"."""
     span: Span
+    """The place."""
     undefined: str = ""
     """Name of an installed target without a visible definition, if that is the reason."""
     below: str = ""
@@ -61,7 +64,9 @@ class NewerSyntax(NamedTuple):
     construct: str
     """Name of the construct, in the plural."""
     version: tuple[int, int]
+    """First version of Python that accepts it, such as (3, 12)."""
     span: Span
+    """The place."""
 
 
 class Problem(NamedTuple):
@@ -70,7 +75,9 @@ class Problem(NamedTuple):
     kind: str
     """Short stable name, such as "unknown-tag"."""
     message: str
+    """Text in lower case without a final full stop."""
     span: Span
+    """The place."""
     instead: str = ""
     """Replacement of something that was valid in ROS 1."""
     subject: str = ""

@@ -33,6 +33,7 @@ class Closure:
 
     @property
     def names(self) -> frozenset[str]:
+        """All names."""
         return frozenset(self._reach.expand(self._bits))
 
     def less(self, other: Closure) -> Iterator[str]:

@@ -39,7 +39,9 @@ class Released(NamedTuple):
     """A package of a distribution."""
 
     name: str
+    """Name of the package."""
     version: str
+    """Version of the release."""
     flags: str
     """Letter of the build type, followed by flags.
 
@@ -47,6 +49,7 @@ class Released(NamedTuple):
     ``-`` only the name is known, ``~`` dependencies may be of an older version.
     """
     repository: str
+    """Name of the repository."""
     depends: Mapping[str, tuple[str, ...]]
     """Sorted names by letter: the letters of KINDS, ``M`` for its groups, ``G`` for groups it depends on."""
 

@@ -34,7 +34,9 @@ class Providers(NamedTuple):
     names: tuple[str, ...] = ()
     """Packages and keys; the first is the one to declare."""
     packages: tuple[str, ...] = ()
+    """The members of ``names`` that are packages."""
     keys: tuple[str, ...] = ()
+    """The members of ``names`` that are rosdep keys."""
     none_needed: bool = False
     """True if the language or the build tool provides it."""
     sure: bool = True

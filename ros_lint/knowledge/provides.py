@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 Answer = Literal["exists", "missing", "unknowable"]
+"""Answer to the question whether a name exists. "unknowable": there is no data to decide it."""
 Offer = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
+"""Kinds of names that a package provides. "programs" are files in bin, "executables" those in lib/<package>."""
 
 LETTERS: Mapping[Offer, str] = {
     "executables": "X",
@@ -35,6 +37,7 @@ class Known(NamedTuple):
     """The known names of one kind that a package provides."""
 
     names: tuple[str, ...] = ()
+    """Names that exist."""
     maybe: tuple[str, ...] = ()
     """Names that depend on how the package was built."""
     complete: bool = False

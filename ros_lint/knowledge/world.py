@@ -73,8 +73,11 @@ class World:
         awaited: ExpectedRepositories = NOTHING_AWAITED,
     ) -> None:
         self.underlays = tuple(underlays)
+        """Install prefixes below the workspace, topmost first. Not for plugins."""
         self.knowledge = knowledge
+        """Data of released packages. Not for plugins."""
         self.awaited = awaited
+        """Repositories of the workspace that may be missing."""
         self._members: dict[str, Member] = {}
         for member in members:
             self._members.setdefault(member.name, member)

@@ -26,20 +26,20 @@ MODULES = (
 )  # fmt: skip
 """Modules with classes of facts and reports."""
 
-_MOST_BYTES = 64 << 20
+_MAX_BYTES = 64 << 20
 """Maximum size of a file in bytes. The file of autoware.universe, with 500 packages, has 1 MB."""
 
 
-class _Members(Sealed):
+class _MemberConstructor(Sealed):
     """Creates members of an enumeration; unlike a method of the enumeration, it has no attributes to set."""
 
-    __slots__ = ("_of",)
+    __slots__ = ("_enumeration",)
 
-    def __init__(self, of: type[Sealed]) -> None:
-        self._of: Callable[[Any], Sealed] = of
+    def __init__(self, enumeration: type[Sealed]) -> None:
+        self._enumeration: Callable[[Any], Sealed] = enumeration
 
     def __call__(self, value: Any) -> Sealed:
-        return self._of(value)
+        return self._enumeration(value)
 
 
 @lru_cache(maxsize=len(MODULES))
@@ -63,22 +63,22 @@ def classes(module: str) -> Mapping[str, type]:
 
 def maker(module: str, name: str) -> Callable[..., Any]:
     """Return a function that creates objects of a class of facts. Raises LookupError for other names."""
-    made = classes(module).get(name)
-    if made is None:
-        raise LookupError(f"{module}.{name} is no class of facts")
-    if issubclass(made, Sealed):
-        return _Members(made)
-    call: Callable[..., Any] = type.__call__.__get__(made)  # a method wrapper: its attributes cannot be set
+    fact_class = classes(module).get(name)
+    if fact_class is None:
+        raise LookupError(f"{module}.{name} is not a class of facts")
+    if issubclass(fact_class, Sealed):
+        return _MemberConstructor(fact_class)
+    call: Callable[..., Any] = type.__call__.__get__(fact_class)  # a method wrapper: its attributes cannot be set
     return call
 
 
 def load(path: str, state: str) -> Any:
-    """Return the value in a file, or None.
+    """Return the value in a file; ``state`` identifies the version of ros-lint and of its data.
 
-    None if the file is damaged, belongs to another state, or another user can write it.
+    None if the file is damaged, was written in another state, or can be written by another user.
     """
     import io  # noqa: PLC0415
-    import pickle  # noqa: PLC0415  (a run that keeps nothing needs none of it)
+    import pickle  # noqa: PLC0415  (not needed by a run without a cache)
 
     class Facts(pickle.Unpickler):
         """Creates objects of the classes of facts, and rejects all other names."""
@@ -89,7 +89,7 @@ def load(path: str, state: str) -> Any:
     try:
         if not files.is_private(os.path.dirname(path)):
             return None
-        head, _, body = files.read(path, _MOST_BYTES, links=False, own=True).partition(b"\n")
+        head, _, body = files.read(path, _MAX_BYTES, links=False, own=True).partition(b"\n")
         return Facts(io.BytesIO(body)).load() if head == _head(state, body) else None
     except Exception:  # the errors of a damaged pickle are not limited: MemoryError, RecursionError, OverflowError and others
         return None
@@ -102,7 +102,7 @@ def save(path: str, state: str, value: Any) -> bool:
     """
     import io  # noqa: PLC0415
     import pickle  # noqa: PLC0415
-    import tempfile  # noqa: PLC0415  (a run that finds all that it needs writes nothing)
+    import tempfile  # noqa: PLC0415  (not needed if everything is cached)
 
     folder, temporary = os.path.dirname(path), ""
     try:
@@ -113,14 +113,14 @@ def save(path: str, state: str, value: Any) -> bool:
         pickler = pickle.Pickler(body, protocol=5)
         pickler.dispatch_table = _reducers()
         pickler.dump(value)
-        if body.tell() > _MOST_BYTES - len(_head(state, b"")) - 1:
+        if body.tell() > _MAX_BYTES - len(_head(state, b"")) - 1:
             return False
         handle, temporary = tempfile.mkstemp(dir=folder)
         with os.fdopen(handle, "wb") as file:
             file.write(_head(state, body.getbuffer()) + b"\n")
             file.write(body.getbuffer())
         os.replace(temporary, path)
-    except Exception:  # a run does not fail because the cache cannot be written: the disk is full, a fact is nested too deeply
+    except Exception:  # the run continues without a cache: the disk may be full, or a fact too deeply nested
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
         return False
@@ -138,8 +138,8 @@ def _reducers() -> dict[type, Callable[[Any], tuple[type, tuple[Any, ...]]]]:
     Enumerations need a reducer, too: Python 3.11.2, the version of Debian 12, pickles their members as a call of
     getattr(), which :func:`load` rejects.
     """
-    found = [value for module in MODULES if module in sys.modules for value in classes(module).values()]
-    return {each: _member if issubclass(each, Sealed) else _parts for each in found}
+    fact_classes = [value for module in MODULES if module in sys.modules for value in classes(module).values()]
+    return {fact_class: _member if issubclass(fact_class, Sealed) else _parts for fact_class in fact_classes}
 
 
 def _parts(fact: tuple[Any, ...]) -> tuple[type, tuple[Any, ...]]:

@@ -1,7 +1,7 @@
 """Collect the facts of files: each file once, in several processes if there are many.
 
 Unchanged files are taken from the cache. Only this module decides which collector reads which file. A collector
-sees one text and no other file.
+gets one text and no other file.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from ros_lint.workspace.fact_cache import FactCache
 
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
-_FILES_A_PROCESS = 500
+_FILES_PER_PROCESS = 500
 """Number of files for each further process: with fewer files, a process costs more than it saves."""
 
-_MOST_PROCESSES = 61
+_MAX_PROCESSES = 61
 """Maximum number of processes: Windows cannot wait for more."""
 
 _SUFFIXES.update((suffix[1:], "cpp") for suffix in (*HEADERS, *SOURCES))
@@ -40,10 +40,10 @@ _SUFFIXES.update(dict.fromkeys(("yaml", "yml"), "yaml"))
 _SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resource"))
 
 
-_OF_PYTHON = re.compile(rb"#![^\n]*python")
+_PYTHON_SHEBANG = re.compile(rb"#![^\n]*python")
 """First line of a Python program, whatever the file name."""
 
-_HIDES: dict[Kind, Facet] = {
+_HIDDEN_FACETS: dict[Kind, Facet] = {
     "manifest": Facet(0),  # without a manifest there is no package
     "program": Facet(0),  # usually not a script
     "config": Facet(0),  # matters only next to setup.py, whose evaluation reports it
@@ -88,9 +88,9 @@ def collect(text: Text, kind: Kind) -> Collected:
 
         facts = python.collect(text, launch=launch is not None)
         if launch is not None and "moveit_controller_manager" in text.text:
-            from ros_lint.collectors.resources.collect import loaded  # noqa: PLC0415
+            from ros_lint.collectors.resources.collect import controller_managers  # noqa: PLC0415
 
-            facts = facts._replace(mentions=(*facts.mentions, *loaded(text)))
+            facts = facts._replace(mentions=(*facts.mentions, *controller_managers(text)))
     elif kind == "cmake":
         from ros_lint.collectors.cmake import syntax as cmake_syntax  # noqa: PLC0415
 
@@ -128,36 +128,36 @@ def collect_all(
     ``jobs`` is the number of processes, 0 chooses it by the number of files; ``tick`` is called with the number of
     finished files.
     """
-    wanted = [(path, kind) for path in paths if (kind := kind_of(path))]
-    found = cache.fetch(tree, [path for path, _ in wanted], Collected)
-    tick(len(found))
-    missing = [(path, kind) for path, kind in wanted if path not in found]
+    files = [(path, kind) for path in paths if (kind := kind_of(path))]
+    collected = cache.fetch(tree, [path for path, _ in files], Collected)
+    tick(len(collected))
+    uncached = [(path, kind) for path, kind in files if path not in collected]
     fresh: dict[str, Collected] = {}
-    processes = _processes(jobs, len(missing))
+    processes = _processes(jobs, len(uncached))
     chunks: Iterable[dict[str, Collected]]
     disk = tree.disk if isinstance(tree, RecordedTree) else tree
-    if processes > 1 and missing and isinstance(disk, DiskTree):
-        chunks = _in_processes(disk, missing, processes)
+    if processes > 1 and uncached and isinstance(disk, DiskTree):
+        chunks = _in_processes(disk, uncached, processes)
     else:
-        chunks = (_collect_chunk(tree, missing[at : at + 100]) for at in range(0, len(missing), 100))
+        chunks = (_collect_chunk(tree, uncached[at : at + 100]) for at in range(0, len(uncached), 100))
     enabled = gc.isenabled()
     gc.disable()  # facts have no cycles, and the garbage collector would traverse all of them repeatedly
     try:
         for chunk in chunks:
             fresh.update(chunk)
-            tick(len(found) + len(fresh))
+            tick(len(collected) + len(fresh))
     finally:
         if enabled:
             gc.enable()
     cache.store(tree, fresh)
-    found.update(fresh)
-    return {path: found[path] for path, _ in wanted}
+    collected.update(fresh)
+    return {path: collected[path] for path, _ in files}
 
 
 def _processes(jobs: int, files: int) -> int:
     """Return the number of processes for some files: at most one for each core."""
-    cores = min(os.cpu_count() or 1, _MOST_PROCESSES)
-    return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_A_PROCESS)
+    cores = min(os.cpu_count() or 1, _MAX_PROCESSES)
+    return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_PER_PROCESS)
 
 
 def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int) -> Iterator[dict[str, Collected]]:
@@ -181,18 +181,18 @@ def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
             return Collected()  # too large for a script: it is a compiled program
         return _unreadable(path, kind, error.strerror or str(error))
     if kind == "program":
-        if not _OF_PYTHON.match(data):
+        if not _PYTHON_SHEBANG.match(data):
             return Collected()
         kind = "python"
     if b"\0" in data[:1024] and not data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return _unreadable(path, kind, "binary data")
     try:
         return collect(read(path, data), kind)
-    except Exception as error:  # a bug in ros-lint for one file must not cost the user the other files
+    except Exception as error:  # a bug that one file triggers must not hide the findings in the others
         return _unreadable(path, kind, FAILED.format(f"{type(error).__name__}: {error}"))
 
 
 def _unreadable(path: str, kind: Kind, reason: str) -> Collected:
-    hides = _HIDES.get(kind, Facet.USES)
+    hides = _HIDDEN_FACETS.get(kind, Facet.USES)
     facts = FileFacts(opaque=(Opaque(hides, f"the file is not read: {reason}", file_start(path)),)) if hides else None
     return Collected(facts, unreadable=reason)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ros_lint import __version__
 from ros_lint.base.text import to_bytes
-from ros_lint.workspace import cache_files as kept_files
+from ros_lint.workspace import cache_files
 
 if TYPE_CHECKING:
     from ros_lint.base.tree import Tree
@@ -49,12 +49,12 @@ class FactCache:
         if not self._files:
             return {}
         state = state_of(_collectors())
-        loaded = [kept_files.load(file, state) for file in self._files]
-        self._parts = [found if _is_part(found, kind) else {} for found in loaded]
+        loaded = [cache_files.load(file, state) for file in self._files]
+        self._parts = [part if _is_part(part, kind) else {} for part in loaded]
         # The stamps are taken before files are read: a file that changes meanwhile counts as changed.
         self._stamps = {path: stamp for path in paths if (stamp := _stamp(tree, path)) is not None}
-        kept = {path: known for part in self._parts for path, known in part.items()}
-        return {path: kept[path][1] for path, stamp in self._stamps.items() if path in kept and kept[path][0] == stamp}
+        stored = {path: entry for part in self._parts for path, entry in part.items()}
+        return {path: stored[path][1] for path, stamp in self._stamps.items() if path in stored and stored[path][0] == stamp}
 
     def store(self, tree: Tree, fresh: Mapping[str, Any]) -> None:
         """Store the facts of files that were read now, and keep those of other existing files."""
@@ -72,14 +72,14 @@ class FactCache:
                 changed.add(number)
         state = state_of(_collectors())
         for number in sorted(changed):
-            kept_files.save(self._files[number], state, self._parts[number])
+            cache_files.save(self._files[number], state, self._parts[number])
 
 
 def folder(environment: Mapping[str, str]) -> str:
     """Return the user's cache folder for ros-lint, or "" if the system has none (XDG base directories)."""
     home = environment.get("HOME") or environment.get("USERPROFILE") or ""
-    above = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if home else "")
-    return os.path.join(above, "ros-lint") if os.path.isabs(above) else ""
+    caches = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if home else "")
+    return os.path.join(caches, "ros-lint") if os.path.isabs(caches) else ""
 
 
 def _is_part(loaded: Any, kind: type) -> bool:
@@ -102,7 +102,7 @@ def _part(path: str) -> int:
 def _stamp(tree: Tree, path: str) -> tuple[int, ...] | None:
     try:
         return tuple(tree.stamp(path))
-    except (OSError, ValueError):  # a NUL in a path that was loaded
+    except (OSError, ValueError):  # a path from the cache contains NUL
         return None
 
 
@@ -114,12 +114,12 @@ def digest(text: str) -> str:
 
 
 def state_of(files: Iterable[str]) -> str:
-    """Return a text that differs between interpreters and between versions of some files."""
+    """Return a text that identifies ros-lint, the Python interpreter and the versions of some files."""
     stamps = []
     for file in sorted(files):
         try:
-            found = os.stat(file)
-            stamps.append(f"{file} {found.st_mtime_ns} {found.st_size} {found.st_ctime_ns} {found.st_ino}")
+            status = os.stat(file)
+            stamps.append(f"{file} {status.st_mtime_ns} {status.st_size} {status.st_ctime_ns} {status.st_ino}")
         except OSError:
             stamps.append(file)
     return f"ros-lint {__version__} {sys.implementation.cache_tag} {digest(' '.join([sys.version, *stamps]))}"

@@ -21,7 +21,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, walk_ac
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Module
 
-_MOST_BYTES = 1 << 18
+_MAX_BYTES = 1 << 18
 
 
 class LaunchPackage(NamedTuple):
@@ -36,23 +36,23 @@ class LaunchPackage(NamedTuple):
 
 
 def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage], distro: str) -> list[tuple[LaunchFile, ...]]:
-    """Return the launch files of each package, interpreted again if the workspace has helpful inputs.
+    """Return the launch files of each package, interpreted again if the workspace has their missing inputs.
 
-    If ``distro`` is a maintained distribution, references that it does not reach are removed.
+    If ``distro`` is a maintained distribution, references that apply only to other distributions are removed.
     """
-    if not any(_is_open(file) for package in packages for file in package.launch):
-        return [tuple([_under(distro, file) for file in package.launch]) for package in packages]
-    places = _Places(tree, packages)
-    return [tuple([_under(distro, places.completed(file, package)) for file in package.launch]) for package in packages]
+    if not any(_needs_inputs(file) for package in packages for file in package.launch):
+        return [tuple([_for_distro(distro, file) for file in package.launch]) for package in packages]
+    inputs = _InputFinder(tree, packages)
+    return [tuple([_for_distro(distro, inputs.with_inputs(file, package)) for file in package.launch]) for package in packages]
 
 
-def _under(distro: str, file: LaunchFile) -> LaunchFile:
+def _for_distro(distro: str, file: LaunchFile) -> LaunchFile:
     if distro not in DISTRIBUTIONS or not any(reference.distros for reference in file.references):
         return file
     return file._replace(references=tuple([use for use in file.references if not use.distros or distro in use.distros]))
 
 
-class _Places:
+class _InputFinder:
     """Finds modules and installed files in the sources of the workspace."""
 
     def __init__(self, tree: Tree, packages: Sequence[LaunchPackage]) -> None:
@@ -60,8 +60,8 @@ class _Places:
         self._by_name: dict[str, list[LaunchPackage]] = {}
         self._by_path = {package.path: package for package in packages}
         self._modules: dict[str, list[LaunchPackage]] = {}
-        self._provides: dict[str, dict[str, str]] = {}
-        self._trees: dict[str, Module | None] = {}
+        self._installed: dict[str, dict[str, str]] = {}
+        self._parsed_modules: dict[str, Module | None] = {}
         self._on_path: set[str] = set()
         """Modules found in folders that a file adds to ``sys.path``: their neighbours can be imported, too."""
         for package in packages:
@@ -70,42 +70,44 @@ class _Places:
             for top in dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages) if script else ():
                 self._modules.setdefault(top, []).append(package)
 
-    def completed(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
+    def with_inputs(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
         """Return a launch file interpreted with its missing inputs, or unchanged if none is available."""
-        text = self._text(file.path) if _is_open(file) else None
-        if text is None or not any(self._module(want, text) or self._file(want, file, package) for want in file.missing_inputs):
+        text = self._text(file.path) if _needs_inputs(file) else None
+        if text is None or not any(
+            self._module(name, text) or self._installed_file(name, file, package) for name in file.missing_inputs
+        ):
             return file
-        from ros_lint.collectors.launch.python import collect as launch_py  # noqa: PLC0415  (few launch files want anything)
+        from ros_lint.collectors.launch.python import collect as launch_py  # noqa: PLC0415  (few launch files have missing inputs)
 
         def modules(name: str, importer: Text) -> Module | None:
             path = self._module(name, importer)
             return self._parsed(path) if path else None
 
         def files(path: str) -> str | None:
-            source = self._file(path, file, package)
-            found = self._text(source) if source else None
-            return None if found is None else found.text
+            source = self._installed_file(path, file, package)
+            content = self._text(source) if source else None
+            return None if content is None else content.text
 
-        again = launch_py.collect(text, modules, files)
-        if len(again.opaque) > len(file.opaque):
+        interpreted = launch_py.collect(text, modules, files)
+        if len(interpreted.opaque) > len(file.opaque):
             return file
         # Actions in a module of another package are dependencies of that package.
-        own = [use for use in again.references if self._package_of(use.package_span.path) is package]
-        return again._replace(references=tuple(own))
+        references = [use for use in interpreted.references if self._package_of(use.package_span.path) is package]
+        return interpreted._replace(references=tuple(references))
 
     def _text(self, path: str) -> Text | None:
         try:
             data = self._tree.read(path)
         except OSError:
             return None
-        return read(path, data) if len(data) <= _MOST_BYTES else None
+        return read(path, data) if len(data) <= _MAX_BYTES else None
 
     def _parsed(self, path: str) -> Module | None:
         """Return a module, None if it is not Python. Cached because many launch files import the same module."""
-        if path not in self._trees:
+        if path not in self._parsed_modules:
             text = self._text(path)
-            self._trees[path] = _module_of(text) if text else None
-        return self._trees[path]
+            self._parsed_modules[path] = _parse_module(text) if text else None
+        return self._parsed_modules[path]
 
     # --- modules --------------------------------------------------------------------------------------------------
 
@@ -115,29 +117,29 @@ class _Places:
         if package is None:
             return ""
         dots = len(name) - len(name.lstrip("."))
-        rest = name[dots:].replace(".", "/")
+        module_path = name[dots:].replace(".", "/")
         if dots:
             folder = parent(importer.path)
             for _ in range(dots - 1):
                 folder = parent(folder)
-            return self._existing(join(folder, rest) if rest else folder, package)
-        owners = self._modules.get(rest.partition("/")[0], [])
+            return self._existing(join(folder, module_path) if module_path else folder, package)
+        owners = self._modules.get(module_path.partition("/")[0], [])
         if package in owners:
-            return self._sought(rest, importer, package)
+            return self._module_of_package(module_path, importer, package)
         if "sys.path" in importer.text or importer.path in self._on_path:
-            found = self._sought(rest, importer, package) or self._elsewhere(rest, importer)
-            self._on_path.add(found)
-            return found
-        return _shortest(owners[0], rest) if len(owners) == 1 else ""
+            path = self._module_of_package(module_path, importer, package) or self._module_of_named_package(module_path, importer)
+            self._on_path.add(path)
+            return path
+        return _shortest(owners[0], module_path) if len(owners) == 1 else ""
 
-    def _sought(self, module: str, importer: Text, package: LaunchPackage) -> str:
+    def _module_of_package(self, module: str, importer: Text, package: LaunchPackage) -> str:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
-    def _elsewhere(self, module: str, importer: Text) -> str:
+    def _module_of_named_package(self, module: str, importer: Text) -> str:
         """Return the path of a module in another package that ``importer`` names: sys.path may contain it."""
         named = [package for package in self._by_path.values() if _is_quoted(package.name, importer.text)]
-        found = [path for package in named if (path := _shortest(package, module))]
-        return found[0] if len(found) == 1 else ""
+        paths = [path for package in named if (path := _shortest(package, module))]
+        return paths[0] if len(paths) == 1 else ""
 
     def _package_of(self, path: str) -> LaunchPackage | None:
         while path:
@@ -152,52 +154,54 @@ class _Places:
 
     # --- files ----------------------------------------------------------------------------------------------------
 
-    def _file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
+    def _installed_file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
         """Return the source of an installed file, "" if it is ambiguous or missing."""
         if path.startswith(f"{OWN_FOLDER}/"):
-            return self._beside(path[len(OWN_FOLDER) + 1 :], file, package)
+            return self._neighbour(path[len(OWN_FOLDER) + 1 :], file, package)
         place = installed_place(path)
         if place is None:
             return ""
         owners = self._by_name.get(place.package, [])
-        return self._provided(owners[0]).get(place.path, "") if len(owners) == 1 else ""
+        return self._installed_sources(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
-    def _beside(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
+    def _neighbour(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
         """Return the source of a file that is named relative to the installed folder of a launch file."""
-        provided = self._provided(package)
-        own = next((place for place, source in provided.items() if source == file.path), "")
-        if own:
-            return provided.get(resolve(parent(own), path), "")
+        sources = self._installed_sources(package)
+        install_path = next((place for place, source in sources.items() if source == file.path), "")
+        if install_path:
+            return sources.get(resolve(parent(install_path), path), "")
         source = resolve(parent(file.path), path)
         return source if strip_folder(package.path, source) in package.files else ""
 
-    def _provided(self, package: LaunchPackage) -> dict[str, str]:
+    def _installed_sources(self, package: LaunchPackage) -> dict[str, str]:
         """Return the sources of the installed files of a package, by install path."""
-        found = self._provides.get(package.path)
-        if found is None:
+        sources = self._installed.get(package.path)
+        if sources is None:
             provides = package.script.products.installs if package.script else ()
-            found = {file.path: resolve(package.path, file.source) for file in provides if file.source}
-            self._provides[package.path] = found
-        return found
+            sources = {file.path: resolve(package.path, file.source) for file in provides if file.source}
+            self._installed[package.path] = sources
+        return sources
 
 
-def _is_open(file: LaunchFile) -> bool:
-    """Return whether the missing inputs of a launch file can resolve something in it."""
+def _needs_inputs(file: LaunchFile) -> bool:
+    """Return whether a launch file contains something that its missing inputs may resolve."""
     if not file.missing_inputs or file.helper:
         return False
     if file.opaque or not HELPERS.keys().isdisjoint(file.missing_inputs):
         return True
-    return any(UNKNOWN in text for action in walk_actions(file.actions) for value in _named_by(action) for text in value.texts)
+    return any(
+        UNKNOWN in text for action in walk_actions(file.actions) for value in _resolvable_values(action) for text in value.texts
+    )
 
 
-def _named_by(action: LaunchAction) -> Iterator[LaunchValue]:
+def _resolvable_values(action: LaunchAction) -> Iterator[LaunchValue]:
     """Yield the values that name packages, executables and parameter files."""
     yield from (value for value in (action.package, action.target) if value is not None)
     yield from (value for name, value in action.parameters if not name)
 
 
-def _module_of(text: Text) -> Module | None:
-    from ros_lint.collectors.python.interpreter.values import Module  # noqa: PLC0415  (few launch files want anything)
+def _parse_module(text: Text) -> Module | None:
+    from ros_lint.collectors.python.interpreter.values import Module  # noqa: PLC0415  (few launch files have missing inputs)
     from ros_lint.collectors.python.source_errors import NotPythonError  # noqa: PLC0415
     from ros_lint.collectors.python.syntax import parse  # noqa: PLC0415
 
@@ -219,7 +223,7 @@ def _is_quoted(name: str, text: str) -> bool:
 def _shortest(package: LaunchPackage, module: str) -> str:
     """Return the source of a module in a package: the least nested file of that name."""
     for name in _sources(module):
-        found = [file for file in package.files if file == name or file.endswith(f"/{name}")]
-        if found:
-            return join(package.path, min(found, key=lambda file: (file.count("/"), file)))
+        matches = [file for file in package.files if file == name or file.endswith(f"/{name}")]
+        if matches:
+            return join(package.path, min(matches, key=lambda file: (file.count("/"), file)))
     return ""

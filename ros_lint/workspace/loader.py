@@ -25,21 +25,19 @@ from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.providers import offered
 from ros_lint.knowledge.underlays import Underlay
 from ros_lint.knowledge.world import Member, World
-from ros_lint.workspace import launch_modules as launch_around
-from ros_lint.workspace.build_scripts import evaluate as scripts
+from ros_lint.workspace import launch_modules
+from ros_lint.workspace.build_scripts import evaluate as build_scripts
 from ros_lint.workspace.build_scripts.sources import Parts
 from ros_lint.workspace.collect import Collected, collect_all
-from ros_lint.workspace.discovery import repository_lists as source_lists
+from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
 from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.model import Declared, Package, Workspace
 from ros_lint.workspace.target import TargetDistro, UnreadFile
-from ros_lint.workspace.usage import own_files, public_headers
-from ros_lint.workspace.usage import resolve as evidence
-from ros_lint.workspace.usage import textual_mentions as traces
-from ros_lint.workspace.usage import unqualified_types as type_names
-from ros_lint.workspace.usage.package_files import Source, opaque_of
+from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
+from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
+from ros_lint.workspace.usage.resolve import Resolver, resolve
 
 Progress = Callable[[str, int, int], None]
 """Called with the current step, the number of finished items and the number of all items."""
@@ -47,10 +45,10 @@ Progress = Callable[[str, int, int], None]
 _NO_ROLE = Role(0)
 
 
-class _Read(NamedTuple):
+class _ReadPackage(NamedTuple):
     """A package with the facts of its files."""
 
-    found: DiscoveredPackage
+    discovered: DiscoveredPackage
     declared: tuple[Declared, ...]
     script: BuildScript | None
     facts: Mapping[str, FileFacts]
@@ -72,12 +70,12 @@ class Loader:
         exclude: Callable[[str], bool] = lambda path: False,
         jobs: int = 0,
         cache: FactCache | None = None,
-        progress: Progress = lambda what, done, all_: None,
+        progress: Progress = lambda step, finished, total: None,
     ) -> None:
         self.tree = tree
-        self.held: dict[str, bytes] = {}
+        self.pinned: dict[str, bytes] = {}
         """Contents of files as read by :meth:`hold`."""
-        self._unheld = tree
+        self._original_tree = tree
         self.target = target
         self._context = target.context
         self._roots = tuple(roots)
@@ -98,35 +96,42 @@ class Loader:
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
         discovery = discover(tree, self._roots, self.target.context)
-        founds = [self._without_excluded(found) for found in discovery.packages if not self._exclude(found.path)]
-        lists = source_lists.find(tree, self._roots, (join(found.path, file) for found in founds for file in found.files))
-        submodules = source_lists.submodules(tree, lists)
-        founds = _without_submodules(founds, submodules)
-        collected = self._collect(founds, changed or {}) if sources else {}
-        reads = (
-            self._read(tree, founds, collected)
-            if sources
-            else [_Read(found, self._declared(found.manifest), None, {}, ()) for found in founds]
+        discovered = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
+        lists = repository_lists.find_lists(
+            tree, self._roots, (join(package.path, file) for package in discovered for file in package.files)
         )
-        awaited = source_lists.awaited(tree, lists, submodules)
-        world = World(tuple(self._members(reads, discovery.rejected)), self._underlays, self._knowledge, awaited)
-        packages = tuple(self._join(tree, reads, world, sources))
+        submodules = repository_lists.submodules(tree, lists)
+        discovered = _without_submodules(discovered, submodules)
+        collected = self._collect(discovered, changed or {}) if sources else {}
+        read_packages = (
+            self._read(tree, discovered, collected)
+            if sources
+            else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
+        )
+        expected = repository_lists.expected_repositories(tree, lists, submodules)
+        world = World(tuple(self._members(read_packages, discovery.rejected)), self._underlays, self._knowledge, expected)
+        packages = tuple(self._join(tree, read_packages, world, sources))
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        ignores = find_ignores(tree, ((found.path, found.files) for found in founds))
-        unread = (*discovery.not_checked, *source_lists.unreadable(tree, lists), *ignores.not_checked, *_unreadable(collected))
-        not_checked = tuple(dict.fromkeys((*unread, *_failed(reads))))
+        ignores = find_ignores(tree, ((package.path, package.files) for package in discovered))
+        unread_files = (
+            *discovery.not_checked,
+            *repository_lists.unreadable_lists(tree, lists),
+            *ignores.not_checked,
+            *_unreadable(collected),
+        )
+        not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
         return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
 
-    def hold(self, paths: Iterable[str]) -> None:
+    def pin(self, paths: Iterable[str]) -> None:
         """Read some files again and fix their contents for all further loads, even if they change on disk.
 
         A file that cannot be read is left out.
         """
         for path in paths:
             with suppress(OSError):
-                self.held[path] = self._unheld.read(path)
-        self.tree = OverlayTree(self._unheld, self.held)
-        self._collected = dict(self._changed(self.held))
+                self.pinned[path] = self._original_tree.read(path)
+        self.tree = OverlayTree(self._original_tree, self.pinned)
+        self._collected = dict(self._collected_with(self.pinned))
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""
@@ -134,124 +139,137 @@ class Loader:
 
     def suppressions(self, changed: Mapping[str, bytes] | None = None) -> Iterator[Suppression]:
         """Yield the suppressions in all files of the loaded packages."""
-        collected = self._changed(changed or {})
+        collected = self._collected_with(changed or {})
         for path in sorted(collected):
             yield from collected[path].suppressions
 
-    def _without_excluded(self, found: DiscoveredPackage) -> DiscoveredPackage:
-        return found._replace(files=tuple(file for file in found.files if not self._exclude(join(found.path, file))))
+    def _without_excluded(self, package: DiscoveredPackage) -> DiscoveredPackage:
+        return package._replace(files=tuple(file for file in package.files if not self._exclude(join(package.path, file))))
 
-    def _collect(self, founds: Sequence[DiscoveredPackage], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
-        paths = [join(found.path, file) for found in founds for file in found.files if kind_of(file)]
+    def _collect(self, discovered: Sequence[DiscoveredPackage], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
+        paths = [join(package.path, file) for package in discovered for file in package.files if kind_of(file)]
         if not self._collected:
             self._collected = collect_all(
-                self.tree, paths, self._jobs, self._cache, lambda done: self._progress("reading", done, len(paths))
+                self.tree, paths, self._jobs, self._cache, lambda finished: self._progress("reading", finished, len(paths))
             )
-        return self._changed(changed)
+        return self._collected_with(changed)
 
-    def _changed(self, changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
-        again = [path for path in changed if path in self._collected]
-        if not again:
+    def _collected_with(self, changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
+        paths = [path for path in changed if path in self._collected]
+        if not paths:
             return self._collected
-        fresh = collect_all(OverlayTree(self.tree, changed), again, 1, FactCache("", ""), lambda done: None)
+        fresh = collect_all(OverlayTree(self.tree, changed), paths, 1, FactCache("", ""), lambda finished: None)
         return {**self._collected, **fresh}
 
-    def _read(self, tree: Tree, founds: Sequence[DiscoveredPackage], collected: Mapping[str, Collected]) -> list[_Read]:
+    def _read(
+        self, tree: Tree, discovered: Sequence[DiscoveredPackage], collected: Mapping[str, Collected]
+    ) -> list[_ReadPackage]:
         of_package = [
-            {file: collected[path] for file in found.files if (path := join(found.path, file)) in collected} for found in founds
+            {file: collected[path] for file in package.files if (path := join(package.path, file)) in collected}
+            for package in discovered
         ]
-        declared_by = [self._declared(found.manifest) for found in founds]
+        declared_by = [self._declared(package.manifest) for package in discovered]
         parts = [
             Parts(
-                found,
+                package,
                 {file: c.commands for file, c in files.items() if c.commands is not None},
                 _kinds(declared),
             )
-            for found, declared, files in zip(founds, declared_by, of_package, strict=True)
+            for package, declared, files in zip(discovered, declared_by, of_package, strict=True)
         ]
-        built = scripts.evaluate(tree, parts, self.target.distro)
-        launch = launch_around.resolve_modules(
+        built = build_scripts.evaluate(tree, parts, self.target.distro)
+        launch = launch_modules.resolve_modules(
             tree,
             [
-                launch_around.LaunchPackage(
-                    found.name,
-                    found.path,
-                    found.files,
+                launch_modules.LaunchPackage(
+                    package.name,
+                    package.path,
+                    package.files,
                     script,
                     tuple([c.launch for c in files.values() if c.launch is not None]),
                 )
-                for found, script, files in zip(founds, built, of_package, strict=True)
+                for package, script, files in zip(discovered, built, of_package, strict=True)
             ],
             self.target.distro,
         )
         return [
-            _Read(
-                found,
+            _ReadPackage(
+                package,
                 declared,
                 script,
                 {file: c.facts for file, c in files.items() if c.facts is not None},
-                followed,
+                resolved,
                 tuple([path for c in files.values() for path in c.machine_paths]),
             )
-            for found, declared, script, files, followed in zip(founds, declared_by, built, of_package, launch, strict=True)
+            for package, declared, script, files, resolved in zip(discovered, declared_by, built, of_package, launch, strict=True)
         ]
 
-    def _members(self, reads: Sequence[_Read], rejected: Sequence[Manifest]) -> Iterator[Member]:
-        for found, declared, script, *_ in reads:
-            modules = offered(script, found.files) if script else None
-            yield _member(found.name, found.manifest, declared)._replace(modules=modules)
+    def _members(self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest]) -> Iterator[Member]:
+        for package, declared, script, *_ in read_packages:
+            modules = offered(script, package.files) if script else None
+            yield _member(package.name, package.manifest, declared)._replace(modules=modules)
         for manifest in rejected:
             if manifest.name:
                 yield _member(manifest.name, manifest, self._declared(manifest))
 
-    def _join(self, tree: Tree, reads: Sequence[_Read], world: World, search: bool) -> Iterator[Package]:
+    def _join(self, tree: Tree, read_packages: Sequence[_ReadPackage], world: World, search: bool) -> Iterator[Package]:
         sources = [
-            Source(r.found.name, r.found.path, r.found.files, r.script, r.facts, r.launch, r.found.type.removeprefix("ros."))
-            for r in reads
+            PackageSource(
+                read_package.discovered.name,
+                read_package.discovered.path,
+                read_package.discovered.files,
+                read_package.script,
+                read_package.facts,
+                read_package.launch,
+                read_package.discovered.type.removeprefix("ros."),
+            )
+            for read_package in read_packages
         ]
-        resolver = evidence.Resolver(sources, world)
-        types = type_names.Types(sources, tree, lambda name: world.closure((name,)))
-        for number, (done, source) in enumerate(zip(reads, sources, strict=True)):
-            self._progress("analysing", number, len(reads))
-            found = done.found
-            own = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
-            uses = evidence.resolve(source, resolver, own)
-            declared = done.declared
+        resolver = Resolver(sources, world)
+        types = unqualified_types.Types(sources, tree, lambda name: world.closure((name,)))
+        for number, (read_package, source) in enumerate(zip(read_packages, sources, strict=True)):
+            self._progress("analysing", number, len(read_packages))
+            discovered = read_package.discovered
+            files = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
+            uses = resolve(source, resolver, files)
+            declared = read_package.declared
             package = Package(
-                name=found.name,
-                path=found.path,
-                type=found.type,
-                manifest=found.manifest,
+                name=discovered.name,
+                path=discovered.path,
+                type=discovered.type,
+                manifest=discovered.manifest,
                 declared=tuple(d for d in declared if d.depend.tag in ROLES),
                 groups=tuple(d.name for d in declared if d.depend.tag == "member_of_group"),
                 group_depends=tuple(d for d in declared if d.depend.tag == "group_depend"),
-                colcon_depends=found.colcon_depends,
-                files=found.files,
-                unvisited_folders=tuple(skipped.path for skipped in found.unseen),
-                nested=found.nested,
-                script=done.script,
-                launch=done.launch,
+                colcon_depends=discovered.colcon_depends,
+                files=discovered.files,
+                unvisited_folders=tuple(skipped.path for skipped in discovered.unvisited),
+                nested=discovered.nested,
+                script=read_package.script,
+                launch=read_package.launch,
                 uses=uses,
                 textual_mentions={},
                 opaque=opaque_of(source),
-                registrations=tuple([made for facts in done.facts.values() for made in facts.registrations]),
-                loaders=tuple([loader for facts in done.facts.values() for loader in facts.loaders]),
-                imported_types=tuple([imported for facts in done.facts.values() for imported in facts.types]),
-                interface_files=tuple([f.interface for f in done.facts.values() if f.interface is not None]),
-                lookups=tuple([look_up for facts in done.facts.values() for look_up in facts.lookups]),
-                parameter_files=tuple([f.parameters for f in done.facts.values() if f.parameters is not None]),
-                unusable_headers=public_headers.unusable(source.built, done.facts, found.files),
-                machine_paths=done.machine_paths,
-                compiled_headers=own.compiled_along(),
-                uninstalled_imports=tuple(own_files.uninstalled_imports(found.files, source.built, done.facts)),
-                renamed=found.colcon_name if found.colcon_name != found.name else "",
+                registrations=tuple(
+                    [registration for facts in read_package.facts.values() for registration in facts.registrations]
+                ),
+                loaders=tuple([loader for facts in read_package.facts.values() for loader in facts.loaders]),
+                imported_types=tuple([imported for facts in read_package.facts.values() for imported in facts.types]),
+                interface_files=tuple([f.interface for f in read_package.facts.values() if f.interface is not None]),
+                lookups=tuple([look_up for facts in read_package.facts.values() for look_up in facts.lookups]),
+                parameter_files=tuple([f.parameters for f in read_package.facts.values() if f.parameters is not None]),
+                unusable_headers=public_headers.unusable(source.built, read_package.facts, discovered.files),
+                machine_paths=read_package.machine_paths,
+                compiled_headers=files.headers_by_source(),
+                uninstalled_imports=tuple(own_files.uninstalled_imports(discovered.files, source.built, read_package.facts)),
+                renamed=discovered.colcon_name if discovered.colcon_name != discovered.name else "",
             )
-            if package.registrations and done.script and done.script.files.plugin_files:
-                package = package._replace(unwritten_classes=traces.unwritten(tree, package))
+            if package.registrations and read_package.script and read_package.script.files.plugin_files:
+                package = package._replace(unwritten_classes=textual_mentions.find_unwritten_classes(tree, package))
             if search:
                 package = package._replace(
-                    textual_mentions=traces.of_package(tree, package, source, world, types),
-                    possibly_used=traces.possibly_used(tree, package, source, world, types),
+                    textual_mentions=textual_mentions.find_textual_mentions(tree, package, source, world, types),
+                    possibly_used=textual_mentions.possibly_used(tree, package, source, world, types),
                 )
             yield package
 
@@ -260,12 +278,12 @@ class Loader:
 
         Groups, conflicts and replaces are included.
         """
-        found = []
+        result = []
         for depend in manifest.depends if manifest else ():
             truth = conditions.truth(depend.condition, self._context) if depend.condition else True
             if truth is not False:
-                found.append(Declared(depend, ROLES.get(depend.tag, _NO_ROLE), truth is True))
-        return tuple(found)
+                result.append(Declared(depend, ROLES.get(depend.tag, _NO_ROLE), truth is True))
+        return tuple(result)
 
     def _unusable(self, manifest: Manifest) -> Package:
         folder = manifest.path.rpartition("/")[0]
@@ -289,13 +307,13 @@ class Loader:
         )
 
 
-def _without_submodules(founds: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
+def _without_submodules(discovered: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
     """Return the packages, with submodules that are not cloned added to the unvisited folders."""
     result = []
-    for found in founds:
-        inside = [folder for folder in folders if folder.startswith(f"{found.path}/" if found.path else "")]
-        more = tuple(Skipped(strip_folder(found.path, folder), "the submodule is not cloned") for folder in inside)
-        result.append(found._replace(unseen=(*found.unseen, *more)) if more else found)
+    for package in discovered:
+        submodules = [folder for folder in folders if folder.startswith(f"{package.path}/" if package.path else "")]
+        skipped = tuple(Skipped(strip_folder(package.path, folder), "the submodule is not cloned") for folder in submodules)
+        result.append(package._replace(unvisited=(*package.unvisited, *skipped)) if skipped else package)
     return result
 
 
@@ -320,10 +338,10 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
             yield from _unchecked(fact.opaque if fact is not None else ())
 
 
-def _failed(reads: Sequence[_Read]) -> Iterator[UnreadFile]:
-    for done in reads:
-        if done.script is not None:
-            yield from _unchecked(done.script.opaque)
+def _unchecked_scripts(read_packages: Sequence[_ReadPackage]) -> Iterator[UnreadFile]:
+    for read_package in read_packages:
+        if read_package.script is not None:
+            yield from _unchecked(read_package.script.opaque)
 
 
 def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:

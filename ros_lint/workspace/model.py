@@ -7,7 +7,7 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint.base import gitignore as ignored
+from ros_lint.base import gitignore
 from ros_lint.base.paths import join, strip_folder
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
@@ -29,12 +29,15 @@ class Declared(NamedTuple):
     """A dependency tag whose condition is not false for the target."""
 
     depend: Depend
+    """The tag."""
     role: Role
+    """Purposes that the tag declares."""
     certain: bool
     """False if the condition reads a variable whose value is unknown."""
 
     @property
     def name(self) -> str:
+        """Name of the package or rosdep key."""
         return self.depend.name
 
     @property
@@ -61,10 +64,13 @@ class Package(NamedTuple):
     manifest: Manifest | None
     """The package.xml, with its problems, even if colcon cannot use it."""
     declared: tuple[Declared, ...]
+    """Dependency tags, without those whose condition (REP 149) is false."""
     groups: tuple[str, ...]
     """Dependency groups that the package is a member of."""
     group_depends: tuple[Declared, ...]
+    """``<group_depend>`` tags, without those whose condition is false."""
     colcon_depends: tuple[ColconDepend, ...]
+    """Dependencies from ``colcon.pkg``, ``colcon.meta`` or a build script without a manifest."""
     files: tuple[str, ...]
     """Files below the folder, sorted and relative to it, without nested packages and skipped folders."""
     unvisited_folders: tuple[str, ...]
@@ -72,17 +78,21 @@ class Package(NamedTuple):
     nested: tuple[Manifest, ...]
     """Manifests in subfolders, which colcon does not find."""
     script: BuildScript | None
+    """The evaluated CMakeLists.txt or setup.py; None if there is none."""
     launch: tuple[LaunchFile, ...]
+    """Launch files of the package, also those that are not installed."""
     uses: tuple[Use, ...]
+    """Places in the sources, launch files and build script that need another package."""
     textual_mentions: Mapping[str, Span]
     """For declared names without a use: a place where a text of the package contains the name."""
     opaque: tuple[Opaque, ...]
+    """Places that could not be evaluated. Ask :meth:`hidden` for those that matter to a rule."""
     possibly_used: frozenset[str] = frozenset()
     """Names that CMake finds and no code certainly uses, although other evidence suggests a use."""
     registrations: tuple[Registration, ...] = ()
     """Classes that the C++ sources make loadable."""
     unwritten_classes: frozenset[str] = frozenset()
-    """Classes that plugin descriptions name and no source does."""
+    """Classes in plugin descriptions whose name does not occur in the sources."""
     lookups: tuple[LookUp, ...] = ()
     """Files that models, RViz configurations and parameters look up in packages."""
     parameter_files: tuple[ParameterFile, ...] = ()
@@ -138,7 +148,7 @@ class Package(NamedTuple):
     def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:
         """Return the places that hide ``facet`` of the package; empty if everything is visible.
 
-        ``place``, a path in the install prefix, limits the answer to what may hide that path.
+        ``place``, a path in the install prefix, limits the result to places that may hide that path.
         """
         return tuple(opaque for opaque in self.opaque if opaque.hides & facet and (not place or opaque.reaches(place)))
 
@@ -179,13 +189,7 @@ class Package(NamedTuple):
 
 
 class Workspace:
-    """All packages of a run, with the knowledge and the target distribution.
-
-    ``packages`` are the packages that colcon finds, sorted by path; two may have the same name. ``unusable`` are
-    folders with a ``package.xml`` in which colcon finds no package, named as in the manifest. ``source_lists`` are
-    files that list repositories of the workspace, which need not be cloned: ``*.repos``, ``*.rosinstall``,
-    ``.gitmodules``. ``ignores`` are the patterns of ``.gitignore`` files.
-    """
+    """All packages of a run, with look-ups of released packages and the target distribution."""
 
     def __init__(
         self,
@@ -195,37 +199,47 @@ class Workspace:
         target: TargetDistro,
         not_checked: tuple[UnreadFile, ...],
         source_lists: tuple[str, ...] = (),
-        ignores: tuple[ignored.Pattern, ...] = (),
+        ignores: tuple[gitignore.Pattern, ...] = (),
     ) -> None:
         self.packages = packages
+        """The packages that colcon finds, sorted by path; two may have the same name."""
         self.unusable = unusable
+        """Folders with a ``package.xml`` in which colcon finds no package, named as in the manifest."""
         self.world = world
+        """Look-ups of names in the workspace, in underlays and among released packages."""
         self.target = target
+        """The ROS distribution of the run."""
         self.not_checked = not_checked
+        """Files that could not be read, and data that is missing."""
         self.source_lists = source_lists
+        """Files that list repositories of the workspace: ``*.repos``, ``*.rosinstall``, ``.gitmodules``.
+
+        The repositories need not be cloned.
+        """
         self._ignores = ignores
         self.memo: dict[object, Any] = {}
-        """Results of functions with a cache: :func:`per_workspace`, :func:`per_package`."""
+        """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
-        found: dict[str, tuple[Package, ...]] = {}
+        """The packages by the name in ``package.xml``."""
+        packages: dict[str, tuple[Package, ...]] = {}
         for package in self.packages:
-            found[package.name] = (*found.get(package.name, ()), package)
-        return found
+            packages[package.name] = (*packages.get(package.name, ()), package)
+        return packages
 
     def called(self, name: str) -> tuple[Package, ...]:
         """Return the packages with a name: the name in ``package.xml``, else the name that colcon uses."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
-    def surely_lacks(self, owner: str, offer: Offer, wanted: str) -> bool:
-        """Return whether a package certainly does not provide what was not found in it.
+    def surely_lacks(self, owner: str, offer: Offer, name: str) -> bool:
+        """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 
         Packages of the workspace have been searched. A released package must be known to lack it: in every
         distribution, unless the user chose one.
         """
-        return owner in self.by_name or self.world.lacks(owner, offer, wanted, everywhere=not self.target.explicit)
+        return owner in self.by_name or self.world.lacks(owner, offer, name, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
         """Return whether a file of the package, or of the workspace if None, could not be read.
@@ -237,15 +251,15 @@ class Workspace:
 
     def is_made(self, package: Package, path: str) -> bool:
         """Return whether git ignores a path in a package: such a path is generated or downloaded."""
-        return bool(self._ignores) and ignored.is_ignored(self._ignores, join(package.path, path))
+        return bool(self._ignores) and gitignore.is_ignored(self._ignores, join(package.path, path))
 
     @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:
         """Component classes that launch files load, by package."""
-        found: dict[str, frozenset[str]] = {}
+        classes: dict[str, frozenset[str]] = {}
         for package in self.packages:
             for launch in package.launch:
                 for reference in launch.references:
                     if reference.kind == "component":
-                        found[reference.package] = found.get(reference.package, frozenset()) | {reference.name}
-        return found
+                        classes[reference.package] = classes.get(reference.package, frozenset()) | {reference.name}
+        return classes

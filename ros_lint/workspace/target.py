@@ -17,8 +17,9 @@ class TargetDistro(NamedTuple):
     """The ROS distribution that the workspace is checked for."""
 
     distro: str
+    """Name of the distribution, such as "jazzy"."""
     source: str
-    """Origin of the choice, such as "--distro" or "newest long-term release known"."""
+    """Origin of the choice, such as ``--distro``, for messages."""
     explicit: bool = True
     """False if the distribution is assumed: then names of other active distributions count as existing."""
 
@@ -34,11 +35,14 @@ class TargetDistro(NamedTuple):
 
 
 class UnreadFile(NamedTuple):
-    """An input that the run could not check: a file, or a whole class of questions."""
+    """An input that could not be checked. ``what`` is the path of a file, or another description."""
 
     what: str
+    """Path of the file, or name of the missing data."""
     reason: str
+    """Reason, for messages."""
     span: Span | None
+    """Place of the file; None for missing data."""
 
     @classmethod
     def of(cls, path: str, error: OSError) -> UnreadFile:

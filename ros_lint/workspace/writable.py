@@ -23,22 +23,22 @@ class Writable:
         """Return why a file must not be written, "" if it may be written."""
         identity = self._tree.identity(path)
         if not any(is_below(identity, root) for root in self._roots):
-            return f"{path} is outside of the given folders"
+            return f"'{path}' is outside the folders to check"
         names = self._names.get(identity, ())
-        return f"{' and '.join(names)} are the same file" if len(names) > 1 else ""
+        return f"{' and '.join(map(repr, names))} are the same file" if len(names) > 1 else ""
 
 
 def names_of_files(tree: Tree, paths: Iterable[str]) -> dict[str, list[str]]:
     """Return paths by the identity of the file; a file has several paths if links lead to it."""
-    found: dict[str, list[str]] = {}
+    paths_by_identity: dict[str, list[str]] = {}
     folders: dict[str, tuple[str, frozenset[str]]] = {}
     for path in paths:
         folder, _, name = path.rpartition("/")
         if folder not in folders:
             folders[folder] = tree.identity(folder), frozenset(entry.name for entry in _entries(tree, folder) if entry.link)
-        above, links = folders[folder]
-        found.setdefault(tree.identity(path) if name in links else join(above, name), []).append(path)
-    return found
+        folder_identity, links = folders[folder]
+        paths_by_identity.setdefault(tree.identity(path) if name in links else join(folder_identity, name), []).append(path)
+    return paths_by_identity
 
 
 def _entries(tree: Tree, folder: str) -> Sequence[Entry]:

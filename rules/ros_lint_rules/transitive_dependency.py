@@ -60,7 +60,8 @@ from ros_lint.api import Confidence, Finding, Package, Related, Role, Rule, Seve
 _LAUNCHER = "ros2launch"
 _LINTERS = "ament_lint_common"
 _TEST_MODULES = frozenset({
-    "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros", "python3-pytest",
+    "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
+    "python3-pytest",
 })  # fmt: skip
 """Packages and keys that tests use and that usually come with a package for a kind of tests."""
 _PARTS = dependencies.TEST_LIBRARIES | {"ament_cmake_core", "ament_cmake_pytest"}

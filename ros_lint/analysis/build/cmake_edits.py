@@ -1,4 +1,4 @@
-"""Edits of CMakeLists.txt that keep its style, computed from its commands alone."""
+"""Edits of CMakeLists.txt in the style of the file. A function returns None if there is no place for the edit."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ install(TARGETS {}
 
 
 def at_end(script: BuildScript, code: str) -> Edit | None:
-    """Add commands before ament_package(), separated by blank lines if it is.
+    """Return the edit that adds commands before ament_package().
 
-    None if there is no such place.
+    A blank line separates the commands if one separates ament_package() from the command before it.
     """
     if script.commands.insertion is None:
         return None
@@ -33,17 +33,17 @@ def at_end(script: BuildScript, code: str) -> Edit | None:
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
-    """Install a library: add the command before ament_package()."""
+    """Return the edit that installs a library target."""
     return at_end(script, _LIBRARY.format(name))
 
 
 def install_program(script: BuildScript, kind: str, name: str) -> Edit | None:
-    """Install a target or file into lib/<package>. ``kind`` is TARGETS or PROGRAMS."""
+    """Return the edit that installs a program into ``lib/<package>``. ``kind`` is TARGETS or PROGRAMS."""
     return at_end(script, f"install({kind} {_word(name)} DESTINATION lib/${{PROJECT_NAME}})")
 
 
 def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
-    """Install files into a folder below share/<package>; "" is share/<package> itself."""
+    """Return the edit that installs files into a folder below ``share/<package>``; "" is that folder itself."""
     words = " ".join([*map(_word, paths), "DESTINATION", _word(join("share/${PROJECT_NAME}", folder))])
     return at_end(script, f"install(FILES {words})")
 
@@ -54,9 +54,9 @@ def _word(path: str) -> str:
 
 
 def install_folder(package: Package, folder: str) -> Edit | None:
-    """Install a folder to share/<package>: extend the command for other folders, or else add one.
+    """Return the edit that installs a folder to ``share/<package>``.
 
-    None if there is no place for a new command.
+    It extends the command that installs other folders there, or else adds a command.
     """
     call = _beside(package)
     if call is not None:
@@ -65,9 +65,10 @@ def install_folder(package: Package, folder: str) -> Edit | None:
 
 
 def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
-    """Export a package: extend the existing call, or else add one with all names that lack an export.
+    """Return the edit that exports a dependency by ament_export_dependencies().
 
-    So the edit is the same for each of these names. None if there is no place for a new call.
+    It extends the existing call, or else adds a call with ``all_names``, all names that are not exported. Then the edit
+    is the same for each of these names.
     """
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
@@ -82,10 +83,10 @@ _NAME = re.compile(r"[A-Za-z]\w*")
 
 
 def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edit | None]:
-    """Replace each ``ament_target_dependencies()`` by the equivalent ``target_link_libraries()``.
+    """Yield the edits that replace each ``ament_target_dependencies()`` by ``target_link_libraries()``.
 
-    Yields None for a call with a package whose name is computed, or that is not known to export targets: for these,
-    ament_target_dependencies() uses variables (ament_cmake_target_dependencies).
+    Yields None for a package whose name is computed, or that is not known to export targets. For such a package,
+    ``ament_target_dependencies()`` uses variables (ament_cmake_target_dependencies).
     """
     for call in calls:
         yield Edit(call.name_span, "target_link_libraries")
@@ -96,7 +97,7 @@ def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edi
 
 
 def exports_targets(name: str, workspace: Workspace) -> bool:
-    """Return whether a package is known to export targets, which ament_target_dependencies() then links."""
+    """Return whether a package is known to export CMake targets, in ``<package>_TARGETS``."""
     own = workspace.by_name.get(name)
     if own is None:
         return workspace.world.exports_targets(name)
@@ -107,12 +108,12 @@ _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interface
 
 
 def add_argument(call: Call, text: str) -> Edit:
-    """Add an argument at the end of a call with arguments."""
+    """Return the edit that adds an argument at the end of a call. The call must have arguments."""
     return _append(call, len(call.args) - 1, text)
 
 
 def _append(call: Call, last: int, text: str) -> Edit:
-    """Add an argument after the one with the index ``last``, on a line of its own if that one has one."""
+    """Add an argument after the argument ``last``, on its own line if that argument is on its own line."""
     span = call.span(last)
     above = call.span(last - 1).line if last else call.line
     return Edit(span.end(), f" {text}" if span.line == above else f"\n{' ' * (span.column - 1)}{text}")
@@ -132,17 +133,20 @@ def _beside(package: Package) -> Call | None:
 
 
 def keep_permissions(call: Call) -> Edit:
-    """Add USE_SOURCE_PERMISSIONS to install(DIRECTORY), after the destination because patterns come later."""
+    """Return the edit that adds USE_SOURCE_PERMISSIONS to install(DIRECTORY).
+
+    It comes after the destination, because patterns have to come later.
+    """
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")
 
 
 def write(call: Call, index: int, text: str) -> Edit:
-    """Replace an argument."""
+    """Return the edit that replaces the argument with an index."""
     return Edit(call.span(index), text)
 
 
 def drop(call: Call, first: int, last: int) -> Edit:
-    """Remove the arguments from ``first`` to ``last``, with the space before them. ``first`` is not 0."""
+    """Return the edit that removes the arguments ``first`` to ``last``, both included. ``first`` is not 0."""
     gap, span = call.span(first - 1).end(), call.span(last)
     return Edit(gap._replace(end_line=span.end_line, end_column=span.end_column), "")

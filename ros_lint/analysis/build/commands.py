@@ -14,21 +14,18 @@ from ros_lint.workspace.model import Package
 FINDS_TESTS = frozenset({
     "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies", "autoware_package",
 })  # fmt: skip
-"""Commands that find all declared test dependencies, linters included, which then run."""
+"""Commands that find all declared test dependencies, including linters, which then run."""
 
 LINTERS = {
     f"ament_cmake_{linter}": f"ament_{linter}"
     for linter in ("clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8", "lint_cmake", "mypy", "pclint",
                    "pep257", "pycodestyle", "pyflakes", "uncrustify", "xmllint")
 }  # fmt: skip
-"""Linters, with the command of each."""
+"""Packages that run linters as tests, each with the command of its linter."""
 
 
 def stops_early(script: BuildScript) -> bool:
-    """Return whether CMake stops early: at a syntax error, or at a script or folder that does not exist.
-
-    A missing file that is to be installed does not count, because it hides nothing.
-    """
+    """Return whether CMake stops at a syntax error, or at a script or folder that does not exist."""
     return any(problem.kind in _STOPS for problem in script.problems)
 
 
@@ -36,19 +33,19 @@ _STOPS = ("cmake-syntax", "missing-folder", "missing-script")
 
 
 def config_names(name: str) -> tuple[str, str]:
-    """Return both names of the file that find_package() reads for a name."""
+    """Return the names of the files that find_package() looks for: xConfig.cmake and x-config.cmake."""
     return f"{name}Config.cmake", f"{name.lower()}-config.cmake"
 
 
 def has_extras(package: Package) -> bool:
-    """Return whether find_package() runs code of the package, given by ament_package(CONFIG_EXTRAS)."""
+    """Return whether find_package() of the package runs CMake code of the package (CONFIG_EXTRAS)."""
     if package.built.exports.config_extras:
         return True
     return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
 
 
 def installed_targets(call: Call) -> tuple[int, ...]:
-    """Return the indexes of the target names in a call of install(TARGETS), () for any other call."""
+    """Return the indexes of the targets among the arguments of install(TARGETS), () for any other call."""
     texts = call.texts
     if texts[:1] != ("TARGETS",):
         return ()
@@ -57,12 +54,13 @@ def installed_targets(call: Call) -> tuple[int, ...]:
 
 
 ENDS = ("ament_package", "ament_auto_package")
-"""Commands that end a package: they write its exports."""
+"""Commands that write the CMake configuration and the exports of a package; they come last."""
 
 REGISTERING = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
 """Commands that register components; the first argument is the library that contains them."""
 
 EXPORTING_PLUGINS = "pluginlib_export_plugin_description_file"
+"""The command that installs and exports a plugin description (pluginlib)."""
 
 
 _OWN_TARGET = re.compile(r"[^:\s]+")
@@ -70,7 +68,7 @@ _OWN_TARGET = re.compile(r"[^:\s]+")
 
 
 def opaque_except_undefined_targets(package: Package, facet: Facet) -> tuple[Opaque, ...]:
-    """Return the places that hide a facet, except undefined targets in install(), which are errors."""
+    """Return the places that hide a facet, without undefined targets in install(), because CMake rejects these."""
     return tuple(opaque for opaque in package.hidden(facet) if not _OWN_TARGET.fullmatch(opaque.undefined))
 
 
@@ -78,10 +76,8 @@ _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")
 
 
 def evaluated_name(package: Package, text: str) -> str | None:
-    """Return the value of an argument, or None if it has other variables than the project's name."""
-    name = _PROJECT_NAME.sub(
-        package.script.project.name if package.script and package.script.project.name else package.name, text
-    )
+    """Return the value of an argument, in which ${PROJECT_NAME} is evaluated; None if it has other variables."""
+    name = _PROJECT_NAME.sub(package.built.project.name or package.name, text)
     return None if "$" in name or not name else name
 
 
@@ -97,7 +93,10 @@ _FOR_TESTS = frozenset({*_TEST_COMMANDS.values(), "ament_lint_auto", "ament_lint
 
 
 def unguarded_tests(package: Package) -> dict[str, Call]:
-    """Return the test packages that every build uses without declaring them for it, with the first call."""
+    """Return the test packages that CMake needs even if no tests are built, each with the first call.
+
+    Packages that are declared for the build are left out.
+    """
     result: dict[str, Call] = {}
     if package.builds_with != "ament_cmake":
         return result

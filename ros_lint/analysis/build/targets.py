@@ -16,22 +16,22 @@ from ros_lint.workspace.model import Package
 
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
-    """Yield the executables that are built for use: neither tests nor targets with the name of a test."""
+    """Yield the executables that are no tests, by their commands and names."""
     for target in script.products.targets:
         if target.kind == "executable" and not target.test and "test" not in target.name:
             yield target
 
 
 def is_optional_target(package: Package, target: BuildTarget) -> bool:
-    """Return whether a target is an example, or some builds leave out all of its sources."""
-    wanted = bool(target.sources) and set(target.sources) == set(target.optional_sources)
-    return wanted or is_auxiliary(package.relative(target.span.path))
+    """Return whether a target is an example, or is left out of some builds."""
+    conditional = bool(target.sources) and set(target.sources) == set(target.optional_sources)
+    return conditional or is_auxiliary(package.relative(target.span.path))
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
-    """Return whether a program is built by CMake, or installed into bin by Python.
+    """Return whether a program that is not in ``lib/<package>`` is built by CMake, or installed into bin by Python.
 
-    Call this for programs that are not in lib/<package>, where launch looks: other rules report these programs.
+    Other rules report such a program.
     """
     script = package.script
     if script is None:
@@ -61,12 +61,15 @@ def may_run_built(script: BuildScript) -> bool:
 
 
 def files_using_client_library(package: Package) -> frozenset[str]:
-    """Return the C++ files that include a client library, relative to the package."""
+    """Return the C++ files that include rclcpp or a library that extends it, relative to the package."""
     return frozenset(package.relative(use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
 
 
 def node_targets(package: Package) -> frozenset[str]:
-    """Return the executables with a source or a header of the same name that includes a client library."""
+    """Return the names of the executables that are nodes: one of their files includes a client library.
+
+    The file is a source, or a header with the name of a source.
+    """
     files = files_using_client_library(package)
     return frozenset(
         target.name
@@ -87,21 +90,21 @@ def stem(path: str) -> str:
 
 
 def library_calls(package: Package, name: str) -> Iterator[Call]:
-    """Yield the commands that create a library of this name, in order."""
+    """Yield the commands that create a library with a name, in order."""
     for call in package.calls("add_library", "ament_auto_add_library", anywhere=True):
         if call.args and evaluated_name(package, call.texts[0]) == name:
             yield call
 
 
 def is_declared_shared(package: Package, name: str) -> bool:
-    """Return whether a library is a shared one in every build, by the arguments of its command."""
+    """Return whether the command that creates a library contains SHARED or MODULE, unconditionally."""
     calls = library_calls(package, name)
     return any(not call.blocks and not {"SHARED", "MODULE"}.isdisjoint(call.texts) for call in calls)
 
 
-def library_registering(package: Package, made: Registration) -> str:
-    """Return the library, tests excluded, whose source registers a class, or ""."""
-    path = package.relative(made.span.path)
+def library_registering(package: Package, registration: Registration) -> str:
+    """Return the library with the source in which a class is registered, or "". Libraries of tests do not count."""
+    path = package.relative(registration.span.path)
     for target in package.built.products.targets:
         if target.kind == "library" and not target.test and path in target.sources:
             return target.name
@@ -109,9 +112,9 @@ def library_registering(package: Package, made: Registration) -> str:
 
 
 def installs_built(script: BuildScript) -> bool:
-    """Return whether anything that the package builds may be installed, as a target or as a file.
+    """Return whether the package may install a program or library that it builds.
 
-    The libraries that rosidl generates and installs do not count.
+    Libraries that rosidl generates do not count.
     """
     built = (
         provided.path for provided in script.products.installs if provided.target or provided.path.startswith(("lib/", "bin/"))
@@ -124,13 +127,13 @@ _GENERATED = "__rosidl_"
 
 
 def install_arguments(package: Package) -> frozenset[str]:
-    """Return every word of the arguments of install(): a name among them may be installed."""
+    """Return the arguments of all calls of install(). A target that is not among them is not installed."""
     texts = {text for call in package.calls("install", anywhere=True) for text in call.texts}
     return frozenset([name for text in texts if (name := evaluated_name(package, text))])
 
 
 def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
-    """Return the libraries that are only installed into the folder of programs, with the first place.
+    """Return the libraries that are installed into ``lib/<package>`` only, each with its first file.
 
     Only files with one of the endings count.
     """
@@ -147,9 +150,9 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
 
 
 def never_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the nodes of a package that installs no target.
+    """Return the names of the nodes of a package that installs none of its programs and libraries.
 
-    Tests and nodes that the build may run are left out.
+    Empty if the package has nodes that the build may run.
     """
     script = package.script
     if (
@@ -163,10 +166,12 @@ def never_installed_nodes(package: Package) -> frozenset[str]:
 
 
 def partly_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the nodes of every build that are not installed, although other nodes of the package are.
+    """Return the names of the nodes that are not installed although other nodes of the package are.
 
-    Left out are tests, examples and benchmarks, by the name of the target or the folder of a source, and nodes that the
-    build may run.
+    Left out are:
+    - tests, examples and benchmarks, by the name of the target or the folder of a source,
+    - nodes that are built under a condition,
+    - all nodes if the build may run one.
     """
     script = package.script
     if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES) or may_run_built(script):

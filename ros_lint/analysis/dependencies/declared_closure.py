@@ -20,7 +20,10 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
 
 
 def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
-    """Return the closure of all dependencies declared for any part of a role, of ``others`` and of members of groups."""
+    """Return the declared dependencies with any of the roles, ``others``, and all that they provide transitively.
+
+    Members of the groups that the package depends on are included.
+    """
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
     starts += others
     for group in package.group_depends:
@@ -31,9 +34,9 @@ def declared_closure(package: Package, workspace: Workspace, role: Role, others:
 def provided_transitively(
     package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False
 ) -> bool:
-    """Return whether another dependency, declared for any part of a role, provides one of the names.
+    """Return whether another declared dependency with any of the roles provides one of the names.
 
-    Dependencies with an unknown closure count as providing it, unless ``surely``.
+    Dependencies whose own dependencies are unknown count as providing it, unless ``surely``.
     """
     names = frozenset(names)
     starts = {declared.name for declared in package.declared if declared.role & role and declared.name not in names}

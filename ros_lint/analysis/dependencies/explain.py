@@ -23,10 +23,10 @@ RULES = ("undeclared-dependency", "unused-dependency")
 """The rules that are explained here."""
 
 
-def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str, Confidence]) -> Iterator[str]:
+def explain(package: Package, workspace: Workspace, name: str, confidences: Mapping[str, Confidence]) -> Iterator[str]:
     """Yield lines: the uses of the dependency, its tags, and for each rule why it reports nothing.
 
-    ``told`` maps the names of the rules that report the dependency to their confidence.
+    ``confidences`` maps the names of the rules that report the dependency to their confidence.
     """
     uses = [use for use in package.uses if name in use.providers]
     yield from used_in(uses)
@@ -36,9 +36,9 @@ def explain(package: Package, workspace: Workspace, name: str, told: Mapping[str
     silent = (_not_undeclared(package, workspace, name, uses), _not_unused(package, workspace, name, uses))
     unsure = (_unsure_undeclared(package, workspace, name, uses), _unsure_unused(package, workspace, name))
     for rule, reason, doubt in zip(RULES, silent, unsure, strict=True):
-        if rule not in told:
+        if rule not in confidences:
             yield f"{rule}: not reported, because {reason}"
-        elif told[rule] is Confidence.HIGH:
+        elif confidences[rule] is Confidence.HIGH:
             yield f"{rule}: reported"
         else:
             yield f"{rule}: reported with lower confidence{doubt}; use --pedantic to show it"

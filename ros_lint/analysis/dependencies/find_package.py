@@ -18,7 +18,7 @@ _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 
 
 def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the names in calls of find_package(), also of macros that find declared dependencies."""
+    """Return the names that CMake searches by find_package(), called directly or by a macro."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
     calls = frozenset(script.commands.names)
     if calls & _FIND_DECLARED:
@@ -34,7 +34,7 @@ def finds_declared(package: Package) -> bool:
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
-    """Return the packages that find_package() finds for some names, directly and transitively.
+    """Return the packages that find_package() finds for some names, with their transitive dependencies.
 
     None if a name cannot be resolved, or if the dependencies of its package are unknown.
     """
@@ -43,7 +43,7 @@ def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozense
 
 
 def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
-    """Return the known packages that find_package() finds for some names, directly and transitively."""
+    """Return the packages that find_package() finds for some names, as far as they are known."""
     starts: set[str] = set()
     for name in names:
         providers = workspace.world.by_cmake(name)
@@ -53,7 +53,7 @@ def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
 
 
 def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
-    """Yield the package arguments of macros with a purpose, such as ament_export_dependencies()."""
+    """Yield the packages that macros such as ament_export_dependencies() name for one of the purposes."""
     for mention in script.mentions:
         if mention.via == "target" and mention.purpose in purposes:
             yield mention

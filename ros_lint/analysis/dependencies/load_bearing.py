@@ -8,7 +8,7 @@ from ros_lint.analysis.dependencies.needs import needs
 from ros_lint.analysis.dependencies.traceless import is_mostly_runtime, may_be_used_without_trace
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.facts.manifest import Role
-from ros_lint.workspace.usage.unused_find_package import unused_in_sight
+from ros_lint.workspace.usage.unused_find_package import unused_finds
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -22,9 +22,10 @@ _TEST: Role = Role.TEST
 
 
 class LostProvision(NamedTuple):
-    """An undeclared package that only one dependency provides."""
+    """An undeclared package that is lost if a dependency is removed, because no other one provides it."""
 
     name: str
+    """The undeclared package."""
     package: str
     """The package that uses it and does not declare it."""
 
@@ -44,34 +45,34 @@ def needed_transitively(package: Package, workspace: Workspace, unused: Sequence
     for name, tags in by_name.items():
         if lost := _lost(package, workspace, tags):
             result[name] = lost
-    gone: list[Declared] = []
+    removable: list[Declared] = []
     for name, tags in by_name.items():
-        if name not in result and (lost := _lost(package, workspace, [*gone, *tags]) if gone else None):
+        if name not in result and (lost := _lost(package, workspace, [*removable, *tags]) if removable else None):
             result[name] = lost
         elif name not in result:
-            gone += tags
+            removable += tags
     return result
 
 
 def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> LostProvision | None:
     """Return a provision that is lost if the tags are removed, or None."""
     spans = {declared.depend.span for declared in removed}
-    kept = [declared for declared in package.declared if declared.depend.span not in spans]
-    return _lost_here(package, workspace, kept, removed) or _lost_above(package, workspace, kept, removed)
+    remaining = [declared for declared in package.declared if declared.depend.span not in spans]
+    return _lost_here(package, workspace, remaining, removed) or _lost_above(package, workspace, remaining, removed)
 
 
 def _lost_here(
-    package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
+    package: Package, workspace: Workspace, remaining: Sequence[Declared], removed: Sequence[Declared]
 ) -> LostProvision | None:
     bring = workspace.world.closure
     brought = bring([declared.name for declared in removed])
     members = [name for group in package.group_depends for name in workspace.world.group_members(group.name)]
-    for role, names in dict.fromkeys((use.role, use.providers) for use in hanging(package, workspace)):
+    for role, names in dict.fromkeys((use.role, use.providers) for use in undeclared_uses(package, workspace)):
         name = next((name for name in names if name in brought), None)
         if name is None:
             continue
         wider = role | _BUILD if role & _BUILD else role
-        starts = [declared.name for declared in left if role is _TEST or declared.role & wider]
+        starts = [declared.name for declared in remaining if role is _TEST or declared.role & wider]
         rest = bring([*starts, *members])
         if not any(provider in rest for provider in names):
             return LostProvision(name, package.name)
@@ -79,37 +80,38 @@ def _lost_here(
 
 
 def _lost_above(
-    package: Package, workspace: Workspace, left: Sequence[Declared], removed: Sequence[Declared]
+    package: Package, workspace: Workspace, remaining: Sequence[Declared], removed: Sequence[Declared]
 ) -> LostProvision | None:
     world = workspace.world
-    still = [declared.name for declared in left if declared.role & _RUN]
-    gone = frozenset(declared.name for declared in removed if declared.role & _RUN).difference(still)
-    if not gone:
+    remaining_names = [declared.name for declared in remaining if declared.role & _RUN]
+    removed_names = frozenset(declared.name for declared in removed if declared.role & _RUN).difference(remaining_names)
+    if not removed_names:
         return None
-    hung = _hanging_by_name(workspace)
-    for name in sorted(name for name in world.closure(gone).less(world.closure(still)) if name in hung):
-        for dependent, use in hung[name]:
+    uses_by_name = _undeclared_uses_by_name(workspace)
+    lost_names = world.closure(removed_names).less(world.closure(remaining_names))
+    for name in sorted(uses_by_name.keys() & set(lost_names)):
+        for dependent, use in uses_by_name[name]:
             starts = [declared.name for declared in dependent.declared]
             if dependent.name == package.name or package.name not in world.closure(starts):
                 continue
-            rest = world.closure_without(starts, package.name, gone)
+            rest = world.closure_without(starts, package.name, removed_names)
             if not any(provider in rest for provider in use.providers):
                 return LostProvision(name, dependent.name)
     return None
 
 
 @cached_by_package
-def hanging(package: Package, workspace: Workspace) -> tuple[Use, ...]:
+def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
     """Return the uses of packages that are not declared but provided by a declared dependency."""
     return tuple([use for need in needs(package, workspace) if need.brought and not need.declared for use in need.uses])
 
 
 @cached_by_workspace
-def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
-    """Return the packages that use an undeclared but provided name, by name, with one use each."""
+def _undeclared_uses_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
+    """Return, for each undeclared but provided name, the packages that use it, with one use each."""
     result: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:
-        answers = {use.providers: use for use in hanging(package, workspace)}
+        answers = {use.providers: use for use in undeclared_uses(package, workspace)}
         for use in answers.values():
             for name in use.providers:
                 result.setdefault(name, []).append((package, use))
@@ -118,11 +120,14 @@ def _hanging_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Packag
 
 @cached_by_package
 def unused_find_packages(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
-    """Return each find_package() of an unused package, unless it can be used without a trace."""
+    """Return the calls of find_package() for packages that the package does not use.
+
+    Left out are packages whose use may leave no trace in the sources.
+    """
     return tuple(
         [
             mention
-            for mention in unused_in_sight(package)
+            for mention in unused_finds(package)
             if mention.name not in package.possibly_used
             and not may_be_used_without_trace(package, workspace, mention.name)
             and not is_mostly_runtime(workspace, mention.name)

@@ -20,28 +20,28 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 class Need(NamedTuple):
-    """A package or key that the sources of a package need."""
+    """A package or rosdep key that a package needs, with all its uses."""
 
     name: str
     """The name to declare."""
     uses: tuple[Use, ...]
     """The places where it is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
-    """Declared names that satisfy the need, in any tag, except names that only provide the best one."""
+    """Declared names that satisfy the need, in whatever tag. () if it is not declared."""
     brought: bool
-    """True if a declared dependency provides a name that satisfies the need."""
+    """True if a declared dependency provides the need transitively."""
 
     @property
     def sure(self) -> bool:
-        """Return whether the best evidence is certain: the file is in use and the name is known."""
+        """True if the best evidence is certain: the file is in use and the name is known."""
         return self.uses[0].certain
 
     @property
     def role(self) -> Role:
-        """Return all roles of the certain uses, or of all uses if no use is certain."""
-        alive = [use for use in self.uses if use.certain] or self.uses
+        """All roles of the certain uses, or of all uses if no use is certain."""
+        uses = [use for use in self.uses if use.certain] or self.uses
         role = Role(0)
-        for use in alive:
+        for use in uses:
             role |= use.role
         return role
 

@@ -31,12 +31,12 @@ class Remedy(NamedTuple):
 
     @property
     def ending(self) -> str:
-        """Return the end of a message that has named the undeclared dependency."""
+        """End of a message: ": add <depend>x</depend>", or why the name cannot be declared."""
         return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
 def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
-    """Return the remedy for a needed package or key that is not declared. The package has a manifest."""
+    """Return the remedy for a needed package or key that is not declared. The package must have a manifest."""
     tag = tag_for(package, workspace, name, role)
     written = " and ".join(f"<{needed_tag}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
@@ -62,8 +62,8 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
 def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
     """Return the fix that writes a name into a dependency tag, or None if there are no edits.
 
-    All such fixes are made here. A fix is safe only if rosdep resolves the name wherever the workspace has to build,
-    see :func:`availability_remark`.
+    Call this for every such fix. The fix is safe only if rosdep resolves the name in every distribution in which the
+    workspace has to build, see :func:`availability_remark`.
     """
     return Fix.of(title, *edits, safe=safe and not availability_remark(workspace, name))
 
@@ -71,8 +71,8 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 def availability_remark(workspace: Workspace, name: str) -> str:
     """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
 
-    It has to resolve in the stated distribution, or in every active one if none was stated. Packages of the workspace
-    and of underlays resolve in all of them; any other name must be a released package or a rosdep key.
+    The name has to resolve in the distribution that the user chose, or in every active one if the user chose none.
+    Packages of the workspace and of underlays resolve in all of them.
     """
     remarks = _remarks(workspace)
     if name not in remarks:
@@ -97,13 +97,13 @@ def _availability(workspace: Workspace, name: str) -> str:
     if not knowledge.covered:
         return f" (there are no data about {target.distro})"
     there = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
-    lacking = [distro for distro in knowledge.active if distro not in there]
+    without = [distro for distro in knowledge.active if distro not in there]
     if not there:
         return " (no distribution has it)"
     if not here:
         return f" (not in {target.distro}, only in {', '.join(there)})"
-    if len(lacking) < len(there):
-        return f" (not in {', '.join(lacking)})" if lacking else ""
+    if len(without) < len(there):
+        return f" (not in {', '.join(without)})" if without else ""
     return f" (only in {', '.join(there)})"
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING
 
 from ros_lint.analysis.dependencies.find_package import finds_declared
 from ros_lint.analysis.dependencies.traceless import is_mostly_runtime
@@ -12,16 +11,15 @@ from ros_lint.collectors.manifest import edits as manifest_edits
 from ros_lint.facts.manifest import Depend, Role
 from ros_lint.workspace.model import Package, Workspace
 
-if TYPE_CHECKING:
-    pass
-
 
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
-    """Return the one tag that covers all roles of a dependency, as REP 149 defines the tags.
+    """Return the tag that covers all roles of a dependency (REP 149), such as "depend" or "exec_depend".
 
-    ``<exec_depend>`` is avoided if the manifest declares everything by ``<depend>``, even run-time dependencies. The
-    exception: CMake finds and links all declared dependencies. Format 1 has no tag for building and running; the result
-    is ``build_depend``, and :func:`add_dependency` adds the other tag.
+    Exceptions:
+    - "depend" is returned for "exec_depend" if the manifest declares even run-time dependencies by ``<depend>``, unless
+      CMake finds and links all declared dependencies.
+    - Format 1 has no tag for building and running. The result is "build_depend", and :func:`add_dependency` adds the
+      ``<run_depend>``.
     """
     form = package.manifest.format if package.manifest else 3
     if role == Role.TEST:
@@ -71,24 +69,24 @@ def tags_for(package: Package, tag: str) -> tuple[str, ...]:
 
 
 def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
-    """Return the edits that declare a dependency. The package has a manifest."""
+    """Return the edits that declare a dependency. The package must have a manifest."""
     assert package.manifest is not None
     return tuple(manifest_edits.add(package.manifest, needed_tag, name) for needed_tag in tags_for(package, tag))
 
 
 def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that replace all tags of a dependency by one. The package has a manifest.
+    """Return the edits that replace all tags of a dependency by one. The package must have a manifest.
 
-    ``alike`` are all tags that the fix changes to this kind.
+    ``depends`` are the tags of the dependency, ``alike`` those of all dependencies that the fix changes to ``tag``.
     """
     assert package.manifest is not None
-    kept = next((depend for depend in depends if depend.tag == tag), depends[0])
-    edits = () if kept.tag == tag else manifest_edits.change_kind(package.manifest, kept, tag, alike)
-    return (*edits, *(manifest_edits.remove(package.manifest, depend) for depend in depends if depend is not kept))
+    changed = next((depend for depend in depends if depend.tag == tag), depends[0])
+    edits = () if changed.tag == tag else manifest_edits.change_kind(package.manifest, changed, tag, alike)
+    return (*edits, *(manifest_edits.remove(package.manifest, depend) for depend in depends if depend is not changed))
 
 
 def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
-    """Return the edits that remove a dependency. The package has a manifest."""
+    """Return the edits that remove a dependency. The package must have a manifest."""
     assert package.manifest is not None
     return (manifest_edits.remove(package.manifest, depend),)
 

@@ -19,12 +19,12 @@ def is_library(world: World, name: str) -> bool:
 
 
 def may_be_used_without_trace(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a package can use a dependency whose name appears nowhere in its sources.
+    """Return whether a package can use a dependency without naming it in its sources.
 
     True for:
     - names that are not known as a package,
     - packages that provide others, CMake macros or plugins,
-    - packages that are not completely cloned,
+    - packages of the workspace with a submodule that is not cloned,
     - names that indicate a substitute or a collection,
     - packages that the code generated from interfaces needs.
 
@@ -37,9 +37,9 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
         return True
     if world.plugins(name).names:
         return True
-    mine = workspace.by_name.get(name, ())
-    if mine:
-        return any(_gives_macros(namesake) or not makes_something(namesake) or _lacks_parts(namesake, world) for namesake in mine)
+    local = workspace.by_name.get(name, ())
+    if local:
+        return any(_gives_macros(member) or not makes_something(member) or _lacks_parts(member, world) for member in local)
     return only_brings(world, name) or _stands_for_others(package, world, name)
 
 
@@ -76,8 +76,8 @@ def _offers_nothing(world: World, released: Released) -> bool:
 def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
     """Return whether released packages mostly declare a name without a build tag.
 
-    The use of such a package may leave no trace. False for packages that only contain interfaces: Python code declares
-    them so, and has to name them.
+    The use of such a package may leave no trace in the sources. Always false for packages that contain only interfaces,
+    because code has to name them.
     """
     world = workspace.world
     if name in workspace.by_name or not world.is_package(name):

@@ -28,7 +28,7 @@ _CUT_SHORT = frozenset({"bare-ampersand", "encoding", "entity", "invalid-xml", "
 
 @cached_by_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
-    """Return the needs that no declared dependency provides, each with whether it is certain.
+    """Return the needs that no declared dependency provides, each with True if it is certain.
 
     Left out are:
     - names that only launch files outside of tests start, include or look up, because another rule reports them,
@@ -90,25 +90,25 @@ def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bo
 
 
 def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
-    """Return whether a package exists in the target distribution, or in any if none was chosen."""
+    """Return whether a package exists in the target distribution, or in any if the user did not choose one."""
     world = workspace.world
     return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
 
 def provided_in_other_distros(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether in another distribution a declared dependency provides the package."""
+    """Return whether a declared dependency provides the name in a distribution other than the target."""
     starts = {declared.name for declared in package.declared}
     closure = all_declared(package, workspace)
-    for name_here, having in workspace.by_name.items():
+    for name_here, namesakes in workspace.by_name.items():
         if name_here in closure:
-            starts.update(declared.name for namesake in having for declared in namesake.declared)
+            starts.update(declared.name for namesake in namesakes for declared in namesake.declared)
     return workspace.world.knowledge.comes_elsewhere(starts, name)
 
 
-def _joined(found: Sequence[Need]) -> list[Need]:
+def _joined(missing: Sequence[Need]) -> list[Need]:
     """Join needs for one package that find_package() and #include name differently."""
     result: list[Need] = []
-    for need in found:
+    for need in missing:
         for number, earlier in enumerate(result):
             before = all(earlier.name in use.providers for use in need.uses)
             if before or all(need.name in use.providers for use in earlier.uses):
@@ -156,6 +156,6 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
 
 
 def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
-    """Return whether only launch files import the package and it is installed wherever launch is."""
+    """Return whether only launch files import the package, and each installation of launch contains it."""
     launched = {launch.path for launch in package.launch}
     return all(use.via == "import" and use.package in LAUNCH_RUNTIME and use.span.path in launched for use in uses)

@@ -26,7 +26,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
     tool = "cmake" in name or (name.startswith("ament_") and not name.startswith("ament_index"))
     released = workspace.world.released(name)
     messages = bool(released and released.interfaces)
-    strange = []
+    unexplained = []
     library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith(VENDOR)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for unknown_name in unknown:
@@ -45,8 +45,8 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
             continue
         if workspace.world.knowledge.elsewhere(unknown_name):
             return True
-        strange.append(unknown_name)
-    return bool(strange) and (tool or not _is_far(strange, name, workspace))
+        unexplained.append(unknown_name)
+    return bool(unexplained) and (tool or not _is_far(unexplained, name, workspace))
 
 
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:

@@ -17,6 +17,7 @@ class UnresolvedDependency(NamedTuple):
     """A declared name that does not resolve."""
 
     package: Package
+    """The package that declares the name."""
     declared: Declared
     """The first tag with the name."""
     tags: tuple[Depend, ...]
@@ -26,11 +27,12 @@ class UnresolvedDependency(NamedTuple):
 
     @property
     def name(self) -> str:
+        """The name."""
         return self.declared.depend.name
 
     @property
     def runs_python(self) -> bool:
-        """Return whether its tags and uses allow that it is only needed to run Python code."""
+        """True if the name may be needed only to run Python code, as far as its tags and uses show."""
         if self.package.builds_with == "ament_python":
             return True
         called_so = {use.via for use in self.called_so}
@@ -62,7 +64,10 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield a name once for each package with a tag for it that does not depend on an unknown condition."""
+    """Yield the unresolved dependency on a name once for each package that certainly declares it.
+
+    A tag under a condition of unknown value is not certain.
+    """
     for package in packages:
         tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)
@@ -72,13 +77,19 @@ def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDep
 
 
 def resembles_ament_package(name: str, workspace: Workspace) -> bool:
-    """Return whether an unknown name is probably a misspelled package of ament: nearly all are released."""
+    """Return whether an unknown name is probably a misspelled package of ament.
+
+    Nearly all packages whose names begin with "ament_" are released.
+    """
     return name.startswith("ament_") and any(near.startswith("ament_") for near in workspace.world.suggest(name))
 
 
 @cached_by_package
 def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the packages that the misspelled dependencies probably mean: they need no second declaration."""
+    """Return the packages that the misspelled dependencies of a package probably mean.
+
+    They are not reported as undeclared, because the misspelled name is reported.
+    """
     result = (
         workspace.world.meant(unresolved_dependency.name, python=unresolved_dependency.runs_python)
         for unresolved_dependency in _unknown(package, workspace)
@@ -88,11 +99,11 @@ def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
 
 @cached_by_package
 def misspelled_names(package: Package, workspace: Workspace) -> Mapping[str, str]:
-    """Return the probably misspelled declared names, each with the undeclared package that it means."""
+    """Return the declared names that are probably misspelled, each with the intended package."""
     result: dict[str, str] = {}
-    for stranger in _unknown(package, workspace):
-        if not workspace.world.meant(stranger.name, python=stranger.runs_python):
-            result[stranger.name] = undeclared_match(stranger, workspace)
+    for dependency in _unknown(package, workspace):
+        if not workspace.world.meant(dependency.name, python=dependency.runs_python):
+            result[dependency.name] = undeclared_match(dependency, workspace)
     return {name: what for name, what in result.items() if what}
 
 
@@ -103,25 +114,25 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDepen
             yield from unresolved(name, [package])
 
 
-def undeclared_match(stranger: UnresolvedDependency, workspace: Workspace) -> str:
-    """Return the only similar package that is used and not declared, or "".
+def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> str:
+    """Return the intended package of an unresolved name, or "" if it is not certain.
 
-    A name of the same words in another order or spelling is a match. Another similar name is one only if the misspelled
-    name appears in the manifest alone.
+    It is the only similar package that is used and not declared. A name of the same words in another order or spelling
+    is similar. Any other similar name counts only if the unresolved name appears nowhere but in the manifest.
     """
-    package, name = stranger.package, stranger.name
+    package, name = dependency.package, dependency.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]
-    near += workspace.world.suggest(name, python=stranger.runs_python)
+    near += workspace.world.suggest(name, python=dependency.runs_python)
     lacking = [undeclared_name for undeclared_name in dict.fromkeys(near) if _is_lacking(package, undeclared_name)]
     same = [undeclared_name for undeclared_name in lacking if _is_same(undeclared_name, name)]
     if len(same) == 1 and name not in _mentioned(package):
         return same[0]
-    return lacking[0] if len(lacking) == 1 and not is_used_in_sources(stranger) else ""
+    return lacking[0] if len(lacking) == 1 and not is_used_in_sources(dependency) else ""
 
 
-def is_used_in_sources(stranger: UnresolvedDependency) -> bool:
-    """Return whether a file other than the manifest uses the name, so that such a package may exist."""
-    package, name = stranger.package, stranger.name
+def is_used_in_sources(dependency: UnresolvedDependency) -> bool:
+    """Return whether a file other than the manifest names the package, which may thus exist."""
+    package, name = dependency.package, dependency.name
     return name in _mentioned(package) or name in package.textual_mentions or any(name in use.providers for use in package.uses)
 
 

@@ -27,7 +27,7 @@ Edge = tuple[str, str]
 """The dependent package and its dependency."""
 
 Edges = dict[str, frozenset[str]]
-"""Successors by node, without the reasons."""
+"""For each package, the packages that its edges lead to."""
 
 
 class Reason(NamedTuple):
@@ -36,37 +36,43 @@ class Reason(NamedTuple):
     tag: str
     """A dependency tag, or the name of the file from which colcon takes the edge."""
     categories: tuple[str, ...]
-    """Values are "build", "run", "test" and "group"."""
+    """Phases in which colcon considers it: "build", "run", "test"; "group" for a member of a group."""
     span: Span
+    """Place of the tag."""
     certain: bool = True
-    """False under a condition with a variable whose value is unknown."""
+    """False if the tag has a condition with a variable whose value is unknown."""
 
 
 class Order(NamedTuple):
     """A build order, as complete as the cycles allow."""
 
     names: tuple[str, ...]
+    """Packages in an order in which dependencies come first."""
     stuck: tuple[str, ...]
     """Packages that lie on a cycle or depend on one, sorted."""
 
 
 class Graph:
-    """The packages by name, with their dependencies and the reasons. Iterations are in the order of names."""
+    """The packages of a workspace by the name that colcon uses, with their dependencies. Names are sorted."""
 
     def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
         self.places = {name: tuple(places[name]) for name in sorted(places)}
+        """Packages by name; several if packages have the same name."""
         self.needs = {
             name: {dependency: tuple(needs[name][dependency]) for dependency in sorted(needs.get(name, ()))}
             for name in self.places
         }
+        """For each package, its dependencies with the reasons."""
         self._closures: dict[str, frozenset[str]] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
+        """Names of the packages, sorted."""
         return tuple(self.places)
 
     @property
     def edges(self) -> Iterator[Edge]:
+        """Each package with each of its dependencies."""
         return ((name, dependency) for name, dependencies in self.needs.items() for dependency in dependencies)
 
     def reasons(self, edge: Edge) -> tuple[Reason, ...]:
@@ -95,7 +101,7 @@ class Graph:
 
     @cached_property
     def order(self) -> Order:
-        """The first build order in the order of names.
+        """A build order: of all packages that can be built next, the first by name comes next.
 
         It respects uncertain edges, too, unless they close a cycle.
         """
@@ -112,7 +118,7 @@ class Graph:
 
     @cached_property
     def cycles(self) -> tuple[tuple[str, ...], ...]:
-        """The strongly connected components for which colcon refuses the workspace, each sorted."""
+        """The strongly connected components for which colcon rejects the workspace, each sorted."""
         return components(self.certain_arcs) if self.order.stuck else ()
 
     @cached_property

@@ -23,15 +23,20 @@ class PackageLaunchFile(NamedTuple):
     """A launch file with its path in the package."""
 
     file: LaunchFile
+    """The launch file."""
     path: str
     """The path relative to the package."""
     installed: bool
+    """True if the package installs it."""
     run: bool = True
-    """True if users launch it, or the package's tests; false for other tests, examples and templates."""
+    """True if users or tests of the package launch it; false for other tests, examples and templates."""
 
 
 def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[PackageLaunchFile]:
-    """Yield the launch files that can be launched, without helpers. ``apart`` adds tests and examples."""
+    """Yield the launch files that users launch. ``apart`` adds those of tests and examples.
+
+    Python modules without generate_launch_description() are left out.
+    """
     if not package.launch:  # true for most packages, and many rules call this
         return
     script = package.built
@@ -51,12 +56,15 @@ def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[P
 
 
 def is_launch_file(package: Package, path: str) -> bool:
-    """Return whether a file, by its path in the tree, is a ROS 2 launch file."""
+    """Return whether a file of the package, by its path relative to the base, is a ROS 2 launch file."""
     return any(launch.path == path for launch in package.launch)
 
 
 def used_files(package: Package) -> frozenset[str]:
-    """Return the files that are certainly installed, built or launched, or part of the build script."""
+    """Return the files that are certainly installed, compiled or launched, or part of the build script.
+
+    Paths are relative to the package.
+    """
     script = package.built
     modules = tuple([f"{module.replace('.', '/')}/" for module in script.products.python_packages])
     files = set(script.products.installed)
@@ -71,7 +79,10 @@ def used_files(package: Package) -> frozenset[str]:
 def references_by_name(
     package: Package, kinds: Container[str], *, apart: bool = False
 ) -> dict[tuple[str, str], list[LaunchReference]]:
-    """Return the references of some kinds in :func:`package_launch_files`, by package and name."""
+    """Return the references of some kinds in the launch files of a package, by package and name.
+
+    The launch files are those of :func:`package_launch_files`.
+    """
     result: dict[tuple[str, str], list[LaunchReference]] = {}
     for launch in package_launch_files(package, apart=apart):
         for reference in launch.file.references:
@@ -81,9 +92,9 @@ def references_by_name(
 
 
 def rename_fix(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
-    """Return the unsafe fix that writes a text at some places, or None if there is no text.
+    """Return the unsafe fix that writes a text at some places, or None if it is "" or a place is not exact.
 
-    Each place has a flag, which is false if the place contains more than the name. Then the result is None, too.
+    Each place has a flag that is true if the span covers exactly the name (``LaunchReference.exact``).
     """
     if not text or not all(exact for _, exact in places):
         return None
@@ -96,11 +107,11 @@ class InstalledPrograms(NamedTuple):
     names: frozenset[str]
     """Names in lib/<package>, where ``ros2 run`` and launch look (ament_index, launch_ros)."""
     elsewhere: dict[str, str]
-    """Names in other folders, with their install paths."""
+    """Names in other folders, each with its install path."""
 
 
 def installed_programs(package: Package) -> InstalledPrograms | None:
-    """Return the programs that a package installs, or None if they cannot be determined completely."""
+    """Return the programs that a package of the workspace installs, or None if they are not all known."""
     script = package.script
     if script is None or package.hidden(Facet.EXECUTABLES) or package.builds_with not in ("ament_cmake", "ament_python"):
         return None
@@ -125,7 +136,10 @@ def launch_suffix(path: str) -> str:
 
 
 def is_excluded_from_install(package: Package, path: str) -> bool:
-    """Return whether an install rule for similar launch files deliberately leaves out this one."""
+    """Return whether an install rule deliberately leaves out a launch file.
+
+    The rule installs other launch files of the same folder and suffix. ``path`` is relative to the package.
+    """
     folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.products.installs
     if not suffix:
         return False
@@ -138,7 +152,7 @@ def is_excluded_from_install(package: Package, path: str) -> bool:
 
 @cached_by_workspace
 def nodes_started(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
-    """Return where launch files start executables, by package and name."""
+    """Return the places where launch files start executables, by package and executable."""
     return node_references(workspace.packages)
 
 
@@ -149,9 +163,10 @@ def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
 
 
 def node_references(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
-    """Return the places where launch files start executables, by package and name, tests included.
+    """Return the places where launch files start executables, by package and executable, tests included.
 
-    ``kept_back`` selects launch files that are deliberately not installed; otherwise they are left out.
+    ``kept_back`` selects the launch files that are deliberately not installed (:func:`is_excluded_from_install`).
+    Otherwise these are left out.
     """
     result: dict[str, dict[str, list[LaunchReference]]] = {}
     for package in packages:

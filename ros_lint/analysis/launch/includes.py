@@ -20,7 +20,9 @@ class InstalledLaunchFile(NamedTuple):
     """A launch file of the workspace at its install path."""
 
     package: Package
+    """The package that installs it."""
     file: LaunchFile
+    """The launch file."""
     path: str
     """The path below share/<package>."""
 
@@ -82,17 +84,20 @@ class IncludeResolver:
         return candidates[0] if len(candidates) == 1 else None
 
     def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
-        """Return the configurations that a file sets and that are no arguments that callers can change."""
+        """Return the configurations that a file sets, without its launch arguments, which callers can change."""
         done = self._sets.get(file.path)
         if done is None:
-            asked = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
-            arguments = {name for target in asked for name in target.texts}
+            targets = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
+            arguments = {name for target in targets for name in target.texts}
             done = {name: texts for name, texts in assigned_configurations(file).items() if name not in arguments}
             self._sets[file.path] = done
         return done
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
-        """Return the package, and the path in its share folder, to which a path in a launch file refers."""
+        """Return the package and the path below its share folder to which a path in a launch file refers.
+
+        None if the path is unknown or elsewhere.
+        """
         if not is_settled(text):
             return None
         if text.startswith(f"{OWN_FOLDER}/"):
@@ -104,7 +109,7 @@ class IncludeResolver:
         return (place.package, place.share) if place is not None and place.share else None
 
     def place(self, file: LaunchFile) -> InstalledLaunchFile | None:
-        """Return where a launch file is installed, or None if it is not installed."""
+        """Return a launch file with its install path, or None if it is not installed."""
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
@@ -118,7 +123,7 @@ class IncludeResolver:
         return self._own(file).includes
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
-        """Return the configurations that a file and its includes accept. Each file is read once."""
+        """Return the launch configurations that a file and its includes accept."""
         done = self._takes.get(file.path)
         if done is not None:
             return done
@@ -168,7 +173,7 @@ def configurations_read(file: LaunchFile) -> set[str]:
 
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
-    """Return the launch arguments and configurations that a file sets, each with all its values."""
+    """Return the launch configurations that a file sets or declares with a default, each with all its values."""
     result: dict[str, tuple[str, ...]] = {}
     for action in walk_actions(file.actions):
         if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
@@ -178,7 +183,10 @@ def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the possible values if launch configurations have some values, or () if there is no value."""
+    """Return the possible values of a text if launch configurations have the values in ``defaults``.
+
+    () if there is no text.
+    """
     if value is None:
         return ()
     if all(map(is_settled, value.texts)):

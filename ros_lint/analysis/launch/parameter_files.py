@@ -18,9 +18,11 @@ class NodeParameterFile(NamedTuple):
     """A parameter file of the workspace that a launch file passes to a node or component."""
 
     action: LaunchAction
+    """The node or component."""
     value: LaunchValue
     """The value that names the file."""
     file: ParameterFile
+    """The parameter file."""
     names: tuple[str, ...]
     """The possible names of the node; () if the launch file does not set one."""
     namespaces: tuple[str, ...]
@@ -28,7 +30,7 @@ class NodeParameterFile(NamedTuple):
 
 
 class ParameterFiles:
-    """All parameter files of a workspace by their install paths."""
+    """Finds the parameter files of the workspace that launch files pass to nodes."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = include_resolver(workspace)

@@ -33,6 +33,7 @@ class PassedFile(NamedTuple):
     """A file that an included launch file refers to, resolved with the arguments of the including file."""
 
     package: str
+    """Package whose share folder contains the file."""
     path: str
     """The path below share/<package>."""
     kind: Literal["include", "file"]
@@ -44,15 +45,15 @@ class PassedFile(NamedTuple):
     depth: int
     """Number of includes between the launched file and the reference."""
     sure: bool
-    """False if the reference depends on an unknown value."""
+    """False if the reference depends on a value that is unknown."""
 
 
 def expand_defaults(
-    file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], given: Mapping[str, str] = _NOTHING
+    file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], arguments: Mapping[str, str] = _NOTHING
 ) -> Expansion:
-    """Return what a launch file starts by default.
+    """Return what a launch file starts with some launch arguments, none by default.
 
-    ``follow`` selects the included files that are expanded.
+    ``follow`` returns True for each included file that is to be expanded.
     """
     from ros_lint.collectors.launch.expand import expand  # noqa: PLC0415  (few runs need it)
 
@@ -64,18 +65,18 @@ def expand_defaults(
         inner = include_resolver(workspace).included(path)
         return inner if inner is not None and follow(inner) else None
 
-    return expand(file, given, included, workspace.target.distro, brief=True)
+    return expand(file, arguments, included, workspace.target.distro, brief=True)
 
 
 def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = False) -> Iterator[PassedFile]:
-    """Yield the files that included launch files refer to when a file is launched.
+    """Yield the files that the included launch files refer to when a file is launched without arguments.
 
-    With ``settled``, only files that do not depend on the launch arguments.
+    ``settled`` limits the result to files that do not depend on the launch arguments.
     """
     expansion = expand_defaults(file, workspace, lambda inner: True)
     if settled:
-        open_ = {argument.name: UNKNOWN for argument in expansion.arguments if not argument.given}
-        expansion = expand_defaults(file, workspace, lambda inner: True, open_)
+        arguments = {argument.name: UNKNOWN for argument in expansion.arguments if not argument.given}
+        expansion = expand_defaults(file, workspace, lambda inner: True, arguments)
     for started in expansion.started:
         if started.via is None:
             continue
@@ -90,24 +91,25 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
 
 
 class FailingExpression(NamedTuple):
-    """An expression that Python cannot evaluate if an argument has its default."""
+    """A Python expression (``$(eval ...)``) that fails if an argument has its default."""
 
     argument: str
     """The launch configuration with that default."""
     expression: str
-    """The expression with the defaults filled in, for messages."""
+    """The expression with the defaults filled in, for a message."""
     name: str
-    """The name that Python does not know; "" if the text is no Python expression."""
+    """The undefined name; "" if the text is not a Python expression."""
     span: Span
+    """Place of the expression."""
     conditional: bool
     """True if its action runs only under a condition."""
 
 
 def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:
-    """Yield the expressions of a launch file that fail with its default arguments."""
-    asked = list(_with_expressions(file))
-    defaults = assigned_configurations(file) if asked else {}
-    for text, span, conditional in asked:
+    """Yield the Python expressions of a launch file that fail if arguments have their defaults."""
+    sites = list(_with_expressions(file))
+    defaults = assigned_configurations(file) if sites else {}
+    for text, span, conditional in sites:
         for argument, expression, name in _broken(text, defaults):
             yield FailingExpression(argument, readable(expression), name, span, conditional)
 
@@ -130,24 +132,29 @@ def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
     """Yield the argument, the expression and the unknown name of each failing expression in a text."""
-    from ros_lint.collectors.launch.expressions import evaluate, refused  # noqa: PLC0415  (imports the Python parser)
+    from ros_lint.collectors.launch.expressions import evaluate, unresolved_names  # noqa: PLC0415  (imports the Python parser)
 
     known = {
         name: texts for name, _, candidate in configurations(text) if len(texts := fill(candidate, defaults.get, evaluate)) == 1
     }
-    whole, without = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
-    for expression, itself in zip(whole, without, strict=True) if len(whole) == len(without) else ():
-        own, strange = refused(itself), refused(expression)
-        if own is None or strange == () or (evaluate(expression) != UNKNOWN and not _TRUTHS.intersection(strange or ())):
+    filled, bare = _expressions(text, defaults.get), _expressions(text, lambda name: ("_",))
+    for expression, bare_expression in zip(filled, bare, strict=True) if len(filled) == len(bare) else ():
+        undefined_always, undefined = unresolved_names(bare_expression), unresolved_names(expression)
+        if undefined_always is None or undefined == ():
+            continue
+        if evaluate(expression) != UNKNOWN and not _TRUTHS.intersection(undefined or ()):
             continue
         for name, (value,) in known.items():
-            inside = refused(value)
-            missing = (
-                ""
-                if strange is None
-                else next((candidate for candidate in strange if candidate not in own and candidate in (inside or ())), "")
+            undefined_in_value = unresolved_names(value)
+            missing = next(
+                (
+                    candidate
+                    for candidate in undefined or ()
+                    if candidate not in undefined_always and candidate in (undefined_in_value or ())
+                ),
+                "",
             )
-            if missing or (strange is None and inside is None):
+            if missing or (undefined is None and undefined_in_value is None):
                 yield name, expression, missing
                 break
 

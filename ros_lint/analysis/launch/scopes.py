@@ -14,6 +14,7 @@ class PlacedInclude(NamedTuple):
     """An include and its position in the launch file."""
 
     action: LaunchAction
+    """The include."""
     later: list[LaunchAction]
     """The later actions of the file that see the configurations that the include leaves set."""
     leaves: bool
@@ -64,7 +65,7 @@ class ScopeLeaks:
         return False
 
     def _may_take(self, action: LaunchAction, name: str, source: LaunchFile) -> bool:
-        if any(name == asked for text, _ in values_of_action(action) for asked, _, _ in configurations(text)):
+        if any(name == configuration for text, _ in values_of_action(action) for configuration, _, _ in configurations(text)):
             return True
         if action.kind != "include" or name in dict(action.arguments):
             return False

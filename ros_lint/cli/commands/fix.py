@@ -41,7 +41,7 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
         sys.stdout.buffer.flush()
         return report({}), 0
     try:
-        edits.write_all(session.base, result.changed, session.loader.held)
+        edits.write_all(session.base, result.changed, session.loader.pinned)
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return report({path: result.changed[path] for path in error.written}), 2

@@ -1,8 +1,7 @@
 """A ``CMakeLists.txt`` without a usable manifest, read by the patterns of colcon.
 
-CMake itself is evaluated by :mod:`ros_lint.collectors.cmake`. This module reads what colcon reads when it looks for
-packages, errors included, because that determines the packages and their order. Source: package identification of
-colcon-cmake.
+CMake itself is evaluated by :mod:`ros_lint.collectors.cmake`. This module reproduces the patterns of colcon, including
+their errors, because they determine the packages and their order. Source: package identification of colcon-cmake.
 """
 
 from __future__ import annotations
@@ -47,7 +46,7 @@ class Project(NamedTuple):
 
 def project(text: Text) -> Project:
     """Return the name that colcon gives to the folder of a ``CMakeLists.txt``."""
-    match = _PROJECT.search(_Bare(text).closed())
+    match = _PROJECT.search(_PlainText(text).closed())
     name = match[2] if match else ""
     toplevel = name == "Project" and "catkin_workspace()" in text.text.splitlines()
     return Project(name, toplevel)
@@ -60,7 +59,7 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
     """
     if "find_package" not in (lower := text.text.lower()) and "pkg_" not in lower:
         return ()
-    bare = _Bare(text)
+    bare = _PlainText(text)
     content = bare.closed()
     names = [(match[2], *match.span(2)) for match in _FIND_PACKAGE.finditer(content)]
     names += list(_modules(content))
@@ -72,7 +71,7 @@ def subdirectories(text: Text) -> frozenset[str]:
 
     Calls of functions that wrap add_subdirectory() count if their name is add_subdirectory with a word inserted.
     """
-    return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_Bare(text).content))
+    return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_PlainText(text).content))
 
 
 def _modules(content: str) -> Iterator[tuple[str, int, int]]:
@@ -81,23 +80,23 @@ def _modules(content: str) -> Iterator[tuple[str, int, int]]:
             yield _VERSION.split(word[0], 1)[0], *word.span()
 
 
-class _Bare:
+class _PlainText:
     """A text without comments, and without quotes that are not closed on their line."""
 
     def __init__(self, text: Text) -> None:
         self._text = text
-        self._kept: list[int] = []
-        self._from: list[int] = []
+        self._piece_starts: list[int] = []
+        self._origins: list[int] = []
         pieces: list[str] = []
         size = offset = 0
         for line in text.text.splitlines(keepends=True):
             body = line.splitlines()[0]
             for piece in _PIECE.finditer(body):
-                if kept := piece[1] or piece[3]:
-                    self._kept.append(size)
-                    self._from.append(offset + piece.start())
-                    pieces.append(kept)
-                    size += len(kept)
+                if piece_text := piece[1] or piece[3]:
+                    self._piece_starts.append(size)
+                    self._origins.append(offset + piece.start())
+                    pieces.append(piece_text)
+                    size += len(piece_text)
             pieces.append("\n")
             size += 1
             offset += len(line)
@@ -111,5 +110,5 @@ class _Bare:
         return self._text.span(self._origin(start), self._origin(end - 1) + 1)
 
     def _origin(self, at: int) -> int:
-        index = bisect_right(self._kept, at) - 1
-        return self._from[index] + at - self._kept[index]
+        index = bisect_right(self._piece_starts, at) - 1
+        return self._origins[index] + at - self._piece_starts[index]

@@ -26,7 +26,7 @@ _CATEGORIES = {
 
 
 class ColconYamlError(ValueError):
-    """The file is no YAML mapping, so colcon ignores it. ``span`` is the place."""
+    """The file is not a YAML mapping, so colcon ignores it. ``span`` is the place."""
 
     def __init__(self, reason: str, span: Span) -> None:
         super().__init__(reason)
@@ -59,10 +59,10 @@ def _top(text: Text) -> Mapping[str, yaml.Node]:
     try:
         node = compose(text.text)
     except YamlError as error:
-        reason = error.message if isinstance(error, YamlBoundError) else f"it is no YAML: {error.message}"
+        reason = error.message if isinstance(error, YamlBoundError) else f"it is not valid YAML: {error.message}"
         raise ColconYamlError(reason, text.span(error.offset, error.offset)) from None
     if node is not None and _kind(node) != "mapping":
-        raise ColconYamlError("it holds no mapping", _span(text, node))
+        raise ColconYamlError("it is not a mapping", _span(text, node))
     return _mapping(node)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp.includes import Include, mentions
 from ros_lint.collectors.cpp.lookups import loaders, look_ups
-from ros_lint.collectors.cpp.registrations import registrations, wrapped
+from ros_lint.collectors.cpp.registrations import registrations, wrapper_macros
 from ros_lint.collectors.cpp.symbols import symbols
 from ros_lint.collectors.suffixes import SOURCES
 from ros_lint.facts.sources import FileFacts, Mention
@@ -31,20 +31,22 @@ def collect(source: Text) -> FileFacts:
     """
     scan = mentions(source)
     included, code = scan.mentions, scan.code
-    known = {mention[0].partition("/")[0] for mention in included}  # by index: there are tens of thousands
+    included_folders = {mention[0].partition("/")[0] for mention in included}  # by index: there are tens of thousands
     packages, files = look_ups(source, code)
-    loading = loaders(source, code) if not known.isdisjoint(_LOADERS) or _implements(source.path, included) else ()
+    plugin_loaders = (
+        loaders(source, code) if not included_folders.isdisjoint(_LOADERS) or _implements(source.path, included) else ()
+    )
     packages += [
         Mention(loader.package, "package", loader.span, f'"{loader.package}", "{loader.base}"')
-        for loader in loading
-        if loader.base.startswith(f"{loader.package}::")  # else it may be any pair of words
+        for loader in plugin_loaders
+        if loader.base.startswith(f"{loader.package}::")  # otherwise the two texts may have another meaning
     ]
-    packages += symbols(source, known, scan)
+    packages += symbols(source, included_folders, scan)
     if packages:
         included += packages
         included.sort(key=_place)
-    opaque = (_opaque(source, scan.computed) if scan.computed else ()) + wrapped(source)
-    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=loading)
+    opaque = (_opaque(source, scan.computed) if scan.computed else ()) + wrapper_macros(source)
+    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=plugin_loaders)
 
 
 def _implements(path: str, included: Iterable[Mention]) -> bool:
@@ -58,7 +60,7 @@ def _opaque(source: Text, computed: list[Include]) -> tuple[Opaque, ...]:
     return tuple(
         Opaque(
             Facet.USES,
-            f"only the preprocessor knows which header #include {item.name} names",
+            f"the header in '#include {item.name}' is known only to the preprocessor",
             source.span(item.start, item.start + len(item.name)),
         )
         for item in computed

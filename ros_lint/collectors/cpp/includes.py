@@ -31,7 +31,7 @@ _DIRECTIVE = re.compile(
 )
 _NAMED, _COMPUTED, _CONDITIONAL = 3, 4, 6  # the last group that matches
 
-_HIDING = re.compile(
+_TOKENS = re.compile(
     r"""//(?:[^\\\n]|\\(?:\r\n|.))*
     |/\*.*?(?:\*/|\Z)
     |(?P<raw>\b(?:u8|[uUL])?R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)")
@@ -85,7 +85,7 @@ class Include(NamedTuple):
     optional: bool
 
 
-class Found(NamedTuple):
+class IncludeScan(NamedTuple):
     """The result of scanning the directives of a source."""
 
     mentions: list[Mention]
@@ -98,7 +98,7 @@ class Found(NamedTuple):
     """The directives for :func:`branches`; empty if only an include guard is conditional."""
 
 
-def mentions(source: Text) -> Found:
+def mentions(source: Text) -> IncludeScan:
     """Return the includes of a C or C++ source, without standard headers and without those in ``#if 0``.
 
     An include in a conditional is optional, unless each branch includes the same folder. Conditions that hold in every
@@ -107,7 +107,7 @@ def mentions(source: Text) -> Found:
     return _plain(source) or exact(source)
 
 
-def exact(source: Text) -> Found:
+def exact(source: Text) -> IncludeScan:
     """Return the result of :func:`mentions` by the slower method that is exact for every text."""
     text = blanked(source.text)
     directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
@@ -115,7 +115,7 @@ def exact(source: Text) -> Found:
     includes = _includes(text, directives, guarded)
     named = [item for item in includes if item.quote]
     spans = source.spans([(item.start, item.start + len(item.name)) for item in named])
-    return Found(
+    return IncludeScan(
         [_mention(item.name, span, item.quote, item.optional) for item, span in zip(named, spans, strict=True)],
         [item.start for item in named],
         [item for item in includes if not item.quote],
@@ -124,11 +124,11 @@ def exact(source: Text) -> Found:
 
 
 def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
-    what = f"#include <{name}>" if quote == "<" else f'#include "{name}"'
-    return _make(Mention, (name, "include", span, what, optional, False, ""))
+    quotation = f"#include <{name}>" if quote == "<" else f'#include "{name}"'
+    return _make(Mention, (name, "include", span, quotation, optional, False, ""))
 
 
-def _plain(source: Text) -> Found | None:
+def _plain(source: Text) -> IncludeScan | None:
     """Return the result of one scan, or None if a directive may be hidden or a macro names an include."""
     text, path = source.text, source.path
     if "\r" in text and text.count("\r") != text.count("\r\n"):
@@ -140,22 +140,22 @@ def _plain(source: Text) -> Found | None:
     conditional = False
     line, at = 1, 0
     for match in _DIRECTIVE.finditer(text):
-        sharp = match.start()
-        odd = match[1] is not None
-        if odd and not (stands := _stands(text, sharp)):
-            if stands is None:
+        hash_offset = match.start()
+        is_irregular = match[1] is not None
+        if is_irregular and not (may_be_directive := _may_be_directive(text, hash_offset)):
+            if may_be_directive is None:
                 return None
             continue
         directives.append(match)
         if match.lastindex == _NAMED:
-            name, what, lead, width = _told(match[0])
+            name, quotation, name_column, width = _parse_include(match[0])
             if name:
-                line += count("\n", at, sharp)
-                at = sharp
-                column = lead + (len(_before(text, sharp)) if odd else 0)
+                line += count("\n", at, hash_offset)
+                at = hash_offset
+                column = name_column + (len(_before(text, hash_offset)) if is_irregular else 0)
                 span = _make(Span, (path, line, column, line, column + width))
-                result.append(_make(Mention, (name, "include", span, what, False, False, "")))
-                starts.append(sharp)
+                result.append(_make(Mention, (name, "include", span, quotation, False, False, "")))
+                starts.append(hash_offset)
         elif match.lastindex == _CONDITIONAL:
             conditional = True
         else:
@@ -164,14 +164,14 @@ def _plain(source: Text) -> Found | None:
     if starts and not guarded:
         if _may_hide(text, [match.start() for match in directives]):
             return None
-        return Found(*_sorted_out(text, directives, result, starts), [], directives)
+        return IncludeScan(*_mark_conditional(text, directives, result, starts), [], directives)
     if _may_hide(text, starts):
         return None
-    return Found(result, starts, [], [] if guarded else directives)
+    return IncludeScan(result, starts, [], [] if guarded else directives)
 
 
 @cache
-def _told(directive: str) -> tuple[str, str, int, int]:
+def _parse_include(directive: str) -> tuple[str, str, int, int]:
     """Return the name in an include directive ("" for standard headers), its text, column and length.
 
     Packages include the same headers repeatedly, so their names are cached.
@@ -181,18 +181,18 @@ def _told(directive: str) -> tuple[str, str, int, int]:
     name = match[_NAMED]
     if name in STANDARD:
         return "", "", 0, 0
-    what = f"#include <{name}>" if match[2] == "<" else f'#include "{name}"'
-    return name, what, match.start(_NAMED) + 1, len(name)
+    quotation = f"#include <{name}>" if match[2] == "<" else f'#include "{name}"'
+    return name, quotation, match.start(_NAMED) + 1, len(name)
 
 
-def _sorted_out(
-    text: str, directives: list[re.Match[str]], found: list[Mention], starts: list[int]
+def _mark_conditional(
+    text: str, directives: list[re.Match[str]], mentions: list[Mention], starts: list[int]
 ) -> tuple[list[Mention], list[int]]:
     """Return the reachable includes, with the optional ones marked, and their offsets."""
     skipped, optional = _conditional(text, directives)
     rows = [
         (mention._replace(optional=True) if start in optional else mention, start)
-        for mention, start in zip(found, starts, strict=True)
+        for mention, start in zip(mentions, starts, strict=True)
         if start not in skipped
     ]
     return [mention for mention, _ in rows], [start for _, start in rows]
@@ -206,7 +206,7 @@ def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list
         if match[_NAMED]:
             start, name, quote = match.start(_NAMED), match[_NAMED], match[2]
         elif match[_COMPUTED]:
-            start, name, quote = match.start(_COMPUTED), _bare(match[_COMPUTED]), ""
+            start, name, quote = match.start(_COMPUTED), _without_comments(match[_COMPUTED]), ""
         else:
             continue
         if name not in STANDARD and at not in skipped:
@@ -219,7 +219,7 @@ def blanked(text: str) -> str:
 
     Offsets are unchanged.
     """
-    return _HIDING.sub(_blank, text)
+    return _TOKENS.sub(_blank, text)
 
 
 def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
@@ -249,12 +249,12 @@ def _before(text: str, at: int) -> str:
     return text[text.rfind("\n", 0, at) + 1 : at]
 
 
-def _bare(line: str) -> str:
+def _without_comments(line: str) -> str:
     """Return the rest of a directive's line without comments."""
     return line.partition("//")[0].partition("/*")[0].strip()
 
 
-def _stands(text: str, at: int) -> bool | None:
+def _may_be_directive(text: str, at: int) -> bool | None:
     """Return whether a directive can be at an offset, or None after a comment or a continued line."""
     before = _before(text, at)
     if before and not before.isspace():
@@ -282,13 +282,13 @@ def _may_hide(text: str, starts: Sequence[int]) -> bool:
     while raw:
         if _any_between(starts, raw.start(), text.find(f'){raw[1]}"', raw.end())):
             return True
-        # Not beyond the end, here and below: an apparent string or comment may be none, and hide no other.
+        # The search continues inside the match, because it may not really be a string or comment.
         raw = _RAW.search(text, raw.start() + 1, last)
-    opened = _COMMENT.search(text, 0, last)
-    while opened:
-        if _any_between(starts, opened.start(), text.find("*/", opened.end())):
+    comment = _COMMENT.search(text, 0, last)
+    while comment:
+        if _any_between(starts, comment.start(), text.find("*/", comment.end())):
             return True
-        opened = _COMMENT.search(text, opened.end(), last)
+        comment = _COMMENT.search(text, comment.end(), last)
     return False
 
 
@@ -335,11 +335,11 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
 
     def end() -> None:
         ended = stack.pop()
-        sure = ended.end()
-        optional.update(start for start, folder in ended.includes if folder not in sure)
+        always_included = ended.end()
+        optional.update(start for start, folder in ended.includes if folder not in always_included)
         if stack:
             stack[-1].includes += ended.includes
-            stack[-1].folders |= sure
+            stack[-1].folders |= always_included
 
     for match in directives:
         if match.lastindex != _CONDITIONAL:
@@ -384,7 +384,7 @@ def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
 
     ``first``: no directive precedes it.
     """
-    word, condition = match[5], _bare(match[6])
+    word, condition = match[5], _without_comments(match[6])
     if word in ("if", "elif"):
         bare = condition.strip("() ")
         if bare in ("0", "false"):

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 _LOOK_UP = re.compile(r'(get_package_(?:share_directory|share_path|prefix))\s*\(\s*"([^"\\\n]+)"')
 _LOADER = re.compile(r'oader\w*(?:<[^;{}()"]*>)?\s*\w*\s*[({]\s*"([\w.-]+)"\s*,\s*"([\w:]*\w::\w[^"\\\n]*)"')
 # Text that is added to a path: only literals count, and only if nothing follows them.
-_ADDED = re.compile(r'((?:\s*[/+]\s*"[^"\\\n]*")+)(?!\s*[/+]\s*[\w("])')
+_APPENDED = re.compile(r'((?:\s*[/+]\s*"[^"\\\n]*")+)(?!\s*[/+]\s*[\w("])')
 _PIECE = re.compile(r'([/+])\s*"([^"]*)"')
-_CLOSED = re.compile(r"\s*\)+")
-_MAY_CLOSE = re.compile(r"\s*\)?")
+_BRACKETS = re.compile(r"\s*\)+")
+_OPTIONAL_BRACKET = re.compile(r"\s*\)?")
 _ASSIGNED = re.compile(r"\b([A-Za-z_]\w*)\s*[=({]\s*(?:[\w:]+\s*[({]\s*)?(?:\w+::)*\Z")
-_FARTHEST = 200
+_MAX_DISTANCE = 200
 """Number of characters before a lookup in which the variable for its result is searched."""
 
 
@@ -38,9 +38,9 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
         text = blanked(text)
     calls = list(_LOOK_UP.finditer(text))
     spans = source.spans([match.span(2) for match in calls])
-    tried = _tried(text) if "PackageNotFoundError" in text else []
+    guarded = _guarded_blocks(text) if "PackageNotFoundError" in text else []
     mentions = [
-        Mention(match[2], "package", span, f'{match[1]}("{match[2]}")', any(match.start(2) in block for block in tried))
+        Mention(match[2], "package", span, f'{match[1]}("{match[2]}")', any(match.start(2) in block for block in guarded))
         for match, span in zip(calls, spans, strict=True)
     ]
     files = sorted(_files(text, calls))
@@ -59,12 +59,12 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
     return tuple(PluginLoader(match[1], class_name(match[2]), span) for match, span in zip(matches, spans, strict=True))
 
 
-def _tried(text: str) -> list[range]:
-    """Return the try blocks whose handler catches PackageNotFoundError and does not give up."""
+def _guarded_blocks(text: str) -> list[range]:
+    """Return the try blocks whose handler catches PackageNotFoundError and neither throws nor exits."""
     result = []
     for catch in _CATCH.finditer(text):
-        handler = text[catch.end() : _closing(text, catch.end())]
-        begin = _opening(text, catch.start())
+        handler = text[catch.end() : _block_end(text, catch.end())]
+        begin = _try_start(text, catch.start())
         if begin >= 0 and not _GIVES_UP.search(handler):
             result.append(range(begin, catch.start()))
     return result
@@ -75,7 +75,7 @@ _GIVES_UP = re.compile(r"\b(?:throw|abort|exit|_Exit|quick_exit|terminate|FAIL|G
 _BRACE = re.compile(r"[{}]")
 
 
-def _closing(text: str, at: int) -> int:
+def _block_end(text: str, at: int) -> int:
     """Return where the block ends that contains an offset."""
     depth = 1
     for brace in _BRACE.finditer(text, at):
@@ -85,8 +85,8 @@ def _closing(text: str, at: int) -> int:
     return len(text)
 
 
-def _opening(text: str, end: int) -> int:
-    """Return where the block begins that a closing brace ends, or -1 if it is no try block."""
+def _try_start(text: str, end: int) -> int:
+    """Return where the block begins that a closing brace ends, -1 if it is not a try block."""
     depth = 0
     at = end + 1
     while (at := max(text.rfind("{", 0, at), text.rfind("}", 0, at))) >= 0:
@@ -102,24 +102,24 @@ def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, i
     for call in calls:
         if call[1] == "get_package_prefix":
             continue
-        closed = _CLOSED.match(text, call.end())
-        if closed is None:
+        brackets = _BRACKETS.match(text, call.end())
+        if brackets is None:
             continue
-        added = _ADDED.match(text, closed.end())
-        if added:
-            yield from _path(added, call[2])
-        elif assigned := _ASSIGNED.search(text, _statement(text, call.start()), call.start()):
+        literals = _APPENDED.match(text, brackets.end())
+        if literals:
+            yield from _path(literals, call[2])
+        elif assigned := _ASSIGNED.search(text, _statement_start(text, call.start()), call.start()):
             variables.setdefault(assigned[1], set()).add(call[2])
     for name, packages in variables.items():
         if len(packages) == 1:
             for end in _uses(text, name):
-                if added := _ADDED.match(text, end):
-                    yield from _path(added, *packages)
+                if literals := _APPENDED.match(text, end):
+                    yield from _path(literals, *packages)
 
 
-def _statement(text: str, at: int) -> int:
+def _statement_start(text: str, at: int) -> int:
     """Return where the statement begins, or where the search for it stops."""
-    farthest = max(0, at - _FARTHEST)
+    farthest = max(0, at - _MAX_DISTANCE)
     return max(farthest, text.rfind(";", farthest, at) + 1)
 
 
@@ -128,20 +128,20 @@ def _uses(text: str, name: str) -> Iterator[int]:
     start = text.find(name)
     while start >= 0:
         end = start + len(name)
-        before, after = text[start - 1 : start], text[end : end + 1]
-        if not (before.isalnum() or before == "_" or after.isalnum() or after == "_"):
-            closed = _MAY_CLOSE.match(text, end)
-            assert closed is not None
-            yield closed.end()
+        previous, following = text[start - 1 : start], text[end : end + 1]
+        if not (previous.isalnum() or previous == "_" or following.isalnum() or following == "_"):
+            brackets = _OPTIONAL_BRACKET.match(text, end)
+            assert brackets is not None
+            yield brackets.end()
         start = text.find(name, end)
 
 
-def _path(added: re.Match[str], package: str) -> Iterator[tuple[tuple[int, int], str, str]]:
-    pieces = list(_PIECE.finditer(added[1]))
+def _path(literals: re.Match[str], package: str) -> Iterator[tuple[tuple[int, int], str, str]]:
+    pieces = list(_PIECE.finditer(literals[1]))
     text = ""
     for piece in pieces:
         text = f"{text}/{piece[2]}" if piece[1] == "/" else text + piece[2]
     path = posixpath.normpath(text.lstrip("/")) if text.startswith("/") else ""
     if path and path != "." and not path.startswith(".."):
-        start = added.start(1) + pieces[0].start(2)
+        start = literals.start(1) + pieces[0].start(2)
         yield (start, start + len(pieces[0][2])), package, path

@@ -13,8 +13,8 @@ from ros_lint.facts.visibility import Facet, Opaque
 if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
-_OF_COMPONENTS = "RCLCPP_COMPONENTS_REGISTER_NODE"
-_NAMES = (_OF_COMPONENTS, "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
+_COMPONENT_MACRO = "RCLCPP_COMPONENTS_REGISTER_NODE"
+_NAMES = (_COMPONENT_MACRO, "PLUGINLIB_EXPORT_CLASS", "CLASS_LOADER_REGISTER_CLASS")
 _MACRO = re.compile(rf"({'|'.join(_NAMES)})\s*\(([^;{{}}()#]*)\)")
 _CONTINUED = re.compile(r"\\\r?\n")
 
@@ -34,7 +34,7 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     result = []
     for match, span in zip(matches, spans, strict=True):
         name, _, base = (part.strip() for part in _CONTINUED.sub("", match[2]).partition(","))
-        kind: Literal["component", "plugin"] = "component" if match[1] == _OF_COMPONENTS else "plugin"
+        kind: Literal["component", "plugin"] = "component" if match[1] == _COMPONENT_MACRO else "plugin"
         if name and (base or kind == "component"):
             result.append(Registration(kind, class_name(name), span, class_name(base) if kind == "plugin" else ""))
     return tuple(result)
@@ -43,19 +43,19 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
 _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\.)*)", re.MULTILINE)
 
 
-def wrapped(source: Text) -> tuple[Opaque, ...]:
-    """Return where a C++ file defines a macro that registers components: its calls determine which ones.
+def wrapper_macros(source: Text) -> tuple[Opaque, ...]:
+    """Return the definitions of macros that register components: their calls determine which components.
 
     Plugins are searched by the names in their descriptions, see
-    :func:`ros_lint.workspace.usage.textual_mentions.unwritten`.
+    :func:`ros_lint.workspace.usage.textual_mentions.find_unwritten_classes`.
     """
     text = source.text
-    if "define" not in text or _OF_COMPONENTS not in text:
+    if "define" not in text or _COMPONENT_MACRO not in text:
         return ()
     return tuple(
-        Opaque(Facet.COMPONENTS, f"which classes {macro[1]}() makes loadable is not followed", source.span(*macro.span(1)))
+        Opaque(Facet.COMPONENTS, f"the classes that the macro '{macro[1]}' registers are not known", source.span(*macro.span(1)))
         for macro in _DEFINITION.finditer(text)
-        if macro[1] != _OF_COMPONENTS and _OF_COMPONENTS in macro[2]
+        if macro[1] != _COMPONENT_MACRO and _COMPONENT_MACRO in macro[2]
     )
 
 
@@ -79,6 +79,6 @@ def _places(text: str, name: str) -> Iterator[int]:
         place = text.find(name, place + 1)
 
 
-def class_name(written: str) -> str:
+def class_name(name: str) -> str:
     """Return the name of a class in a canonical form for comparison: no blanks, no leading ``::``."""
-    return "".join(written.split()).removeprefix("::")
+    return "".join(name.split()).removeprefix("::")

@@ -12,7 +12,7 @@ import string
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import Found, branches, in_doubt
+from ros_lint.collectors.cpp.includes import IncludeScan, branches, in_doubt
 from ros_lint.facts.sources import Mention
 
 if TYPE_CHECKING:
@@ -24,29 +24,29 @@ _NAMESPACES = (
 )  # fmt: skip
 """Packages with a namespace of their own name, which other packages usually provide transitively."""
 
-# "::" first, because it is searched fast. Of the text before it, the last letter is checked first.
+# The pattern begins with "::", because a literal is searched fast. The lookbehind checks the last letter first.
 _LAST = "".join(sorted({name[-1] for name in _NAMESPACES}))
 _BEFORE = "|".join(f"(?<={name}::)" for name in _NAMESPACES)
 _KIND = re.compile(rf"::(?:(?:msg|srv|action)::|(?<=[{_LAST}]::)(?:{_BEFORE}))")
 _TYPE = re.compile(r"::(?:msg|srv|action)::\w+")
 _NAME = re.compile(r"::\w+")
 _WORD = string.ascii_letters + string.digits + "_"
-_INSIDE = frozenset(_WORD)
+_WORD_CHARACTERS = frozenset(_WORD)
 _make = tuple.__new__
-_LONGEST = 64
+_MAX_NAME = 64
 """Number of characters of a name that are considered."""
 
 
-def symbols(source: Text, known: Collection[str], directives: Found) -> list[Mention]:
+def symbols(source: Text, excluded: Collection[str], directives: IncludeScan) -> list[Mention]:
     """Return the packages whose interfaces or namespaces a C++ file names, each at its first place.
 
-    Packages in ``known`` are left out. A mention is optional if all its uses depend on the build. All mentions have
+    Packages in ``excluded`` are left out. A mention is optional if all its uses depend on the build. All mentions have
     ``via="symbol"`` and the name of the package.
     """
     text = source.text
     *pieces, _ = _KIND.split(text)  # faster than checking each match
-    ends = {piece[-_LONGEST:] for piece in pieces}
-    names = {end[len(end.rstrip(_WORD)) :] for end in ends}.difference(known)
+    ends = {piece[-_MAX_NAME:] for piece in pieces}
+    names = {end[len(end.rstrip(_WORD)) :] for end in ends}.difference(excluded)
     if not names:
         return []
     conditional = branches(text, directives.directives) if directives.directives else []
@@ -65,16 +65,16 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
     once.
     """
     optional = None
-    written = f"{package}::"
+    qualifier = f"{package}::"
     pattern = _NAME if package in _NAMESPACES else _TYPE
-    start = text.find(written)
+    start = text.find(qualifier)
     while start >= 0:
         name = pattern.match(text, start + len(package))
         if name and _is_code(text, start) and not in_doubt(text, start, code):
             if not conditional or not any(start in index for index in conditional):
                 return start, name.end(), False, package
             optional = optional or (start, name.end(), True, package)
-        start = text.find(written, start + 1)
+        start = text.find(qualifier, start + 1)
     return optional
 
 
@@ -82,7 +82,7 @@ def _is_code(text: str, at: int) -> bool:
     """Return whether a qualified name may begin at an offset, judged by the text before it in its line."""
     line = text.rfind("\n", 0, at) + 1
     before = text[line:at].removesuffix("::")  # global namespace: ::pkg::msg::Type
-    if before[-1:] in _INSIDE or before.count('"') % 2 or text[max(line - 3, 0) : line].rstrip("\r\n")[-1:] == "\\":
+    if before[-1:] in _WORD_CHARACTERS or before.count('"') % 2 or text[max(line - 3, 0) : line].rstrip("\r\n")[-1:] == "\\":
         return False
     bare = before.strip()
     return not bare or (bare[0] != "#" and not bare.endswith("namespace"))

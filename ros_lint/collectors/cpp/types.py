@@ -14,27 +14,27 @@ _BEFORE_TYPE = rb"\b(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(?:[A-
 _AFTER_TYPE = rb"\s*(?:final\b|\{|:(?!:))"
 _TYPE = re.compile(_BEFORE_TYPE + rb"([A-Za-z_]\w+)(?=" + _AFTER_TYPE + rb")")
 _NAMESPACE = re.compile(rb"\bnamespace\s+([\w:]+)\s*\{")
-_OWN = (
+_DEFINITIONS = (
     (re.compile(_BEFORE_TYPE + rb"\Z"), re.compile(_AFTER_TYPE)),
     (re.compile(rb"\busing\s+\Z"), re.compile(rb"\s*=")),
     (re.compile(rb"\bnamespace\s+(?:\w+::)*\Z"), re.compile(rb"\s*\{")),
     (re.compile(rb"\btypedef\s[^;{}]*\Z"), re.compile(rb"\s*;")),
 )
-"""Characters around a name that give it a meaning of its own."""
+"""Patterns for the text before and after a name that the code itself defines."""
 _MESSAGE = rb"(?:::)?(\w+)::(?:msg|srv|action)::"
 _USING = re.compile(rb"\busing\s+" + _MESSAGE + rb"(\w+)\s*;")
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?" + _MESSAGE + rb"\w+")
 _CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
-_NEAR = 120
+_MAX_CONTEXT = 120
 """Number of bytes before a name that are considered."""
-_NO_CODE = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
-_SHORTEST = 4
+_COMMENTS_AND_STRINGS = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+_MIN_LENGTH = 4
 """Length of the shortest name considered, because shorter names are too often ambiguous."""
 
 
 def declared(text: bytes) -> frozenset[bytes]:
     """Return the names of the types that C++ code declares, without forward declarations."""
-    return frozenset(name for name in _TYPE.findall(text) if len(name) >= _SHORTEST)
+    return frozenset(name for name in _TYPE.findall(text) if len(name) >= _MIN_LENGTH)
 
 
 def introduced(text: bytes) -> Mapping[str, set[bytes]]:
@@ -43,7 +43,7 @@ def introduced(text: bytes) -> Mapping[str, set[bytes]]:
     if b"using " in text:
         alias = [(package, name) for name, package in _ALIAS.findall(text)]
         for package, name in (*_USING.findall(text), *alias):
-            if len(name) >= _SHORTEST:
+            if len(name) >= _MIN_LENGTH:
                 result.setdefault(package.decode(), set()).add(name)
     return result
 
@@ -55,43 +55,43 @@ def namespaces(text: bytes) -> frozenset[bytes]:
 
 def code(text: bytes) -> bytes:
     """Return C++ code with blanks for comments and strings. Offsets are unchanged."""
-    return _NO_CODE.sub(_blank, text)
+    return _COMMENTS_AND_STRINGS.sub(_blank, text)
 
 
 def _blank(match: re.Match[bytes]) -> bytes:
     return b"\n".join([b" " * len(line) for line in match[0].split(b"\n")])
 
 
-def first(texts: Iterable[tuple[str, bytes]], name: bytes, spaces: Container[bytes]) -> Span | None:
-    """Return the first place where a name, unqualified or qualified, means a member of some namespaces.
+def first(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Container[bytes]) -> Span | None:
+    """Return the first place where the code uses a name, unqualified or qualified by one of some namespaces.
 
-    None if the code defines the name itself, or takes it from elsewhere as well. For a namespace, it is the first place
-    where one of its members is used.
+    None if the code defines the name itself, or also uses it from another namespace. For the name of a namespace, it is
+    the first place where one of its members is used.
     """
     result: Span | None = None
     for path, text in texts:
         for start in _places(text, name):
             end = start + len(name)
-            before = text[max(start - _NEAR, 0) : start]
-            if any(left.search(before) and right.match(text, end) for left, right in _OWN):
+            before = text[max(start - _MAX_CONTEXT, 0) : start]
+            if any(prefix.search(before) and suffix.match(text, end) for prefix, suffix in _DEFINITIONS):
                 return None
             chain = _CHAIN.search(before)
-            if chain and not any(part.strip() in spaces for part in chain[0].split(b"::")):
+            if chain and not any(part.strip() in namespaces for part in chain[0].split(b"::")):
                 return None
-            if not result and (name not in spaces or text.startswith(b"::", end)):
+            if not result and (name not in namespaces or text.startswith(b"::", end)):
                 result = span_in(path, text, start, end)
     return result
 
 
 def _places(text: bytes, name: bytes) -> Iterator[int]:
-    """Yield the offsets of a word that is no member of another name."""
+    """Yield the offsets of a word that is not a part or a member of another name."""
     start = text.find(name)
     while start >= 0:
-        before, after = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]
-        if not (before.isalnum() or before in _JOINED or after.isalnum() or after == b"_"):
+        previous, following = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]
+        if not (previous.isalnum() or previous in _NAME_JOINERS or following.isalnum() or following == b"_"):
             yield start
         start = text.find(name, start + 1)
 
 
-_JOINED = (b"_", b".", b">")
-"""Endings of the text before a name that is part of a longer name."""
+_NAME_JOINERS = (b"_", b".", b">")
+"""Characters before a name that make it a part or a member of another name."""

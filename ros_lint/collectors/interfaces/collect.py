@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp.includes import blanked
-from ros_lint.collectors.interfaces import lines as interface_lines
+from ros_lint.collectors.interfaces import lines
 from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def collect(source: Text) -> FileFacts:
     for match, span in zip(matches, source.spans([match.span(1) for match in matches]), strict=True):
         parts = match[1].split("/")
         mentions.append(Mention(f"{parts[0]}/{parts[-1]}", "interface", span, match[1]))
-    return FileFacts(tuple(mentions), interface=interface_lines.collect(source))
+    return FileFacts(tuple(mentions), interface=lines.collect(source))
 
 
 def _idl(source: Text) -> Iterable[Mention]:

@@ -1,4 +1,4 @@
-"""Read the lines of a .msg, .srv or .action file as rosidl_adapter does, and say where it stops.
+"""Read the lines of a .msg, .srv or .action file as rosidl_adapter does, with the errors for which it stops.
 
 The rules are those of rosidl_adapter/parser.py, which are the same from Humble to Rolling.
 """
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.base.text import file_start
-from ros_lint.collectors.interfaces import naming as interface_names
+from ros_lint.collectors.interfaces import naming
 from ros_lint.facts.interfaces import InterfaceFile, InterfaceProblem
 
 if TYPE_CHECKING:
@@ -27,9 +27,9 @@ _INTEGERS: Final = {
 }
 _STRINGS: Final = ("string", "wstring")
 _PLAIN: Final = frozenset({"bool", "float32", "float64", *_INTEGERS, *_STRINGS})
-"""Types that are no messages."""
-_OF_ROS_1: Final = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
-_MEANT: Final = {
+"""Types that are not messages."""
+_ROS_1_TYPES: Final = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
+_SUGGESTED_TYPES: Final = {
     "float": "float32 or float64",
     "double": "float64",
     "int": "int32",
@@ -40,7 +40,7 @@ _MEANT: Final = {
     "std::string": "string",
     "boolean": "bool",
 }
-"""Types of languages, and those of interfaces that are meant."""
+"""Types of programming languages, and the interface types that replace them."""
 _KEYWORDS: Final = frozenset({
     "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char",
     "char16_t", "char32_t", "class", "compl", "const", "const_cast", "constexpr", "continue", "decltype", "default", "delete",
@@ -51,18 +51,18 @@ _KEYWORDS: Final = frozenset({
     "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while",
     "xor", "xor_eq",
 })  # fmt: skip
-"""Words of C and C++, which generated code has as names of members."""
+"""Keywords of C and C++. Generated code uses field names as names of members."""
 _SEPARATORS: Final = {"msg": 0, "srv": 1, "action": 2}
-"""How many lines ``---`` a definition has, by suffix."""
-_SEPARATES = re.compile(r"^---(?=\r?$)", re.MULTILINE)
-_NEARLY_SEPARATES = re.compile(r"^[ \t]*[-_=]{2,}[ \t]*(?=#|\r?$)", re.MULTILINE)
+"""The number of lines ``---`` in a definition, by suffix."""
+_SEPARATOR = re.compile(r"^---(?=\r?$)", re.MULTILINE)
+_SIMILAR_SEPARATOR = re.compile(r"^[ \t]*[-_=]{2,}[ \t]*(?=#|\r?$)", re.MULTILINE)
 _LINE = re.compile(r"^[^#\r\n]+", re.MULTILINE)
-_NO_UTF_8 = re.compile("[\udc80-\udcff]+")
+_INVALID_UTF_8 = re.compile("[\udc80-\udcff]+")
 _SCOPED = re.compile(r"([a-z]\w*)(?:/|::|\.)msg(?:/|::|\.)([A-Z]\w*)")
 
 
-class _WrongError(Exception):
-    """A part of a line that rosidl refuses, by its offsets in the line."""
+class _LineError(Exception):
+    """A part of a line that rosidl rejects, by its offsets in the line."""
 
     def __init__(self, message: str, start: int, part: str, instead: str | None = None) -> None:
         super().__init__(message)
@@ -73,53 +73,53 @@ class _WrongError(Exception):
 
 
 class _Element(NamedTuple):
-    """A field, or a constant."""
+    """A field or a constant."""
 
     name: str
     start: int
-    """Of the name, in the line."""
+    """The offset of the name in the line."""
     message: str
-    """The message that it is, "" if it is none."""
+    """The message type of the field, "" for other types."""
 
 
 def collect(source: Text) -> InterfaceFile:
-    """Return the messages that a definition is made of, and what of it rosidl refuses."""
+    """Return the message types in a definition, and the errors for which rosidl rejects it."""
     path, text = source.path, source.text
     if source.codec == "utf-8-sig" or not _is_utf_8(source):
         return InterfaceFile(path, (), (_encoding(source, 0, 0),))
     if len(text.splitlines()) != text.count("\n") + (text[-1:] not in ("", "\n")):
-        return InterfaceFile(path)  # Python splits lines at more than ends them for editors, and so does rosidl
-    if not text.isascii() and (foreign := _NO_UTF_8.search(text)):
-        return InterfaceFile(path, (), (_encoding(source, *foreign.span()),))
+        return InterfaceFile(path)  # it has line separators, such as U+2028, that split lines in rosidl but not in editors
+    if not text.isascii() and (invalid := _INVALID_UTF_8.search(text)):
+        return InterfaceFile(path, (), (_encoding(source, *invalid.span()),))
     name, _, suffix = path.rpartition("/")[2].rpartition(".")
     text = text.replace("\t", " ")
     problems: list[InterfaceProblem] = []
-    if not interface_names.is_message(name):
-        better = f"{interface_names.camel(name)}.{suffix}"
+    if not naming.is_message(name):
+        better = f"{naming.camel(name)}.{suffix}"
         problems.append(
             InterfaceProblem(f"'{name}' is not a valid interface name; rename the file to '{better}'", file_start(path))
         )
-    marks = [match.start() for match in _SEPARATES.finditer(text)]
-    divided = len(marks) == _SEPARATORS[suffix]
-    problems += () if divided else _separation(source, text, suffix, marks)
+    marks = [match.start() for match in _SEPARATOR.finditer(text)]
+    separators_valid = len(marks) == _SEPARATORS[suffix]
+    problems += () if separators_valid else _separation(source, text, suffix, marks)
     types: list[tuple[str, Span]] = []
-    seen: dict[tuple[str, int], int] = {}
+    first_places: dict[tuple[str, int], int] = {}
     for match in _LINE.finditer(text):
         at = match.start()
-        if at in marks or (not divided and _NEARLY_SEPARATES.match(text, at)):
+        if at in marks or (not separators_valid and _SIMILAR_SEPARATOR.match(text, at)):
             continue
         try:
             element = _element(match[0].rstrip())
-        except _WrongError as wrong:
-            problems.append(InterfaceProblem(wrong.message, source.span(at + wrong.start, at + wrong.end), wrong.instead))
+        except _LineError as error:
+            problems.append(InterfaceProblem(error.message, source.span(at + error.start, at + error.end), error.instead))
             continue
         if element is None:
             continue
         if element.message:
             types.append((element.message, source.span(at, at + len(element.message))))
         start = at + element.start
-        first = seen.setdefault((element.name, bisect_right(marks, at)), start)
-        if first != start and divided:
+        first = first_places.setdefault((element.name, bisect_right(marks, at)), start)
+        if first != start and separators_valid:
             line = source.position(first)[0]
             message = f"'{element.name}' is already defined on line {line}; choose another name"
             problems.append(InterfaceProblem(message, source.span(start, start + len(element.name))))
@@ -127,7 +127,7 @@ def collect(source: Text) -> InterfaceFile:
 
 
 def _is_utf_8(source: Text) -> bool:
-    """Whether a file can be read as UTF-8, whatever the first lines say that it is in."""
+    """Return whether a file is valid UTF-8, whatever encoding its first lines declare."""
     if source.codec == "utf-8":
         return True
     try:
@@ -138,41 +138,41 @@ def _is_utf_8(source: Text) -> bool:
 
 
 def _encoding(source: Text, start: int, end: int) -> InterfaceProblem:
-    what = "that begins with a byte order mark" if source.codec == "utf-8-sig" else "that is not in UTF-8"
+    kind = "that begins with a byte order mark" if source.codec == "utf-8-sig" else "that is not in UTF-8"
     return InterfaceProblem(
-        f"rosidl cannot read a file {what}; save it as UTF-8 without a byte order mark", source.span(start, end)
+        f"rosidl cannot read a file {kind}; save it as UTF-8 without a byte order mark", source.span(start, end)
     )
 
 
 def _separation(source: Text, text: str, suffix: str, marks: list[int]) -> Iterator[InterfaceProblem]:
     """Yield the problem of too few or too many lines ``---``."""
-    wanted = _SEPARATORS[suffix]
+    count = _SEPARATORS[suffix]
     parts = {"msg": "a message has no parts", "srv": "a service has two parts", "action": "an action has three parts"}[suffix]
-    near = [match for match in _NEARLY_SEPARATES.finditer(text) if match.start() not in marks]
-    if len(marks) > wanted:
-        yield InterfaceProblem(f"there are too many lines '---'; {parts}", source.span(marks[wanted], marks[wanted] + 3))
-    elif near and len(marks) + len(near) == wanted:
-        for match in near:
+    similar = [match for match in _SIMILAR_SEPARATOR.finditer(text) if match.start() not in marks]
+    if len(marks) > count:
+        yield InterfaceProblem(f"there are too many lines '---'; {parts}", source.span(marks[count], marks[count] + 3))
+    elif similar and len(marks) + len(similar) == count:
+        for match in similar:
             instead = None if text[match.end() : match.end() + 1] == "#" else "---"
             message = f"a separator line must contain nothing but '---'; {parts}"
             yield InterfaceProblem(message, source.span(*match.span()), instead)
     else:
-        lacks = "a line '---' is" if wanted - len(marks) == 1 else "two lines '---' are"
+        lacks = "a line '---' is" if count - len(marks) == 1 else "two lines '---' are"
         yield InterfaceProblem(f"{lacks} missing; {parts}", file_start(source.path))
 
 
 def _element(line: str) -> _Element | None:
-    """Return what a line without its comment says, None if it is blank. Raises _WrongError if rosidl refuses it."""
+    """Return the field or constant in a line without its comment, None for a blank line. Raises _LineError."""
     kind, _, rest = line.partition(" ")
     rest = rest.lstrip()
     if not kind:
         if not rest:
             return None
-        raise _WrongError("rosidl does not accept spaces at the beginning of a line; remove them", 0, line[: -len(rest)], "")
+        raise _LineError("rosidl does not accept spaces at the beginning of a line; remove them", 0, line[: -len(rest)], "")
     if kind.startswith("//"):
-        raise _WrongError("a comment begins with '#', not '//'", 0, "//", "#")
+        raise _LineError("a comment begins with '#', not '//'", 0, "//", "#")
     if not rest:
-        raise _WrongError(f"a field consists of a type and a name, but this line only contains '{kind}'", 0, kind)
+        raise _LineError(f"a field consists of a type and a name, but this line only contains '{kind}'", 0, kind)
     start = len(line) - len(rest)
     name, equals, value = rest.partition("=")
     if equals:
@@ -184,12 +184,12 @@ def _element(line: str) -> _Element | None:
 def _constant(kind: str, name: str, value: str, start: int, value_start: int) -> _Element:
     if kind not in _PLAIN:
         message = _type(kind)
-        raise _WrongError(f"a constant must be a number, a string or a bool, not '{message or kind}'", 0, kind)
-    if not interface_names.is_constant(name):
-        if interface_names.is_field(name):
+        raise _LineError(f"a constant must be a number, a string or a bool, not '{message or kind}'", 0, kind)
+    if not naming.is_constant(name):
+        if naming.is_field(name):
             remedy = f"write '{name.upper()}={value}', or '{name} {value}' for a field with a default value"
-            raise _WrongError(f"'{name}={value}' is a constant, but its name is not in upper case; {remedy}", start, name)
-        raise _WrongError(
+            raise _LineError(f"'{name}={value}' is a constant, but its name is not in upper case; {remedy}", start, name)
+        raise _LineError(
             f"'{name}' is not a valid name of a constant; use upper-case letters, digits and single underscores", start, name
         )
     _check_value(kind, value, value_start)
@@ -198,21 +198,19 @@ def _constant(kind: str, name: str, value: str, start: int, value_start: int) ->
 
 def _field(kind: str, name: str, value: str, start: int, value_start: int) -> _Element:
     message = _type(kind)
-    if not interface_names.is_field(name):
-        if name[-1] in ";," and interface_names.is_field(name[:-1]):
-            raise _WrongError(f"a line must not end with '{name[-1]}'", start + len(name) - 1, name[-1], "")
+    if not naming.is_field(name):
+        if name[-1] in ";," and naming.is_field(name[:-1]):
+            raise _LineError(f"a line must not end with '{name[-1]}'", start + len(name) - 1, name[-1], "")
         if name[0] == "[":
-            raise _WrongError(f"there must be no space before the brackets; write '{kind}{name}'", start, name)
-        better = re.sub("__+", "_", interface_names.snake(name)).strip("_")
-        hint = (
-            f"write '{better}'" if interface_names.is_field(better) else "use lower-case letters, digits and single underscores"
-        )
-        raise _WrongError(f"'{name}' is not a valid field name; {hint}", start, name)
+            raise _LineError(f"there must be no space before the brackets; write '{kind}{name}'", start, name)
+        better = re.sub("__+", "_", naming.snake(name)).strip("_")
+        hint = f"write '{better}'" if naming.is_field(better) else "use lower-case letters, digits and single underscores"
+        raise _LineError(f"'{name}' is not a valid field name; {hint}", start, name)
     if name in _KEYWORDS:
-        raise _WrongError(f"'{name}' is a C++ keyword, so the generated code does not compile; choose another name", start, name)
+        raise _LineError(f"'{name}' is a C++ keyword, so the generated code does not compile; choose another name", start, name)
     if value:
         if message:
-            raise _WrongError(
+            raise _LineError(
                 f"a field of a message type cannot have a default value, but this one has '{value}'", value_start, value
             )
         _check_value(kind, value, value_start)
@@ -220,34 +218,34 @@ def _field(kind: str, name: str, value: str, start: int, value_start: int) -> _E
 
 
 def _type(kind: str) -> str:
-    """Return the message that a type is, or an array of it, "" if it is plain. Raises _WrongError if it is none at all."""
+    """Return the message type in a field type without brackets, "" for a plain type. Raises _LineError."""
     base, bracket, _ = kind.rpartition("[")
     if kind[-1] != "]":
         base = kind
     elif not bracket or (kind[len(base) :] != "[]" and not _is_size(kind[len(base) + 1 : -1].removeprefix("<="))):
-        raise _WrongError(f"'{kind}' is not a valid array type; write [], [3], or [<=3] for at most three elements", 0, kind)
+        raise _LineError(f"'{kind}' is not a valid array type; write [], [3], or [<=3] for at most three elements", 0, kind)
     if base in _PLAIN:
         return ""
     plain, bound, size = base.partition("<=")
     if bound and plain in _STRINGS:
         if not _is_size(size):
-            raise _WrongError(f"'{base}' is not a valid bounded string; write '{plain}<=10'", 0, base)
+            raise _LineError(f"'{base}' is not a valid bounded string; write '{plain}<=10'", 0, base)
         return ""
-    if base in _OF_ROS_1:
-        raise _WrongError(f"ROS 2 has no type '{base}'; write '{_OF_ROS_1[base]}' and depend on 'builtin_interfaces'", 0, base)
-    if meant := _MEANT.get(base.lower()):
-        raise _WrongError(f"there is no type '{base}'; write {meant}", 0, base)
-    if (scoped := _SCOPED.fullmatch(base)) and interface_names.is_message(scoped[2]):
-        written = f"{scoped[1]}/{scoped[2]}"
-        raise _WrongError(f"in an interface file '{base}' is written '{written}'", 0, base, written)
+    if base in _ROS_1_TYPES:
+        raise _LineError(f"ROS 2 has no type '{base}'; write '{_ROS_1_TYPES[base]}' and depend on 'builtin_interfaces'", 0, base)
+    if suggestion := _SUGGESTED_TYPES.get(base.lower()):
+        raise _LineError(f"there is no type '{base}'; write {suggestion}", 0, base)
+    if (scoped := _SCOPED.fullmatch(base)) and naming.is_message(scoped[2]):
+        replacement = f"{scoped[1]}/{scoped[2]}"
+        raise _LineError(f"in an interface file '{base}' is written '{replacement}'", 0, base, replacement)
     package, slash, name = base.rpartition("/")
-    if slash and not interface_names.is_field(package):
-        raise _WrongError(f"'{base}' is not a valid type; write a message of another package as package/Name", 0, base)
-    if not interface_names.is_message(name):
-        near = [] if slash else similar_names(base, sorted(_PLAIN), 1, 0.7)
-        better = f"{package}{slash}{interface_names.camel(name)}"
-        hint = did_you_mean(near) or (f"; names of messages look like '{better}'" if name.isidentifier() else "")
-        raise _WrongError(f"there is no type '{base}'{hint}", 0, base)
+    if slash and not naming.is_field(package):
+        raise _LineError(f"'{base}' is not a valid type; write a message of another package as package/Name", 0, base)
+    if not naming.is_message(name):
+        similar = [] if slash else similar_names(base, sorted(_PLAIN), 1, 0.7)
+        better = f"{package}{slash}{naming.camel(name)}"
+        hint = did_you_mean(similar) or (f"; names of messages look like '{better}'" if name.isidentifier() else "")
+        raise _LineError(f"there is no type '{base}'{hint}", 0, base)
     return base
 
 
@@ -267,7 +265,7 @@ def _integer(text: str) -> int | None:
 
 
 def _check_value(kind: str, value: str, start: int) -> None:
-    """Raise _WrongError if a type has no such value. Of arrays of strings only the brackets are looked at."""
+    """Raise _LineError if a value does not have a type. For arrays of strings, only the brackets are checked."""
     comment = value.find("//")
     base, bracket, size = kind.removesuffix("]").partition("[")
     if bracket:
@@ -281,8 +279,8 @@ def _check_value(kind: str, value: str, start: int) -> None:
     elif _is_value(base, value):
         return
     if comment >= 0 and not base.startswith(_STRINGS):
-        raise _WrongError("a comment begins with '#', not '//'", start + comment, "//", "#")
-    raise _WrongError(f"'{value}' is not a valid value of type '{kind}'", start, value)
+        raise _LineError("a comment begins with '#', not '//'", start + comment, "//", "#")
+    raise _LineError(f"'{value}' is not a valid value of type '{kind}'", start, value)
 
 
 def _is_value(kind: str, value: str) -> bool:

@@ -14,7 +14,7 @@ Which of them must be declared depends on the distribution."""
 _MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
 _LOWER = re.compile(r"(?!\w*__)[a-z](?:[a-z0-9_]*[a-z0-9])?")
 _CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
-_MADE = ("_Request", "_Response", "_Goal", "_Result", "_Feedback")
+_GENERATED_SUFFIXES = ("_Request", "_Response", "_Goal", "_Result", "_Feedback")
 """Endings of the messages that rosidl generates for services and actions."""
 _BETWEEN_WORDS = re.compile("[^A-Za-z0-9]+")
 _BEFORE_WORD = re.compile("(.)([A-Z][a-z]+)")
@@ -24,7 +24,7 @@ _BEFORE_CAPITAL = re.compile("([a-z0-9])([A-Z])")
 def is_message(name: str) -> bool:
     """Return whether a name is valid for an interface."""
     name = name.removeprefix("Sample_")
-    for end in _MADE:
+    for end in _GENERATED_SUFFIXES:
         name = name.removesuffix(end)
     return _MESSAGE.fullmatch(name) is not None
 

@@ -10,64 +10,64 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition
 
 
 class DefaultConfigurations(NamedTuple):
-    """The launch configurations of one file by name."""
+    """The values of the launch configurations of one file."""
 
     values: Mapping[str, tuple[str, ...]]
     """The alternative values of each configuration, by its name."""
     own: frozenset[str]
-    """Configurations whose values the file determines itself.
+    """Names of the configurations whose values the file determines itself.
 
     A caller can only change which alternative applies.
     """
 
     def is_own(self, text: str) -> bool:
         """Return whether launch arguments can at most choose between the alternatives of a text."""
-        return _hangs_on(text, self.own)
+        return _depends_only_on(text, self.own)
 
 
 def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurations:
     """Return the values that the arguments and assignments of a file give to its configurations.
 
-    A value that is set under a condition is one of several alternatives. The default is no alternative if another
-    value is set under the opposite condition.
+    A value that is set under a condition is one of several alternatives. The default is not an
+    alternative if values are set under a condition and under its opposite.
     """
     values: dict[str, tuple[str, ...]] = {}
     settable: set[str] = set()
-    perhaps: dict[str, list[tuple[tuple[LaunchCondition, ...], tuple[str, ...]]]] = {}
-    waiting: list[tuple[LaunchAction, tuple[LaunchCondition, ...]]] = [(action, ()) for action in reversed(tuple(actions))]
-    while waiting:
-        action, around = waiting.pop()
+    conditional: dict[str, list[tuple[tuple[LaunchCondition, ...], tuple[str, ...]]]] = {}
+    pending: list[tuple[LaunchAction, tuple[LaunchCondition, ...]]] = [(action, ()) for action in reversed(tuple(actions))]
+    while pending:
+        action, conditions = pending.pop()
         if action.kind == "later":
-            around = (*around, _SOME_TIME)
-        around = (*around, *action.conditions)
+            conditions = (*conditions, _UNKNOWN_CONDITION)
+        conditions = (*conditions, *action.conditions)
         if action.value is not None and action.target is not None and action.kind in ("argument", "set"):
             for name in action.target.texts:
-                if action.kind == "set" and around:
-                    perhaps.setdefault(name, []).append((around, action.value.texts))
+                if action.kind == "set" and conditions:
+                    conditional.setdefault(name, []).append((conditions, action.value.texts))
                     continue
                 values[name] = action.value.texts
                 settable.discard(name)
-                perhaps.pop(name, None)
+                conditional.pop(name, None)
         if action.kind == "argument" and action.target is not None:
             settable.update(action.target.texts)
-        waiting += [(child, around) for child in reversed(action.children)]
-    for name, assignments in perhaps.items():
+        pending += [(child, conditions) for child in reversed(action.children)]
+    for name, assignments in conditional.items():
         texts = [text for _, alternatives in assignments for text in alternatives]
-        if _covers([conditions for conditions, _ in assignments]):
+        if _is_exhaustive([conditions for conditions, _ in assignments]):
             settable.discard(name)
         else:
             settable.update({name} - values.keys())
             texts = [*values.get(name, ()), *texts]
         values[name] = tuple(dict.fromkeys(texts))
-    return DefaultConfigurations(values, _own(values, settable))
+    return DefaultConfigurations(values, _independent_configurations(values, settable))
 
 
-_SOME_TIME = LaunchCondition((UNKNOWN,), None)
+_UNKNOWN_CONDITION = LaunchCondition((UNKNOWN,), None)
 
 
-def _covers(several: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Return whether one of the single conditions is the opposite of another, so that one holds."""
-    single = {conditions[0] for conditions in several if len(conditions) == 1 and all(map(_is_known, conditions))}
+def _is_exhaustive(condition_sets: list[tuple[LaunchCondition, ...]]) -> bool:
+    """Return whether a single condition and its opposite are both in the list, so that one of them holds."""
+    single = {conditions[0] for conditions in condition_sets if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
 
 
@@ -75,14 +75,14 @@ def _is_known(condition: LaunchCondition) -> bool:
     return all(is_plain(text) or named_in(text) for text in condition.texts)
 
 
-def _own(values: Mapping[str, tuple[str, ...]], given: set[str]) -> frozenset[str]:
+def _independent_configurations(values: Mapping[str, tuple[str, ...]], settable: set[str]) -> frozenset[str]:
     """Return the configurations that depend on nothing but each other."""
-    own = values.keys() - given
-    while lost := {name for name in own if not all(_hangs_on(text, own) for text in values[name])}:
-        own -= lost
-    return frozenset(own)
+    independent = values.keys() - settable
+    while dependent := {name for name in independent if not all(_depends_only_on(text, independent) for text in values[name])}:
+        independent -= dependent
+    return frozenset(independent)
 
 
-def _hangs_on(text: str, names: Container[str]) -> bool:
+def _depends_only_on(text: str, names: Container[str]) -> bool:
     """Return whether a text depends only on some configurations. False if it computes their names."""
     return is_settled(text) or all(name in names for name in named_in(text) or ("\0",))

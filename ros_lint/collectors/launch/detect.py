@@ -15,7 +15,7 @@ LAUNCH_FILE_NAMES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".l
 """Suffixes by which ``ros2 launch`` recognizes launch files if the user gives a name without a path."""
 
 _PYTHON = re.compile(r"generate_(launch|test)_description\b")
-_DEFINED = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
+_DEF = re.compile(r"(?:async[ \t]+)?def[ \t]+\Z")
 _HELPER = re.compile(r"^[ \t]*(?:from|import)[ \t]+launch(?:_ros)?\b", re.MULTILINE)
 _ACTION = re.compile(r"\b(?:\w*Node|\w*LaunchDescription|ComposableNodeContainer)\(")
 _SPACE = re.compile(r"\s*")
@@ -31,7 +31,7 @@ _ROS2 = re.compile(
     r"\sexec\s*=|\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|command)\s"
     r"|<(?:let|executable|node_container|load_composable_node|push[-_]ros[-_]namespace|set_parameter|set_env)\b"
 )
-_STARTED = re.compile(r"pkg|exec|\stype\s*=")
+_NODE_ATTRIBUTE = re.compile(r"pkg|exec|\stype\s*=")
 _ROS2_WORDS = ("$(var ", "$(find-pkg-share ", " exec=")
 _YAML_ROOT = re.compile(r"^(?:launch|'launch'|\"launch\")[ \t]*:", re.MULTILINE)
 _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"][ \t]*:|\.\.\.)", re.MULTILINE)
@@ -50,7 +50,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
     if path.endswith((".yaml", ".yml")):
         return "yaml" if _is_yaml(text) else None
     if "<launch" in text and _is_xml(text):
-        return None if _is_of_others(path, text) else "xml"
+        return None if _is_of_other_format(path, text) else "xml"
     if path.endswith(".launch") and _is_yaml(text):
         return "yaml"
     return None
@@ -61,7 +61,7 @@ def entries(text: str) -> frozenset[str]:
     kinds = set()
     for match in _PYTHON.finditer(text):
         line = text.rfind("\n", 0, match.start()) + 1
-        if _DEFINED.match(text, line, match.start()):
+        if _DEF.match(text, line, match.start()):
             kinds.add(match[1])
     return frozenset(kinds)
 
@@ -82,9 +82,9 @@ def _is_xml(text: str) -> bool:
     return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))
 
 
-def _is_of_others(path: str, text: str) -> bool:
+def _is_of_other_format(path: str, text: str) -> bool:
     """Return whether the file is of another format with similar tags: nodes without package or executable."""
-    return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _STARTED.search(text)
+    return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _NODE_ATTRIBUTE.search(text)
 
 
 def _after_prolog(text: str) -> int:

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Span
     from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile
 
-_DEEPEST = 20
-_MOST = 5_000
-_MOST_ACTIONS = 100_000
+_MAX_DEPTH = 20
+_MAX_STARTED = 5_000
+_MAX_ACTIONS = 100_000
 
 
 class Started(NamedTuple):
@@ -29,17 +29,23 @@ class Started(NamedTuple):
     kind: str
     """``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Alternatives, () if there is no package. A text contains UNKNOWN where a part of it is unknown."""
+    """Alternatives, () if there is no package. A text with an unknown part is not plain (``launch.is_plain``)."""
     target: Texts
     """The executable, the component class, the command line or the path of the included file."""
     name: Texts
+    """Name that the launch file gives to the node, () if it sets none."""
     namespace: Texts
+    """Full namespace of the node."""
     parameters: tuple[tuple[str, Texts], ...]
+    """Parameters by name; a parameter file has the name ""."""
     remappings: tuple[tuple[Texts, Texts], ...]
+    """Old name and new name."""
     arguments: tuple[tuple[str, Texts], ...]
+    """Arguments of an include by name."""
     certain: bool
     """False if it is started under a condition that is unknown."""
     span: Span
+    """Place of the action."""
     depth: int
     """The number of includes between the launched file and this action."""
     container: Texts = ()
@@ -64,9 +70,13 @@ class Argument(NamedTuple):
     """A declared launch argument and its value in this run."""
 
     name: str
+    """Name of the argument."""
     texts: Texts
+    """Possible values."""
     span: Span
+    """Place of the declaration."""
     depth: int
+    """Number of includes between the launched file and the declaration."""
     given: bool
     """True if the caller or the including file passes the value, False if it is the default."""
 
@@ -75,6 +85,7 @@ class Missing(NamedTuple):
     """A required launch argument that no caller passes."""
 
     name: str
+    """Name of the argument."""
     span: Span
     """The place of the declaration."""
     include: Span | None = None
@@ -85,8 +96,11 @@ class Refused(NamedTuple):
     """A value that is not among the choices of its launch argument."""
 
     name: str
+    """Name of the argument."""
     value: str
+    """The value."""
     choices: tuple[str, ...]
+    """The values that the argument accepts."""
     span: Span
     """The place of the declaration."""
 
@@ -104,31 +118,35 @@ class Expansion(NamedTuple):
     """Everything that a launch file starts, in order."""
 
     started: tuple[Started, ...]
+    """Nodes, components, processes and includes."""
     missing: tuple[Missing, ...]
+    """Required arguments without a value."""
     complete: bool
     """False if the expansion stopped early, because includes are cyclic or a limit was exceeded."""
     arguments: tuple[Argument, ...] = ()
     """The arguments in the order of their declarations."""
     refused: tuple[Refused, ...] = ()
+    """Values that are not among the choices of their arguments."""
     circles: tuple[Circle, ...] = ()
+    """Includes that never end."""
 
 
 def expand(
     file: LaunchFile,
-    given: Mapping[str, str],
+    passed: Mapping[str, str],
     files: Callable[[str], LaunchFile | None] = lambda path: None,
     distro: str = "",
     *,
     brief: bool = False,
 ) -> Expansion:
-    """Return what a launch file starts with the arguments ``given``.
+    """Return what a launch file starts with the arguments ``passed``.
 
     ``files`` returns an included file by its path, which may begin with the mark of an install prefix. The path of
     ``file`` itself contains its location, too. ``brief`` omits parameters (except parameter files), remappings and
-    the arguments of included files, because they are most of the work.
+    the arguments of included files, which take most of the time.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
-    run.file(file, {name: (value,) for name, value in given.items()})
+    run.file(file, {name: (value,) for name, value in passed.items()})
     return Expansion(
         tuple(run.started),
         tuple(run.missing),
@@ -139,7 +157,7 @@ def expand(
     )
 
 
-class _Waiting(NamedTuple):
+class _Delayed(NamedTuple):
     """Actions that a timer or an event starts."""
 
     place: int
@@ -164,37 +182,37 @@ class _Run:
         self.refused: list[Refused] = []
         self.circles: list[Circle] = []
         self.complete = True
-        self._left = _MOST_ACTIONS
+        self._remaining = _MAX_ACTIONS
         self._via: Span | None = None
-        self._waiting: list[_Waiting] = []
+        self._delayed: list[_Delayed] = []
         self._values: dict[str, Texts] = {}
         """Values that are set outside of any scoped group."""
 
-    def file(self, file: LaunchFile, given: dict[str, Texts]) -> None:
+    def file(self, file: LaunchFile, passed: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
-        self._open.append((file.path, dict(given)))
-        self._values = given
-        self._actions(file.actions, Scope(given, (folder or ".",)))
-        self._wake()
+        self._open.append((file.path, dict(passed)))
+        self._values = passed
+        self._actions(file.actions, Scope(passed, (folder or ".",)))
+        self._expand_delayed()
 
-    def _wake(self) -> None:
+    def _expand_delayed(self) -> None:
         """Expand the actions of timers and events, and insert the results at the place of the timer or event.
 
         All files have been expanded by then, so a configuration that is declared or set after a timer counts, too. A
         configuration that was set before keeps its value, because a function may have read it by then.
         """
-        waiting, self._waiting = self._waiting, []
-        for entry in reversed(waiting):  # in reverse, so that the positions of the earlier ones remain valid
+        delayed, self._delayed = self._delayed, []
+        for entry in reversed(delayed):  # in reverse, so that the positions of the earlier ones remain valid
             end = len(self.started)
             self._open, self._via = list(entry.open), entry.via
             self._actions(
                 entry.actions,
                 entry.scope._replace(values={**self._values, **entry.scope.values}, later=True),
             )
-            self._wake()
-            new = self.started[end:]
+            self._expand_delayed()
+            inserted = self.started[end:]
             del self.started[end:]
-            self.started[entry.place : entry.place] = new
+            self.started[entry.place : entry.place] = inserted
 
     def _actions(self, actions: Iterable[LaunchAction], scope: Scope) -> Scope:
         for action in actions:
@@ -202,8 +220,8 @@ class _Run:
         return scope
 
     def _action(self, action: LaunchAction, scope: Scope) -> Scope:
-        self._left -= 1
-        if len(self.started) > _MOST or self._left < 0:
+        self._remaining -= 1
+        if len(self.started) > _MAX_STARTED or self._remaining < 0:
             self.complete = False
             return scope
         truth, when = self._filling.truth(action.conditions, scope)
@@ -218,13 +236,27 @@ class _Run:
             case "set":
                 for name in self._texts(action.target, scope):
                     self._set(scope, name, self._texts(action.value, scope), scope.certain)
+            case "unset":
+                for name in self._texts(action.target, scope):
+                    if scope.certain:
+                        scope.values.pop(name, None)
+                    elif name in scope.values:
+                        self._set(scope, name, (UNKNOWN,), certain=False)
+            case "unset_environment":
+                names = self._texts(action.target, scope)
+                pairs = tuple((name, () if scope.certain else (UNKNOWN,)) for name in names)
+                return outer._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
+            case "reset":
+                return outer.after(self._reset(action, scope))
+            case "reset_environment":
+                return outer._replace(environment=tuple((name, (UNKNOWN,)) for name, _ in scope.environment if not scope.certain))
             case "namespace" | "parameter" | "remap" | "environment":
                 return outer.after(self._pushed(action, scope))
             case "group":
                 return outer.after(self._group(action, scope))
             case "later":
-                seen = scope._replace(values=dict(scope.values))
-                self._waiting.append(_Waiting(len(self.started), action.children, seen, tuple(self._open), self._via))
+                snapshot = scope._replace(values=dict(scope.values))
+                self._delayed.append(_Delayed(len(self.started), action.children, snapshot, tuple(self._open), self._via))
             case "include":
                 return outer.after(self._include(action, scope))
             case "node" | "component" | "process":
@@ -254,11 +286,25 @@ class _Run:
         return bool(action.choices) and all(map(is_settled, action.choices)) and value not in action.choices
 
     def _set(self, scope: Scope, name: str, texts: Texts, certain: bool) -> None:
-        before = scope.values.get(name)
-        if certain or before is None:
+        present = scope.values.get(name)
+        if certain or present is None:
             scope.values[name] = texts
         else:
-            scope.values[name] = tuple(dict.fromkeys((*before, *texts)))
+            scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
+
+    def _reset(self, action: LaunchAction, scope: Scope) -> Scope:
+        """Clear the launch configurations, and return the scope after it.
+
+        Namespaces, parameters and remappings that hold for later nodes are launch configurations of launch_ros.
+        """
+        kept = {name: self._texts(value, scope) for name, value in action.arguments}
+        if scope.certain:
+            scope.values.clear()
+            scope.values.update(kept)
+            return scope._replace(namespace=("",), parameters=(), remappings=())
+        for name in scope.values:
+            self._set(scope, name, kept.get(name, (UNKNOWN,)), certain=False)
+        return scope._replace(namespace=(*scope.namespace, ""))
 
     def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
         """Return a scope with the setting that an action makes for all later actions."""
@@ -272,13 +318,13 @@ class _Run:
             return scope._replace(remappings=(*scope.remappings, (names, texts)))
         if action.kind == "parameter":
             return scope._replace(parameters=(*scope.parameters, *((name, texts) for name in names)))
-        before = dict(scope.environment)
+        environment = dict(scope.environment)
         if action.name is None:
             pairs = tuple((name, texts) for name in names)
         else:
             separators = self._texts(dict(action.arguments).get("separator"), scope) or (":",)
             order = -1 if action.name.texts == ("prepend",) else 1
-            rows = [(before.get(name, (UNKNOWN,)), separators, texts)[::order] for name in names]
+            rows = [(environment.get(name, (UNKNOWN,)), separators, texts)[::order] for name in names]
             pairs = tuple((name, joined(row, "".join)) for name, row in zip(names, rows, strict=True))
         return scope._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
 
@@ -306,7 +352,7 @@ class _Run:
         is_repeated = (path, scope.values) in self._open
         if is_repeated and scope.certain:
             self.circles.append(Circle(file.path, action.span))
-        if is_repeated or self.circles or len(self._open) > _DEEPEST:
+        if is_repeated or self.circles or len(self._open) > _MAX_DEPTH:
             self.complete = False
             return scope
         self._via = self._via if self._depth else action.span
@@ -355,7 +401,7 @@ class _Run:
             self._depth,
             scope.container if action.kind == "component" else (),
             (
-                *(scope.environment if action.kind in ("node", "process") else ()),
+                *(pair for pair in scope.environment if pair[1] and action.kind in ("node", "process")),
                 *((name[1:], texts) for name, texts in named if name.startswith("$")),
             ),
             unknown=tuple(self._filling.unknown),

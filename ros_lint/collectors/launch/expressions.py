@@ -15,8 +15,8 @@ from ros_lint.collectors.python.syntax import read_expression
 from ros_lint.collectors.python.versions import BUILTINS, MATH
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
-_LONGEST = 2_000
-_MOST = 10_000
+_MAX_LENGTH = 2_000
+_MAX_SIZE = 10_000
 """The maximum number of characters and items of a value, those of nested items included."""
 _WIDE = re.compile(r"%[^%a-zA-Z]*(?:\*|\d{4})")
 """A format conversion that can produce a text of any length."""
@@ -28,8 +28,8 @@ class _Unknown(Exception):  # noqa: N818
 
 @lru_cache(maxsize=1_024)
 def evaluate(text: str) -> str:
-    """Return str() of the value of an expression, UNKNOWN if it has none or needs more than constants."""
-    if len(text) > _LONGEST:
+    """Return str() of the value of a constant expression, UNKNOWN for any other text."""
+    if len(text) > _MAX_LENGTH:
         return UNKNOWN
     try:
         return str(_value(read_expression(text.strip())))
@@ -38,7 +38,7 @@ def evaluate(text: str) -> str:
 
 
 @lru_cache(maxsize=1_024)
-def refused(text: str) -> tuple[str, ...] | None:
+def unresolved_names(text: str) -> tuple[str, ...] | None:
     """Return the names in an expression that launch cannot resolve, None if the text is not an expression."""
     try:
         tree = read_expression(text.lstrip())
@@ -47,15 +47,15 @@ def refused(text: str) -> tuple[str, ...] | None:
     names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
     bound = {node.id for node in names if not isinstance(node.ctx, ast.Load)}
     bound.update(node.arg for node in ast.walk(tree) if isinstance(node, ast.arg))
-    return tuple(dict.fromkeys([node.id for node in names if node.id not in bound and node.id not in _KNOWN]))
+    return tuple(dict.fromkeys([node.id for node in names if node.id not in bound and node.id not in _RESOLVED_NAMES]))
 
 
-_KNOWN = BUILTINS | MATH | {"math"}
+_RESOLVED_NAMES = BUILTINS | MATH | {"math"}
 """The names that PythonExpression resolves: builtins, and everything in ``math``."""
 
 
 def means_true(text: str) -> bool | None:
-    """Return the truth of a condition, None if it has none (``evaluate_condition_expression``)."""
+    """Return the truth of a condition, None if launch rejects it (``evaluate_condition_expression``)."""
     word = text.strip().lower()
     if word in ("true", "1"):
         return True
@@ -80,7 +80,7 @@ def _value(node: ast.expr) -> Any:
             return name == "true"
         case ast.UnaryOp(op=op, operand=operand):
             value = _value(operand)
-            return not value if isinstance(op, ast.Not) else -value if isinstance(op, ast.USub) else _refuse()
+            return not value if isinstance(op, ast.Not) else -value if isinstance(op, ast.USub) else _unknown()
         case ast.BoolOp(op=op, values=values):
             result: Any = None
             for part in values:
@@ -91,12 +91,12 @@ def _value(node: ast.expr) -> Any:
         case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
             return _arithmetic(op, _value(left), _value(right))
         case ast.Compare(left=left, ops=ops, comparators=comparators):
-            before = _value(left)
+            previous = _value(left)
             for comparison, comparator in zip(ops, comparators, strict=True):
-                after = _value(comparator)
-                if not _COMPARE[type(comparison)](before, after):
+                current = _value(comparator)
+                if not _COMPARE[type(comparison)](previous, current):
                     return False
-                before = after
+                previous = current
             return True
         case ast.IfExp(test=test, body=body, orelse=orelse):
             return _value(body) if _value(test) else _value(orelse)
@@ -112,7 +112,7 @@ def _value(node: ast.expr) -> Any:
             return _value(owner)[_value(key)]
         case ast.Call():
             return _call(node)
-    return _refuse()
+    return _unknown()
 
 
 def _call(node: ast.Call) -> Any:
@@ -120,25 +120,25 @@ def _call(node: ast.Call) -> Any:
     if isinstance(node.func, ast.Attribute) and node.func.attr in _METHODS:
         owner = _value(node.func.value)
         if not isinstance(owner, str):
-            return _refuse()
-        if node.func.attr == "replace" and len(owner) * sum(map(len, arguments[1:2])) > _MOST:
-            return _refuse()
+            return _unknown()
+        if node.func.attr == "replace" and len(owner) * sum(map(len, arguments[1:2])) > _MAX_SIZE:
+            return _unknown()
         return _small(getattr(owner, node.func.attr)(*arguments))
     name = node.func.id if isinstance(node.func, ast.Name) else ""
     if name in _FUNCTIONS:
         return _FUNCTIONS[name](*arguments)
-    return _refuse()
+    return _unknown()
 
 
 def _truth(text: Any) -> bool:
     truth = means_true(str(text))
-    return _refuse() if truth is None else truth
+    return _unknown() if truth is None else truth
 
 
 def _equals(left: Any, right: Any) -> bool:
-    """Return whether EqualsSubstitution takes two values for equal: booleans and numbers by their value."""
-    one, other = means_true(str(left)), means_true(str(right))
-    return one == other if one is not None and other is not None else str(left) == str(right)
+    """Return whether EqualsSubstitution considers two values equal; "true" equals "1"."""
+    left_truth, right_truth = means_true(str(left)), means_true(str(right))
+    return left_truth == right_truth if left_truth is not None and right_truth is not None else str(left) == str(right)
 
 
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
@@ -149,7 +149,7 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "len": len,
     "_equals": _equals,
     "_not_equals": lambda left, right: not _equals(left, right),
-    "_if": lambda condition, one, other: one if _truth(condition) else other,
+    "_if": lambda condition, if_value, else_value: if_value if _truth(condition) else else_value,
     "_not": lambda value: not _truth(value),
     "_and": lambda *values: all(_truth(value) for value in values),
     "_or": lambda *values: any(_truth(value) for value in values),
@@ -158,8 +158,8 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 
 def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
     if isinstance(op, ast.Mult):
-        for one, times in ((left, right), (right, left)):
-            if isinstance(one, (str, list, tuple)) and isinstance(times, int) and _size(one) * times > _MOST:
+        for sequence, times in ((left, right), (right, left)):
+            if isinstance(sequence, (str, list, tuple)) and isinstance(times, int) and _size(sequence) * times > _MAX_SIZE:
                 raise _Unknown
     if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE.search(left):
         raise _Unknown
@@ -167,10 +167,10 @@ def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
 
 
 def _small(value: Any) -> Any:
-    """Return the value. Raises _Unknown if it is too large."""
+    """Return the value unchanged. Raises _Unknown if it is too large."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
-    if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MOST:
+    if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MAX_SIZE:
         raise _Unknown
     return value
 
@@ -178,16 +178,16 @@ def _small(value: Any) -> Any:
 def _size(value: Any) -> int:
     """Return the number of characters and items in a value with nested ones. Stops above the limit."""
     size = 0
-    waiting = [value]
-    while waiting and size <= _MOST:
-        item = waiting.pop()
+    pending = [value]
+    while pending and size <= _MAX_SIZE:
+        item = pending.pop()
         size += len(item) if isinstance(item, (str, list, tuple, dict)) else 1
         if isinstance(item, dict):
-            waiting += [*item.keys(), *item.values()]
+            pending += [*item.keys(), *item.values()]
         elif isinstance(item, (list, tuple)):
-            waiting += item
+            pending += item
     return size
 
 
-def _refuse() -> Any:
+def _unknown() -> Any:
     raise _Unknown

@@ -5,22 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ros_lint.collectors.launch.expressions import evaluate, means_true
-from ros_lint.collectors.symbolic_text import asked_for, fill, is_settled, named_in
+from ros_lint.collectors.symbolic_text import fill, is_settled, named_in, package_of_presence
 from ros_lint.facts.launch import LaunchCondition
 
 
 def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions test if something is installed: the actions under them are optional."""
-    return any(condition.wanted and asked_for(text) for condition in conditions for text in condition.texts)
+    """Return whether conditions check if something is installed, so that actions under them are optional."""
+    return any(condition.wanted and package_of_presence(text) for condition in conditions for text in condition.texts)
 
 
 DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
 """The maintained distributions.
 
-Conditions on older ones are ignored. A test compares the list with the distributions of the package index: it is
-constant here, because facts of a file must not depend on data that the user may have updated.
+Conditions on older ones are ignored. The list is constant, because the facts of a file must not depend on data that
+the user can update. A test compares it with the package index.
 """
-_ASKED = "$ROS_DISTRO"
+_ROS_DISTRO = "$ROS_DISTRO"
 
 
 EVERYWHERE = frozenset(DISTRIBUTIONS)
@@ -28,14 +28,16 @@ EVERYWHERE = frozenset(DISTRIBUTIONS)
 
 def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]:
     """Return the distributions in which conditions on ROS_DISTRO may hold."""
-    asking = [condition for condition in conditions if any(_ASKED in text for text in condition.texts)]
-    return frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, asking)]) if asking else EVERYWHERE
+    on_distribution = [condition for condition in conditions if any(_ROS_DISTRO in text for text in condition.texts)]
+    return (
+        frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, on_distribution)]) if on_distribution else EVERYWHERE
+    )
 
 
 def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions can hold in a distribution. Only those on ROS_DISTRO alone are evaluated."""
     for (text, *further_texts), equals, wanted in conditions:
-        if further_texts or set(named_in(text) or ()) != {_ASKED}:
+        if further_texts or set(named_in(text) or ()) != {_ROS_DISTRO}:
             continue
         texts = fill(text, lambda _: (distro,), evaluate)
         answers = {means_true(filled) if equals is None else filled == equals for filled in texts if is_settled(filled)}

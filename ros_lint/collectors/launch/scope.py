@@ -6,7 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch.expressions import evaluate, means_true
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, asked_for, configurations, fill, is_settled, named_in
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, configurations, fill, is_settled, named_in, package_of_presence
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchCondition, LaunchValue
 
 Texts = tuple[str, ...]
+"""Alternative texts."""
 
 
 class Scope(NamedTuple):
@@ -30,6 +31,7 @@ class Scope(NamedTuple):
     parameters: tuple[tuple[str, Texts], ...] = ()
     remappings: tuple[tuple[Texts, Texts], ...] = ()
     environment: tuple[tuple[str, Texts], ...] = ()
+    """Variables by name; one that is unset has no texts."""
     container: Texts = ()
     when: tuple[LaunchCondition, ...] = ()
     later: bool = False
@@ -69,7 +71,7 @@ class Filling:
             if is_settled(text) and OWN_FOLDER not in text:
                 results[text] = None
                 continue
-            for filled in self._put(text, scope):
+            for filled in self._fill(text, scope):
                 if OWN_FOLDER in filled:
                     results.update(dict.fromkeys([filled.replace(OWN_FOLDER, folder) for folder in scope.folder]))
                 else:
@@ -78,7 +80,7 @@ class Filling:
                     self.unknown.update(dict.fromkeys(self._reasons(text, scope)))
         return tuple(results)
 
-    def _put(self, text: str, scope: Scope) -> Texts:
+    def _fill(self, text: str, scope: Scope) -> Texts:
         names = named_in(text)
         if names is None:
             return fill(text, lambda name: self._value(name, scope), evaluate)
@@ -87,7 +89,8 @@ class Filling:
     def _value(self, name: str, scope: Scope) -> Texts | None:
         if not name.startswith("$"):
             return scope.values.get(name)
-        return dict(scope.environment).get(name[1:]) or self._environment.get(name)
+        changed = dict(scope.environment)
+        return changed[name[1:]] or None if name[1:] in changed else self._environment.get(name)
 
     def _reasons(self, text: str, scope: Scope) -> Iterator[str]:
         """Yield the reasons why a text is unknown."""
@@ -95,29 +98,29 @@ class Filling:
             value = self._value(name, scope)
             if name.startswith("$"):
                 if value is None and not has_default:
-                    yield f"the environment variable {name[1:]} is not known here"
+                    yield f"the environment variable '{name[1:]}' is not known"
             elif value == (UNKNOWN,):
-                yield f"the argument {name} is not known"
+                yield f"the argument '{name}' is not known"
             elif value is None and not has_default:
-                yield f"nothing sets the launch configuration {name}"
+                yield f"the launch configuration '{name}' is not set"
         if UNKNOWN in text:
-            yield "it is computed in a way that cannot be followed"
+            yield "it is computed in a way that ros-lint cannot follow"
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
         """Return whether all conditions hold (None if unknown), and the unknown conditions."""
-        open_: list[LaunchCondition] = []
+        unknown: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
             if truth is False:
                 return False, ()
             if truth is None:
-                open_.append(condition)
-        return (None if open_ else True), tuple(open_)
+                unknown.append(condition)
+        return (None if unknown else True), tuple(unknown)
 
     def _holds(self, condition: LaunchCondition, scope: Scope) -> bool | None:
         answers: set[bool | None] = set()
         for text in self._filled(condition.texts, scope):
-            if asked_for(text):
+            if package_of_presence(text):
                 answers.add(True)  # the expansion assumes that everything is installed
             elif not is_settled(text):
                 answers.add(None)

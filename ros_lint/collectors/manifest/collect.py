@@ -40,23 +40,23 @@ def collect(source: Text) -> Manifest:
     text = Text(source.path, document.text)  # as the tools read it, if the declared encoding is wrong
     root = document.root
     if root is None or root.tag != "package":
-        return _no_package(text, document)
-    form = read_format(root)
+        return _without_package(text, document)
+    format_number = read_format(root)
     place = _placer(text)
     format_span = None
     if "format" in root.attributes:
         _, start, end = attribute(text.text, root, "format")
         format_span = place(start, end)
     begin = place(root.inner, root.inner)
-    content = _read_children(text.path, document, root, ALLOWED.get(form, {}), place)
+    content = _read_children(text.path, document, root, ALLOWED.get(format_number, {}), place)
     end = root.close if root.end >= 0 else document.read
     faults = document.faults
-    if faults or content.doubtful or not surely_accepted(root, form, content.elements, content.depends):
-        faults = (*faults, *find_problems(document, root, form, content.elements, content.depends))
+    if faults or content.doubtful or not surely_accepted(root, format_number, content.elements, content.depends):
+        faults = (*faults, *find_problems(document, root, format_number, content.elements, content.depends))
     name = next((element for element in content.elements if element.tag == "name"), None)
     return Manifest(
         text.path,
-        form or _NEWEST_FORMAT,
+        format_number or _NEWEST_FORMAT,
         name.text if name else "",
         next((element.text for element in content.elements if element.tag == "version"), ""),
         tuple(content.elements),
@@ -71,11 +71,13 @@ def collect(source: Text) -> Manifest:
         tuple(content.strays),
         _indent(text.text, document),
         text.newline,
+        source.text,
+        source.codec,
     )
 
 
-class _Found:
-    """The contents of ``<package>``. ``doubtful``: an element may have invalid attributes or children."""
+class _PackageContent:
+    """The contents of ``<package>``; ``doubtful`` if an element may have invalid attributes or children."""
 
     __slots__ = ("asides", "depends", "doubtful", "elements", "exports", "strays")
 
@@ -88,39 +90,41 @@ class _Found:
         self.doubtful = False
 
 
-def _read_children(path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place) -> _Found:
-    content = _Found()
+def _read_children(
+    path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place
+) -> _PackageContent:
+    content = _PackageContent()
     text, events = document.text, document.events
     count, rfind, add_depend, add_element = text.count, text.rfind, content.depends.append, content.elements.append
     plain_lines = "\r" not in text
     at, last = 1, len(events)
     line, begin, counted = 1, -1, 0
-    done = root.inner
+    previous_end = root.inner
     while at < last and not isinstance(event := events[at], int):
         tag, attributes, start = event
-        if start != done and not (gap := text[done:start]).isspace():
-            _read_asides(gap, done, content, place)
+        if start != previous_end and not (gap := text[previous_end:start]).isspace():
+            _read_asides(gap, previous_end, content, place)
         if plain_lines and not attributes and at + 1 < last and isinstance(close := events[at + 1], int):
             # Most elements contain only text, on one line. They are read here, at a third of the cost.
             inner = start + len(tag) + 2
-            done = close + len(tag) + 3
+            previous_end = close + len(tag) + 3
             raw = text[inner:close]
-            if text[inner - 1] == ">" == text[done - 1] and " " not in tag and (raw.isidentifier() or _PLAIN(raw)):
+            if text[inner - 1] == ">" == text[previous_end - 1] and " " not in tag and (raw.isidentifier() or _PLAIN(raw)):
                 at += 2
-                if passed := count("\n", counted, start):
-                    line += passed
+                if newlines := count("\n", counted, start):
+                    line += newlines
                     begin = rfind("\n", counted, start)
                 counted = start
                 column = inner - begin
-                span = _new(Span, (path, line, start - begin, line, done - begin))
+                span = _new(Span, (path, line, start - begin, line, previous_end - begin))
                 name_span = _new(Span, (path, line, column, line, column + len(raw)))
                 if tag in DEPENDENCY_TAGS:
-                    add_depend(_new(Depend, (raw, tag, "", (), span, name_span, done - close)))
+                    add_depend(_new(Depend, (raw, tag, "", (), span, name_span, previous_end - close)))
                 else:
                     add_element(_new(Element, (tag, raw, (), span, name_span)))
                 continue
         node, at = child(document, at)
-        done = node.end if node.end >= 0 else len(text)  # else the file ends in it
+        previous_end = node.end if node.end >= 0 else len(text)  # else the file ends in it
         rich = node.tag in ("description", "export")
         if (node.children and not rich) or not allowed.get(node.tag, _NONE).issuperset(node.attributes):
             content.doubtful = True
@@ -129,18 +133,20 @@ def _read_children(path: str, document: Document, root: Node, allowed: Mapping[s
         elif node.end >= 0:
             content.elements.append(_element(text, node, place, rich=rich))
         if node.tag == "export":
-            content.exports += [_element(text, inside, place, rich=True) for inside in node.children if inside.end >= 0]
-    if root.end >= 0 and done < root.close and not (gap := text[done : root.close]).isspace():
-        _read_asides(gap, done, content, place)
+            content.exports += [
+                _element(text, inner_node, place, rich=True) for inner_node in node.children if inner_node.end >= 0
+            ]
+    if root.end >= 0 and previous_end < root.close and not (gap := text[previous_end : root.close]).isspace():
+        _read_asides(gap, previous_end, content, place)
     return content
 
 
-def _read_asides(gap: str, start: int, found: _Found, place: _Place) -> None:
+def _read_asides(gap: str, start: int, content: _PackageContent, place: _Place) -> None:
     for aside in _ASIDE.finditer(gap):
         span = place(start + aside.start(), start + aside.end())
-        found.asides.append(span)
+        content.asides.append(span)
         if not aside[0].startswith(("<!--", "<?")):
-            found.strays.append(span)
+            content.strays.append(span)
 
 
 def _depend(text: str, node: Node, place: _Place) -> Depend:
@@ -170,7 +176,7 @@ def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Ele
 
 
 def _placer(source: Text) -> _Place:
-    """Return :meth:`Text.span` for places in ascending order, at a third of the cost."""
+    """Return a function like :meth:`Text.span`, at a third of the cost, for places in ascending order only."""
     path, text = source.path, source.text
     if "\r" in text:
         return source.span
@@ -179,8 +185,8 @@ def _placer(source: Text) -> _Place:
 
     def place(start: int, end: int) -> Span:
         nonlocal line, begin, at
-        if passed := count("\n", at, start):
-            line += passed
+        if newlines := count("\n", at, start):
+            line += newlines
             begin = rfind("\n", at, start) + 1
         at = start
         if lines := count("\n", start, end):
@@ -190,8 +196,8 @@ def _placer(source: Text) -> _Place:
     return place
 
 
-def _no_package(text: Text, document: Document) -> Manifest:
-    """Return the manifest of a file without ``<package>``."""
+def _without_package(text: Text, document: Document) -> Manifest:
+    """Return the manifest of a file without ``<package>``, with the problem."""
     faults = list(document.faults)
     root = document.root
     start = root.start + 1 if root else 0

@@ -21,40 +21,47 @@ MOST_DEPTH = 20
 
 
 class ConditionError(ValueError):
-    """A condition that cannot be parsed.
-
-    ``offset`` counts code points, from 0 to the length of the condition.
-    """
+    """A condition that cannot be parsed."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
         self.message: Final = message
+        """Reason, without the condition."""
         self.offset: Final = offset
+        """Place in the condition: 0 to its length, in code points."""
 
 
 class Operand(NamedTuple):
     """An operand of a comparison: the value of a variable, or a text."""
 
     text: str
+    """Name of the variable, or the text."""
     variable: bool
+    """True for the value of a variable."""
 
 
 class Comparison(NamedTuple):
     """A comparison of two strings as strings: "10" is less than "9"."""
 
     left: Operand
+    """Left operand."""
     operator: str
+    """``==``, ``!=``, ``<``, ``<=``, ``>`` or ``>=``."""
     right: Operand
+    """Right operand."""
 
 
 class Junction(NamedTuple):
     """Conditions joined by ``and`` (all have to hold) or by ``or``."""
 
     every: bool
+    """True for ``and``, false for ``or``."""
     parts: tuple[Condition, ...]
+    """The joined conditions, at least two."""
 
 
 Condition = Comparison | Junction
+"""A parsed condition."""
 
 _OPERATORS: dict[str, Callable[[str, str], bool]] = {
     "==": operator.eq,
@@ -138,7 +145,7 @@ def of(element: Element) -> str:
 
 
 def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[str, bool | None], ...]:
-    """Return the build types whose condition is not false, each with its truth: True, or None if unknown.
+    """Return the build types whose condition is not false: True if it holds, None if it is unknown.
 
     An empty result means "catkin". With two true build types, colcon does not treat the folder as a ROS package
     (colcon-ros, package identification).
@@ -148,7 +155,7 @@ def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[s
 
 
 def problems(manifest: Manifest) -> tuple[Problem, ...]:
-    """Return the conditions that cannot be parsed: to colcon, such a folder is no ROS package."""
+    """Return the conditions that cannot be parsed; colcon does not treat such a folder as a ROS package."""
     return tuple(_unparsable(manifest))
 
 
@@ -159,7 +166,7 @@ def _unparsable(manifest: Manifest) -> Iterator[Problem]:
         try:
             parse(text)
         except ConditionError as error:
-            message = f"condition {text} of <{tag}> does not parse: at character {error.offset + 1}, {error.message}"
+            message = f"condition '{text}' of <{tag}> does not parse: at character {error.offset + 1}, {error.message}"
             if not text.strip():
                 message = f"condition of <{tag}> is empty; remove the attribute"
             yield Problem("invalid-condition", message, span)
@@ -196,10 +203,10 @@ def _comparison(text: str, at: int, depth: int) -> tuple[Condition, int]:
     if text.startswith("(", at):
         if depth == MOST_DEPTH:
             raise ConditionError("too many parentheses", at)
-        inside, at = _junction(text, at + 1, depth + 1)
+        junction, at = _junction(text, at + 1, depth + 1)
         if not text.startswith(")", at):
             raise ConditionError('expected "and", "or" or ")"', at)
-        return inside, at + 1
+        return junction, at + 1
     left, at = _operand(text, at)
     sign = _OPERATOR.match(text, at := _skip(text, at))
     if not sign:
@@ -213,10 +220,10 @@ def _operand(text: str, at: int) -> tuple[Operand, int]:
     if not match:
         raise ConditionError("expected a $variable, a word or a quoted string", at)
     kind = match.lastgroup or ""
-    written = match[kind]
+    operand_text = match[kind]
     if kind in ("double", "single"):
-        written = _ESCAPES.sub(_escaped, written)
-    return Operand(written, kind == "variable"), match.end()
+        operand_text = _ESCAPES.sub(_escaped, operand_text)
+    return Operand(operand_text, kind == "variable"), match.end()
 
 
 def _escaped(escape: re.Match[str]) -> str:

@@ -23,7 +23,7 @@ _EMAIL = re.compile(r"^[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-
 
 _BASE = ("build_depend", "buildtool_depend", "test_depend", "conflict", "replace")
 _SINCE_2 = ("build_export_depend", "buildtool_export_depend", "depend", "exec_depend", "doc_depend")
-_ALIKE = {
+_COMMON_TAGS = {
     "name": (),
     "version": ("compatibility",),
     "description": (),
@@ -35,63 +35,63 @@ _ALIKE = {
 }
 
 
-def _allowed(form: int) -> dict[str, frozenset[str]]:
+def _allowed(format_number: int) -> dict[str, frozenset[str]]:
     """Return the attributes of each tag of a format."""
-    tags = {tag: frozenset(names) for tag, names in _ALIKE.items()}
-    condition = ("condition",) if form > 2 else ()
-    of_format = ("run_depend",) if form == 1 else _SINCE_2
+    tags = {tag: frozenset(names) for tag, names in _COMMON_TAGS.items()}
+    condition = ("condition",) if format_number > 2 else ()
+    of_format = ("run_depend",) if format_number == 1 else _SINCE_2
     tags.update(dict.fromkeys((*_BASE, *of_format), VERSIONS.union(condition)))
-    if form > 2:
+    if format_number > 2:
         tags.update(dict.fromkeys(("group_depend", "member_of_group"), frozenset(condition)))
         tags["license"] = frozenset(("file",))
     return tags
 
 
-ALLOWED: Final = {form: _allowed(form) for form in (1, 2, 3)}
+ALLOWED: Final = {format_number: _allowed(format_number) for format_number in (1, 2, 3)}
 """The tags that ``<package>`` may contain, by format, each with its attributes."""
 
-_GENERIC = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
+_DEPEND_TAGS = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
 """The <depend> tag and the tags that it includes."""
 
-_OF_EXPORT = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
-"""Tags that have a meaning only in <export>."""
+_EXPORT_TAGS = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
+"""Tags that are valid only in <export>."""
 
-_NOT_ON_ITSELF = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
+_TAGS_FOR_OTHERS = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
 
 
 def read_format(root: Node) -> int:
     """Return the format of a manifest, or 0 for an unknown one."""
     try:
-        form = int(root.attributes.get("format", "1"))
+        format_number = int(root.attributes.get("format", "1"))
     except ValueError:
         return 0
-    return form if form in ALLOWED else 0
+    return format_number if format_number in ALLOWED else 0
 
 
-def surely_accepted(root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
+def surely_accepted(root: Node, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
     """Return True if :func:`find_problems` can only report attributes and children. A fifth of its cost."""
-    if not form or not root.attributes.keys() <= {"format"}:
+    if not format_number or not root.attributes.keys() <= {"format"}:
         return False
     tags = [element.tag for element in elements]
     kinds = [depend.tag for depend in depends]
-    if not ALLOWED[form].keys() >= {*tags, *kinds} or "group_depend" in kinds or tags.count("export") > 1:
+    if not ALLOWED[format_number].keys() >= {*tags, *kinds} or "group_depend" in kinds or tags.count("export") > 1:
         return False
     if not tags.count("name") == tags.count("version") == tags.count("description") == 1:
         return False
-    if "maintainer" not in tags or "license" not in tags or not all(map(_sound, elements)):
+    if "maintainer" not in tags or "license" not in tags or not all(map(_is_valid, elements)):
         return False
     names = [depend.name for depend in depends]
     if elements[tags.index("name")].text in names:
         return False
-    if form == 1:
+    if format_number == 1:
         return "test_depend" not in kinds
     if "depend" in kinds:
-        names = [depend.name for depend in depends if depend.tag in _GENERIC]
+        names = [depend.name for depend in depends if depend.tag in _DEPEND_TAGS]
         return len(set(names)) == len(names)
     return True
 
 
-def _sound(element: Element) -> bool:
+def _is_valid(element: Element) -> bool:
     """Return whether the content of an element and its checked attributes are certainly valid."""
     tag = element.tag
     if tag == "name":
@@ -111,7 +111,7 @@ def _sound(element: Element) -> bool:
 
 
 def find_problems(
-    document: Document, root: Node, form: int, elements: Sequence[Element], depends: Sequence[Depend]
+    document: Document, root: Node, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]
 ) -> Iterator[Fault]:
     """Yield the errors in the content of a manifest, unordered. ``form`` is 0 if the format is unknown.
 
@@ -124,14 +124,14 @@ def find_problems(
     of_depends = list(zip([node for node in nodes if node.tag in dependency_tags], depends, strict=True))
     for name in root.attributes:
         if name != "format" and ":" not in name:
-            yield _unknown_attribute(document.text, root, name, form)
-    if form:
+            yield _unknown_attribute(document.text, root, name, format_number)
+    if format_number:
         for node in nodes:
-            yield from _content(document, node, form)
+            yield from _content(document, node, format_number)
     else:
         _, start, end = attribute(document.text, root, "format")
-        written = root.attributes["format"]
-        yield Fault("format", f'there is no format "{written}" of package.xml; write format="3"', start, end)
+        value_text = root.attributes["format"]
+        yield Fault("format", f"there is no format '{value_text}' of package.xml; write format=\"3\"", start, end)
     yield from _presence(document, root, of_elements)
     own_name = ""
     for node, element in of_elements:
@@ -139,53 +139,61 @@ def find_problems(
             own_name = own_name or element.text
         if check := _CHECKS.get(node.tag):
             yield from check(document.text, node, element)
-    yield from _alone(of_depends, own_name)
-    if form == 1:
+    yield from _self_dependencies(of_depends, own_name)
+    if format_number == 1:
         yield from _duplicate_tests(of_depends)
     else:
         yield from _duplicates(of_depends)
 
 
-def _content(document: Document, node: Node, form: int) -> Iterator[Fault]:
+def _content(document: Document, node: Node, format_number: int) -> Iterator[Fault]:
     """Yield an element that its format does not have, or its invalid attributes and children."""
-    allowed = ALLOWED[form].get(node.tag)
+    allowed = ALLOWED[format_number].get(node.tag)
     if allowed is None:
-        yield _unknown_tag(node, form)
+        yield _unknown_tag(node, format_number)
         return
     for name in node.attributes:
         if name not in allowed and ":" not in name:
-            yield _unknown_attribute(document.text, node, name, form)
+            yield _unknown_attribute(document.text, node, name, format_number)
     if node.tag not in ("description", "export"):
-        for inside in node.children:
-            message = f"<{node.tag}> may contain only text; remove <{inside.tag}>"
-            yield Fault("nested-tag", message, inside.start, inside.end if inside.end >= 0 else document.read)
+        for inner_node in node.children:
+            message = f"<{node.tag}> may contain only text; remove <{inner_node.tag}>"
+            yield Fault("nested-tag", message, inner_node.start, inner_node.end if inner_node.end >= 0 else document.read)
 
 
-def _unknown_tag(node: Node, form: int) -> Fault:
+def _unknown_tag(node: Node, format_number: int) -> Fault:
     tag = node.tag
-    newer = next((str(later) for later, tags in ALLOWED.items() if later > form and tag in tags), "")
+    newer_format = next((str(later) for later, tags in ALLOWED.items() if later > format_number and tag in tags), "")
     if tag == "run_depend":
-        way_out = "write <exec_depend>"
+        remedy = "write <exec_depend>"
     elif tag == "exec_depend":
-        way_out = 'write <run_depend>, or raise the format to "2" or "3"'
-    elif tag in _OF_EXPORT:
-        way_out = "move it into <export>"
-    elif newer:
-        way_out = f'raise the format to "{newer}"'
+        remedy = "write <run_depend>, or raise the format to 2 or 3"
+    elif tag in _EXPORT_TAGS:
+        remedy = "move it into <export>"
+    elif newer_format:
+        remedy = f"raise the format to {newer_format}"
     else:
-        near = [f"<{known}>" for known in similar_names(tag, ALLOWED[form], 1, 0.75)]
-        way_out = did_you_mean(near, "") or "remove it, or move it into <export>"
-    return Fault("unknown-tag", f"there is no <{tag}> in format {form} of package.xml; {way_out}", node.start, node.end, newer)
+        suggestions = [f"<{known_tag}>" for known_tag in similar_names(tag, ALLOWED[format_number], 1, 0.75)]
+        remedy = did_you_mean(suggestions, "") or "remove it, or move it into <export>"
+    return Fault(
+        "unknown-tag",
+        f"there is no <{tag}> in format {format_number} of package.xml; {remedy}",
+        node.start,
+        node.end,
+        newer_format,
+    )
 
 
-def _unknown_attribute(text: str, node: Node, name: str, form: int) -> Fault:
+def _unknown_attribute(text: str, node: Node, name: str, format_number: int) -> Fault:
     start, _, end = attribute(text, node, name)
-    newer = next((str(later) for later, tags in ALLOWED.items() if later > form and name in tags.get(node.tag, ())), "")
-    if newer:
-        message = f'the attribute {name} of <{node.tag}> needs format {newer}; write <package format="{newer}">'
+    newer_format = next(
+        (str(later) for later, tags in ALLOWED.items() if later > format_number and name in tags.get(node.tag, ())), ""
+    )
+    if newer_format:
+        message = f"the attribute '{name}' of <{node.tag}> needs format {newer_format}; write <package format=\"{newer_format}\">"
     else:
-        message = f"<{node.tag}> has no attribute {name}; remove it"
-    return Fault("unknown-attribute", message, start, min(end + 1, node.inner), newer)
+        message = f"<{node.tag}> has no attribute '{name}'; remove it"
+    return Fault("unknown-attribute", message, start, min(end + 1, node.inner), newer_format)
 
 
 def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[Fault]:
@@ -208,7 +216,7 @@ def _name(text: str, node: Node, element: Element) -> Iterator[Fault]:
     if not element.text:
         yield Fault("empty-tag", "<name> is empty; write the name of the package", node.start, node.end)
     elif not _NAME.match(element.text):
-        message = f'"{element.text}" is no package name; use letters, digits and underscores only'
+        message = f"'{element.text}' is not a valid package name; use only letters, digits and underscores"
         _, start, end = value(text, node)
         yield Fault("invalid-name", message, start, end)
 
@@ -217,12 +225,12 @@ def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
     compatibility = node.attributes.get("compatibility")
     if compatibility and not _VERSION.match(compatibility):
         _, start, end = attribute(text, node, "compatibility")
-        message = f'compatibility "{compatibility}" is not of the form 1.2.3; write three numbers'
+        message = f"compatibility '{compatibility}' is not of the form 1.2.3; write three numbers"
         yield Fault("invalid-version", message, start, end)
     if not element.text:
         yield Fault("empty-tag", "<version> is empty; write one of the form 1.2.3", node.start, node.end)
     elif not _VERSION.match(element.text):
-        message = f'version "{element.text}" is not of the form 1.2.3; write three numbers'
+        message = f"version '{element.text}' is not of the form 1.2.3; write three numbers"
         _, start, end = value(text, node)
         yield Fault("invalid-version", message, start, end)
 
@@ -236,11 +244,11 @@ def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
     email = node.attributes.get("email")
     if email is None:
         if node.tag == "maintainer":
-            message = f'maintainer "{element.text}" has no email; add the attribute email'
+            message = f"maintainer '{element.text}' has no email; add the attribute 'email'"
             yield Fault("missing-attribute", message, node.start, node.inner)
     elif not _EMAIL.match(email):
         _, start, end = attribute(text, node, "email")
-        yield Fault("invalid-email", f'"{email}" is not an e-mail address; write name@example.org', start, end)
+        yield Fault("invalid-email", f"'{email}' is not an e-mail address; write an address such as name@example.org", start, end)
 
 
 def _license(_: str, node: Node, element: Element) -> Iterator[Fault]:
@@ -258,28 +266,28 @@ _CHECKS: dict[str, Callable[[str, Node, Element], Iterator[Fault]]] = {
 }
 
 
-def _alone(depends: _Depends, own_name: str) -> Iterator[Fault]:
+def _self_dependencies(depends: _Depends, own_name: str) -> Iterator[Fault]:
     """Yield dependencies of the package on itself, or on a group of which it is a member."""
     for node, depend in depends:
-        if depend.name == own_name and own_name and node.tag in _NOT_ON_ITSELF:
+        if depend.name == own_name and own_name and node.tag in _TAGS_FOR_OTHERS:
             message = f"the package depends on itself; remove this <{node.tag}>"
             yield Fault("self-dependency", message, node.start, node.end)
         elif node.tag == "group_depend" and any(
             sibling.tag == "member_of_group" and sibling.name == depend.name for _, sibling in depends
         ):
-            message = f"the package depends on group {depend.name}, of which it is itself a member; remove one of the two"
+            message = f"the package depends on the group '{depend.name}', of which it is a member; remove one of the two tags"
             yield Fault("own-group", message, node.start, node.end)
 
 
 def _duplicates(depends: _Depends) -> Iterator[Fault]:
     """Yield dependencies that repeat a <depend> with equal name, versions and condition, letter by letter."""
-    kept = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
-    if not kept:
+    first_depends = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
+    if not first_depends:
         return
     for node, depend in depends:
-        first = kept.get(_equality(node, depend)) if node.tag in _GENERIC else None
+        first = first_depends.get(_equality(node, depend)) if node.tag in _DEPEND_TAGS else None
         if first is not None and first is not node:
-            message = f"<depend>{depend.name}</depend> is declared already; remove this <{node.tag}>"
+            message = f"'{depend.name}' is already declared as <depend>; remove this <{node.tag}>"
             yield Fault("duplicate-dependency", message, node.start, node.end)
 
 

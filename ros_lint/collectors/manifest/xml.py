@@ -1,4 +1,4 @@
-"""The XML of a manifest: elements with offsets, read by expat as in catkin_pkg, but hardened.
+"""The XML of a manifest: elements with offsets, read by expat as in catkin_pkg, but with limits and without entities.
 
 catkin_pkg reads the file as UTF-8 in spite of its declaration, and resolves namespaces. Offsets count code points of
 the text. Nothing outside the file is looked up.
@@ -17,7 +17,7 @@ from ros_lint.base.xml_tree import unmarked
 _new = tuple.__new__  # half the time of calling a named tuple
 
 MOST_DEPTH = 200
-"""Deeper nesting is refused, because tools that read such a file recursively fail."""
+"""The maximum nesting of elements, because tools that read such a file recursively fail at deeper ones."""
 
 BLANK: Final = " \n\r\t"
 """The white space that is removed around a value."""
@@ -96,8 +96,8 @@ _START = re.compile(r"<[^\s/>]+")
 
 def attribute(text: str, node: Node, name: str) -> tuple[int, int, int]:
     """Return the offsets of an attribute's name, of its value, and of the value's end."""
-    opened = _START.match(text, node.start)
-    at = opened.end() if opened else node.start
+    start_tag = _START.match(text, node.start)
+    at = start_tag.end() if start_tag else node.start
     while match := _ATTRIBUTE.match(text, at):
         if match[1] == name:
             group = 3 if match[2] is None else 2
@@ -126,15 +126,15 @@ def value(text: str, node: Node) -> tuple[str, int, int]:
             depth -= 1
         elif depth == 0 and piece.lastgroup in ("text", "entity"):
             parts.append(_resolve(piece))
-            if written := piece[0].strip(BLANK):
-                start = node.inner + piece.start() + piece[0].index(written)
-                places += (start, start + len(written))
+            if piece_text := piece[0].strip(BLANK):
+                start = node.inner + piece.start() + piece[0].index(piece_text)
+                places += (start, start + len(piece_text))
     return "".join(parts).strip(BLANK), *((places[0], places[-1]) if places else (node.inner, node.inner))
 
 
 def markup(text: str, node: Node) -> str:
     """Return the content of an element with its markup, as catkin_pkg reads description and export, or ""."""
-    raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # xml.dom.minidom drops empty ones, too
+    raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # as xml.dom.minidom does
     if "<" not in raw:
         return value(text, node)[0]
     pieces = list(_PIECE.finditer(raw))
@@ -167,7 +167,7 @@ def _resolve(piece: re.Match[str]) -> str:
         return chr(int(f"0{entity[1:]}", 0))
     if entity.startswith("#"):
         return chr(int(entity[1:]))
-    return _ENTITIES.get(entity, "")  # others are defined in an external document type, which is not fetched
+    return _ENTITIES.get(entity, "")  # other entities are defined in an external document type, which is not fetched
 
 
 def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
@@ -179,12 +179,12 @@ def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
             read_as = data.decode("utf-8")
         except UnicodeDecodeError as error:
             at = len(data[: error.start].decode(source.codec, "ignore"))
-            message = f"the file is {source.codec}, but manifests are read as utf-8; save it as utf-8"
+            message = f"the file is in {source.codec}, but manifests are read as UTF-8; save it as UTF-8"
             return text, (Fault("encoding", message, at, min(at + 1, len(text))),)
         if "\0" not in read_as:  # else expat itself detects UTF-16
             text = read_as
     if not text.isascii() and (bad := re.search("[\ud800-\udfff]+", text)):
-        message = "not utf-8, the encoding of manifests; save the file as utf-8"
+        message = "the file is not valid UTF-8, the encoding of manifests; save it as UTF-8"
         return re.sub("[\ud800-\udfff]", "?", text), (Fault("encoding", message, bad.start(), bad.end()),)
     return text, ()
 
@@ -198,7 +198,7 @@ def _parse(text: str) -> Document:
     if not events or isinstance(first := events[0], int):
         return Document(text, [], None, faults, stopped)
     if len(events) > MOST_DEPTH and (start := _too_deep(events)) >= 0:
-        message = f"nested more than {MOST_DEPTH} levels deep; manifests do not need that"
+        message = f"the elements are nested more than {MOST_DEPTH} levels deep; remove the inner ones"
         faults = (*faults, Fault("too-deep", message, start, start + 1))
     if fault is None and isinstance(last := events[-1], int):
         root = _closed(text, first, last, ())
@@ -220,20 +220,20 @@ def children(document: Document) -> list[Node]:
 def child(document: Document, at: int) -> tuple[Node, int]:
     """Return the element that starts at an event, and the next event after its end."""
     text, events, last = document.text, document.events, len(document.events)
-    opened: list[tuple[Start, list[Node]]] = []
+    open_elements: list[tuple[Start, list[Node]]] = []
     while at < last:
         event = events[at]
         at += 1
         if not isinstance(event, int):
-            opened.append((event, []))
+            open_elements.append((event, []))
             continue
-        begun, inside = opened.pop()
-        if not opened:
-            return _closed(text, begun, event, tuple(inside)), at
-        if len(opened) == 1:
-            opened[0][1].append(_closed(text, begun, event, ()))
-    begun, inside = opened[0]
-    return _unclosed(text, begun, document.read, tuple(inside)), at
+        start_event, inner_nodes = open_elements.pop()
+        if not open_elements:
+            return _closed(text, start_event, event, tuple(inner_nodes)), at
+        if len(open_elements) == 1:
+            open_elements[0][1].append(_closed(text, start_event, event, ()))
+    start_event, inner_nodes = open_elements[0]
+    return _unclosed(text, start_event, document.read, tuple(inner_nodes)), at
 
 
 def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
@@ -256,7 +256,7 @@ def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
         fault = _explain(text, error.code, stopped)
     except _EntityDeclaredError:
         stopped = len(data[: parser.CurrentByteIndex].decode("utf-8", "ignore"))
-        message = "declares an entity, which is not resolved here; write its text where it is used"
+        message = "ros-lint does not resolve entities; write the text of the entity where it is used"
         fault = Fault("entity", message, stopped, text.find(">", stopped) + 1 or len(text))
     finally:
         # Parser and handlers refer to each other, and the garbage collector may be off: unfreed parsers cost more than
@@ -275,12 +275,12 @@ def _refuse_entity(*_: object) -> None:
 
 def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
     """Return ascending events with their offsets converted from bytes to code points."""
-    done = count = 0
+    converted = count = 0
     result: list[Event] = []
     for event in events:
         index = event if isinstance(event, int) else event[2]
-        count += len(data[done:index].decode("utf-8", "ignore"))
-        done = index
+        count += len(data[converted:index].decode("utf-8", "ignore"))
+        converted = index
         result.append(count if isinstance(event, int) else (event[0], event[1], count))
     return result
 
@@ -295,19 +295,19 @@ def _too_deep(events: list[Event]) -> int:
     return -1
 
 
-def _closed(text: str, event: Start, after: int, children: tuple[Node, ...]) -> Node:
+def _closed(text: str, event: Start, close: int, children: tuple[Node, ...]) -> Node:
     """Return a closed element. ``after`` is the offset where it ends for expat."""
     tag, inner = _start_tag(text, event)
     if text[inner - 2] == "/":
-        after = end = inner
+        close = end = inner
     else:
-        end = text.index(">", after) + 1
-    return _new(Node, (tag, _names(event[1]), event[2], inner, after, end, children))
+        end = text.index(">", close) + 1
+    return _new(Node, (tag, _names(event[1]), event[2], inner, close, end, children))
 
 
-def _unclosed(text: str, event: Start, read: int, children: tuple[Node, ...]) -> Node:
+def _unclosed(text: str, event: Start, read_length: int, children: tuple[Node, ...]) -> Node:
     tag, inner = _start_tag(text, event)
-    return Node(tag, _names(event[1]), event[2], inner, max(inner, read), -1, children)
+    return Node(tag, _names(event[1]), event[2], inner, max(inner, read_length), -1, children)
 
 
 def _start_tag(text: str, event: Start) -> tuple[str, int]:
@@ -316,8 +316,8 @@ def _start_tag(text: str, event: Start) -> tuple[str, int]:
     inner = start + len(name) + 2
     if text[inner - 1 : inner] == ">" and " " not in name:
         return name, inner
-    opened = _OPEN_TAG.match(text, start)
-    return (opened[1], opened.end()) if opened else (name, len(text))
+    match = _OPEN_TAG.match(text, start)
+    return (match[1], match.end()) if match else (name, len(text))
 
 
 def _names(attributes: dict[str, str]) -> dict[str, str]:
@@ -357,20 +357,20 @@ def _explain(text: str, code: int, at: int) -> Fault:
     if code == errors[expat.errors.XML_ERROR_NO_ELEMENTS]:
         if not text.strip():
             return Fault("invalid-xml", "the file is empty", 0, 0)
-        message = f"the file ends inside {_still_open(text)}" if "<" in text else "no element found"
+        message = f"the file ends inside {_still_open(text)}" if "<" in text else "the file contains no element"
     elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
         if not text.startswith("<", at):
             start = max(text.rfind("<![CDATA[", 0, at), 0)
-        opened = _OPENED.match(text, start)
+        opening = _OPENED.match(text, start)
         end = len(text)
-        message = f"{opened[0] if opened else ''} is never closed"
+        message = f"'{opening[0] if opening else ''}' is never closed"
     elif code == errors[expat.errors.XML_ERROR_TAG_MISMATCH]:
         name = _NAME.match(text, at)
         end = name.end() if name else end
         message = f"</{text[start:end]}> closes {_still_open(text)}; one of the two is misspelt or missing"
     elif code == errors[expat.errors.XML_ERROR_UNDEFINED_ENTITY]:
         end = text.index(";", at) + 1
-        message = f"{text[at:end]} is not defined in xml; write the character itself"
+        message = f"'{text[at:end]}' is not defined in XML; write the character itself"
     elif code == errors[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]:
         message = "the file continues after the end of its root element; remove the rest, because only one <package> is allowed"
         first = next(match for match in _MARKUP.finditer(text) if match[1])
@@ -378,16 +378,16 @@ def _explain(text: str, code: int, at: int) -> Fault:
             message = f"<{first[1]}> comes before <package>; remove it, because only one root element is allowed"
             start, end = first.span()
     elif code == errors[expat.errors.XML_ERROR_DUPLICATE_ATTRIBUTE]:
-        message = f"the attribute {re.split('[ =]', text[at:], maxsplit=1)[0]} is repeated; remove one"
+        message = f"the attribute '{re.split('[ =]', text[at:], maxsplit=1)[0]}' is repeated; remove one"
     elif code == errors[expat.errors.XML_ERROR_UNBOUND_PREFIX]:
         message = "the prefix before ':' belongs to no namespace; remove it"
     elif code == errors[expat.errors.XML_ERROR_INVALID_TOKEN] and text[at - 1 : at] in ("&", "<"):
         start, end = at - 1, at
         if text[start] == "&":
-            return Fault("bare-ampersand", "a bare & is not valid in xml; write &amp;", start, end)
-        message = "a bare < is not valid in xml; write &lt;"
+            return Fault("bare-ampersand", "a bare '&' is not valid in XML; write '&amp;'", start, end)
+        message = "a bare '<' is not valid in XML; write '&lt;'"
     else:
-        message = f"invalid xml: {(expat.ErrorString(code) or 'not well-formed').lower()}"
+        message = f"invalid XML: {(expat.ErrorString(code) or 'not well-formed').lower()}"
     return Fault("invalid-xml", message, start, end)
 
 

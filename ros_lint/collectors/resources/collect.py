@@ -36,7 +36,7 @@ _LOOK_UPS = tuple(
 # ros_gz_bridge translates only messages that it depends on itself (ros_type_name).
 _CLASS = r"([a-z]\w*)(?:/|::)[A-Za-z]"
 _MANAGER = re.compile(rf"""moveit_controller_manager["']?[ \t]*:[ \t]*["']?{_CLASS}""")
-_HABITS = (
+_CONVENTIONS = (
     _MANAGER,
     *map(
         re.compile,
@@ -59,7 +59,7 @@ def collect(source: Text) -> FileFacts:
     return facts
 
 
-def loaded(source: Text) -> tuple[Mention, ...]:
+def controller_managers(source: Text) -> tuple[Mention, ...]:
     """Return the packages of controller managers that MoveIt loads by parameters in a Python launch file."""
     result: dict[str, tuple[int, int]] = {}
     _search(_MANAGER, source.text, result)
@@ -78,16 +78,16 @@ def _packages(source: Text) -> FileFacts:
     places: dict[str, tuple[int, int]] = {}
     for pattern in _LOOK_UPS:
         _search(pattern, text, places)
-    sure = frozenset(places) if places and not is_of_ros_1(text) else frozenset()
-    for pattern in _HABITS:
+    certain = frozenset(places) if places and not is_of_ros_1(text) else frozenset()
+    for pattern in _CONVENTIONS:
         _search(pattern, text, places)
     if not places:
         return FileFacts()
-    looked_up = tuple(_files(source)) if sure else ()
+    looked_up = tuple(_files(source)) if certain else ()
     names = sorted(places, key=lambda name: places[name])
     spans = source.spans(places[name] for name in names)
     return FileFacts(
-        tuple(Mention(name, "package", span, optional=name not in sure) for name, span in zip(names, spans, strict=True)),
+        tuple(Mention(name, "package", span, optional=name not in certain) for name, span in zip(names, spans, strict=True)),
         lookups=looked_up,
     )
 
@@ -101,13 +101,13 @@ _TREE_PATH = re.compile(r"""\spath\s*=\s*["'](\w[\w./+-]*\.\w+)["']""")
 
 
 def _files(source: Text) -> Iterator[LookUp]:
-    """Yield the files that are looked up in packages, each once."""
+    """Yield the files that are looked up in packages, each at its first place."""
     places: dict[tuple[str, str], tuple[int, int]] = {}
     for match in _FILE.finditer(source.text):
         key = (match[1] or match[2], normpath(match[3].lstrip("/")))
         if key[1].startswith("../"):  # it is outside of the package
             continue
-        if key not in places and not _in_comment(source.text, match.start()) and not _is_spared(source.text, match.start()):
+        if key not in places and not _in_comment(source.text, match.start()) and not _is_optional(source.text, match.start()):
             places[key] = match.span()
     for match in _TREE.finditer(source.text):
         path = _TREE_PATH.search(match[0])
@@ -119,7 +119,7 @@ def _files(source: Text) -> Iterator[LookUp]:
     yield from (LookUp(package, path, span) for (package, path), span in zip(names, spans, strict=True))
 
 
-def _is_spared(text: str, at: int) -> bool:
+def _is_optional(text: str, at: int) -> bool:
     """Return whether a place is in a tag with an optional file: ``<xacro:include optional="true"/>``."""
     opening = text.rfind("<", 0, at)
     return opening >= 0 and _OPTIONAL.match(text, opening) is not None
@@ -128,10 +128,10 @@ def _is_spared(text: str, at: int) -> bool:
 _OPTIONAL = re.compile(r"""<xacro:include\s[^<>]*\boptional\s*=""")
 
 
-def _search(pattern: re.Pattern[str], text: str, found: dict[str, tuple[int, int]]) -> None:
+def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, int]]) -> None:
     for match in pattern.finditer(text):
-        if match[1] not in found and not _in_comment(text, match.start()) and not _in_class(text, match.start()):
-            found[match[1]] = match.span(1)
+        if match[1] not in places and not _in_comment(text, match.start()) and not _in_class(text, match.start()):
+            places[match[1]] = match.span(1)
 
 
 def _in_class(text: str, at: int) -> bool:

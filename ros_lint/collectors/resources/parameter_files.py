@@ -39,16 +39,16 @@ _ANY = "/**"
 
 
 def collect(source: Text) -> ParameterFile | None:
-    """Return the contents of a parameter file, or None if it has no keys."""
-    parameters = _collected(source)
+    """Return the node names in a parameter file, with their places; None if the file has no keys."""
+    parameters = _read_parameters(source)
     if parameters is None or "$(var" not in source.text:
         return parameters
-    from ros_lint.collectors.launch.markup.collect import asks  # noqa: PLC0415  (few parameter files have substitutions)
+    from ros_lint.collectors.launch.markup.collect import configurations_read  # noqa: PLC0415  (few parameter files have substitutions)
 
-    return parameters._replace(configurations_read=asks(source.text))
+    return parameters._replace(configurations_read=configurations_read(source.text))
 
 
-def _collected(source: Text) -> ParameterFile | None:
+def _read_parameters(source: Text) -> ParameterFile | None:
     text = source.text
     first = _FIRST.search(text)
     marks = text.count(_MARK)
@@ -71,14 +71,14 @@ def _in_comments(text: str) -> int:
 
 
 def _headings(text: str) -> Iterator[list[tuple[int, int, str]]]:
-    """Yield the keys above each ``ros__parameters``, from the top; [] if a key cannot be read."""
-    above: list[tuple[int, int]] = []
+    """Yield the keys above each ``ros__parameters``, outermost first; [] if a key cannot be read."""
+    parents: list[tuple[int, int]] = []
     for match in _LINE.finditer(text):
         indent = len(match[1])
-        while above and above[-1][1] >= indent:
-            above.pop()
+        while parents and parents[-1][1] >= indent:
+            parents.pop()
         if len(match[2]) > 1:
-            keys = [_KEY.match(text, start) for start, _ in above]
-            readable = keys and not above[0][1]
+            keys = [_KEY.match(text, start) for start, _ in parents]
+            readable = keys and not parents[0][1]
             yield [(key.start(3), key.end(3), key[3]) for key in keys if key] if readable and all(keys) else []
-        above.append((match.start(), indent))
+        parents.append((match.start(), indent))

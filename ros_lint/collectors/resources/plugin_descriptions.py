@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _DECLARATION = re.compile(r"<\?xml\b.*?\?>", re.DOTALL)
 _TEMPLATE = re.compile(r"""=\s*(?:"[^"]*<[^"]*"|'[^']*<[^']*')""")
-_STAND_IN = "\ue000"
+_PLACEHOLDER = "\ue000"
 _ROOT = "<_>"
 
 
@@ -29,19 +29,19 @@ def roots(text: str) -> list[Element]:
     except XmlError:
         pass
     plain = _DECLARATION.sub(lambda match: " " * len(match[0]), text)
-    plain = _TEMPLATE.sub(lambda match: match[0].replace("<", _STAND_IN), plain)
+    plain = _TEMPLATE.sub(lambda match: match[0].replace("<", _PLACEHOLDER), plain)
     try:
         root = parse(f"{_ROOT}{plain}</{_ROOT[1:]}")
     except XmlError:
         return []
     for element in root.walk():
         element.start -= len(_ROOT)
-        element.attributes = {name: value.replace(_STAND_IN, "<") for name, value in element.attributes.items()}
+        element.attributes = {name: value.replace(_PLACEHOLDER, "<") for name, value in element.attributes.items()}
     return root.children
 
 
 def collect(path: str, source: Text) -> PluginFile | None:
-    """Return a plugin description, or None if the text is none. ``path`` is relative to the package."""
+    """Return a plugin description, None for any other text. ``path`` is relative to the package."""
     if "<library" not in source.text and "<class" not in source.text:
         return None
     elements = roots(source.text)
@@ -67,9 +67,9 @@ def _classes(source: Text, library: Element) -> Iterator[PluginClass]:
     for element in library.children:
         if element.tag == "class":
             get = element.attributes.get
-            written = get("type", "")
+            class_type = get("type", "")
             place = _place(source, element, "type")
-            yield PluginClass(get("name", written), class_name(written), class_name(get("base_class_type", "")), place)
+            yield PluginClass(get("name", class_type), class_name(class_type), class_name(get("base_class_type", "")), place)
 
 
 def _place(source: Text, element: Element, attribute: str) -> Span:

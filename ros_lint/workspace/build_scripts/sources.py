@@ -15,7 +15,7 @@ from ros_lint.base.tree import Entry, Tree, text_of
 from ros_lint.collectors.cmake.evaluator.sources import OutsideTree, Sources
 from ros_lint.collectors.cmake.syntax import Parsed, parse
 from ros_lint.workspace.build_scripts.files import Executables, text_in
-from ros_lint.workspace.discovery.discover import NEVER, DiscoveredPackage
+from ros_lint.workspace.discovery.discover import SKIPPED_FOLDERS, DiscoveredPackage
 
 _MOST_ENTRIES: Final = 10_000
 """Maximum number of entries below a folder outside the package.
@@ -76,7 +76,7 @@ class Surroundings:
         """Return the entries of a folder by name; empty if it is unreadable or not part of the tree."""
         if folder not in self._entries:
             self._entries[folder] = {}
-            if NEVER.isdisjoint(folder.split("/")) and is_below(self._tree.identity(folder), self._base):
+            if SKIPPED_FOLDERS.isdisjoint(folder.split("/")) and is_below(self._tree.identity(folder), self._base):
                 with suppress(OSError):
                     self._entries[folder] = {entry.name: entry for entry in self._tree.list(folder)}
         return self._entries[folder]
@@ -103,7 +103,7 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
     built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
     version = found.manifest.version if found.manifest else ""
     executables = Executables(tree, found)
-    unseen = tuple(skipped.path for skipped in found.unseen)
+    unseen = tuple(skipped.path for skipped in found.unvisited)
     config = text_in(tree, found, "setup.cfg")
     texts = {"setup.cfg": config.text} if config else {}
     return Sources(
@@ -150,6 +150,6 @@ class _Scripts(Mapping[str, Parsed]):
 
 def _look(found: DiscoveredPackage, surroundings: Surroundings, folder: str) -> list[str]:
     """Return the files below a skipped folder of a package; empty if not all are visible."""
-    if any(skipped.path == folder and skipped.link for skipped in found.unseen):
+    if any(skipped.path == folder and skipped.link for skipped in found.unvisited):
         return []
     return [strip_folder(found.path, file) for file in surroundings.below(join(found.path, folder))]

@@ -18,10 +18,10 @@ from ros_lint.workspace.discovery.identify import (
     Identity,
     Ignored,
     Settings,
+    build_product,
     identify,
     ignored_by_ros,
     ignored_everywhere,
-    product,
 )
 from ros_lint.workspace.target import UnreadFile
 
@@ -31,17 +31,17 @@ if TYPE_CHECKING:
     from ros_lint.base.tree import Entry, Kind, Tree
     from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Manifest
 
-NEVER = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
+SKIPPED_FOLDERS = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
 """Folders that never contain sources."""
 
-_TELLING = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
-"""Names of which a folder that matters to colcon has at least one."""
+_RELEVANT_NAMES = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
+"""A folder that matters to colcon contains at least one of these names."""
 
-_APART = frozenset((*SIGNS, "package.xml"))
-"""Names of which a subfolder that is not part of the package has at least one."""
+_BOUNDARY_NAMES = frozenset((*SIGNS, "package.xml"))
+"""A subfolder that is not part of the package contains at least one of these names."""
 
 _BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
-"""Names of which the folder of a manifest has at least one; a manifest without them is data."""
+"""The folder of a package contains at least one of these names. A manifest in any other folder is data."""
 
 _CONTEXT = {**ROS_2, "DISABLE_GROUPS_WORKAROUND": "1"}
 
@@ -83,7 +83,7 @@ class DiscoveredPackage(NamedTuple):
     Left out are folders with an ignore marker, folders without a build script, and folders that the CMake build of
     this package adds.
     """
-    unseen: tuple[Skipped, ...]
+    unvisited: tuple[Skipped, ...]
     """Folders, relative to the package, that were not visited: their files are unknown."""
 
 
@@ -92,7 +92,7 @@ class Discovery(NamedTuple):
 
     packages: tuple[DiscoveredPackage, ...]
     rejected: tuple[Manifest, ...]
-    """Manifests that colcon cannot use, in folders that are not a package for another reason."""
+    """Manifests that colcon cannot use, unless it identifies the folder as a package by another file."""
     skipped: tuple[Skipped, ...]
     not_checked: tuple[UnreadFile, ...]
 
@@ -124,7 +124,7 @@ class _Walk:
         for root in roots:
             self._crawl(root, visited)
         return Discovery(
-            tuple(sorted(self._packages, key=lambda found: found.path)),
+            tuple(sorted(self._packages, key=lambda package: package.path)),
             tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
             tuple(sorted(self._skipped)),
             tuple(sorted(self._not_checked, key=lambda item: (item.span or file_start(""), item.what))),
@@ -141,7 +141,7 @@ class _Walk:
             if entries is None or self._is_package(path, identity, entries):
                 continue
             for name, kind, link in reversed(entries):
-                if kind == "directory" and not name.startswith(".") and name not in NEVER:
+                if kind == "directory" and not name.startswith(".") and name not in SKIPPED_FOLDERS:
                     child = join(path, name)
                     target = self._tree.identity(child) if link else join(identity, name)
                     if link and target != self._base and is_below(self._base, target):
@@ -153,35 +153,35 @@ class _Walk:
     def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
         """Add the package in a folder, and return whether colcon skips its subfolders."""
         names = {name: kind for name, kind, _ in entries}
-        if _TELLING.isdisjoint(names) and identity not in self._settings.by_identity:
+        if _RELEVANT_NAMES.isdisjoint(names) and identity not in self._settings.by_identity:
             return False
         folder = Folder(self._tree, path, identity, names)
         text = folder.text("package.xml")
         manifest = manifests.collect(text) if text else None
-        found = identify(folder, manifest, self._settings, self._context)
+        verdict = identify(folder, manifest, self._settings, self._context)
         self._not_checked += folder.not_checked
-        if isinstance(found, Ignored):
-            self._skipped.append(Skipped(path, found.reason))
-        elif isinstance(found, Identity):
-            files = _Files(self._tree, path, (self._base, identity))
+        if isinstance(verdict, Ignored):
+            self._skipped.append(Skipped(path, verdict.reason))
+        elif isinstance(verdict, Identity):
+            files = _PackageFiles(self._tree, path, (self._base, identity))
             files.gather(entries, identity)
             self._not_checked += files.not_checked
             self._packages.append(
                 DiscoveredPackage(
                     path,
-                    manifest.name if manifest and manifest.name else found.name,
-                    found.name,
-                    found.type,
+                    manifest.name if manifest and manifest.name else verdict.name,
+                    verdict.name,
+                    verdict.type,
                     manifest,
-                    found.depends,
+                    verdict.depends,
                     tuple(sorted(files.found)),
                     tuple(sorted(files.nested, key=lambda nested: nested.path)),
-                    tuple(sorted(files.unseen)),
+                    tuple(sorted(files.unvisited)),
                 )
             )
         elif manifest:
             self._rejected.append(manifest)
-        return found is not None
+        return verdict is not None
 
     def _list(self, path: str) -> list[Entry] | None:
         try:
@@ -225,40 +225,40 @@ class _Walk:
         return None
 
 
-class _Files:
+class _PackageFiles:
     """The files of one package."""
 
-    def __init__(self, tree: Tree, package: str, inside: tuple[str, ...]) -> None:
+    def __init__(self, tree: Tree, package: str, roots: tuple[str, ...]) -> None:
         self._tree = tree
         self._package = package
-        self._inside = inside
+        self._roots = roots
         self._linked: set[str] = set()
         self._marked: list[str] = []
         self.found: list[str] = []
         self.nested: list[Manifest] = []
-        self.unseen: list[Skipped] = []
+        self.unvisited: list[Skipped] = []
         self.not_checked: list[UnreadFile] = []
 
     def gather(self, entries: Sequence[Entry], identity: str) -> None:
         """Collect the files below the package folder.
 
-        ``crossed`` are the folders that contain a followed link.
+        Links are followed below the package and the base, each target once.
         """
         todo: list[tuple[str, Sequence[Entry], str, tuple[str, ...]]] = [("", entries, identity, ())]
         while todo:
-            folder, entries, identity, crossed = todo.pop()
+            folder, entries, identity, link_folders = todo.pop()
             prefix = f"{folder}/" if folder else ""
             for name, kind, link in entries:
                 if kind == "file":
                     self.found.append(prefix + name)
-                if kind != "directory" or name in NEVER:
+                if kind != "directory" or name in SKIPPED_FOLDERS:
                     continue
-                child, child_crossed = prefix + name, (*crossed, identity) if link else crossed
+                child, child_link_folders = prefix + name, (*link_folders, identity) if link else link_folders
                 child_identity = self._tree.identity(join(self._package, child)) if link else f"{identity}/{name}"
-                if link and (reason := self._not_followed(child_identity, child_crossed)):
-                    self.unseen.append(Skipped(child, reason, link=True))
-                elif below := self._enter(child):
-                    todo.append((child, below, child_identity, child_crossed))
+                if link and (reason := self._not_followed(child_identity, child_link_folders)):
+                    self.unvisited.append(Skipped(child, reason, link=True))
+                elif child_entries := self._enter(child):
+                    todo.append((child, child_entries, child_identity, child_link_folders))
 
     def _enter(self, child: str) -> list[Entry] | None:
         path = join(self._package, child)
@@ -266,12 +266,12 @@ class _Files:
             entries = self._tree.list(path)
         except OSError as error:
             self.not_checked.append(UnreadFile.of(path, error))
-            self.unseen.append(Skipped(child, "it cannot be read"))
+            self.unvisited.append(Skipped(child, "it cannot be read"))
             return None
-        if _APART.isdisjoint([entry[0] for entry in entries]):
+        if _BOUNDARY_NAMES.isdisjoint([entry[0] for entry in entries]):
             return entries
         names = {name: kind for name, kind, _ in entries}
-        reason = ignored_everywhere(names) or product(names)
+        reason = ignored_everywhere(names) or build_product(names)
         if not reason and (mark := ignored_by_ros(names)):
             # The marker concerns package discovery and linters; the build of this package ignores it.
             reason = mark if "package.xml" in names else ""
@@ -282,7 +282,7 @@ class _Files:
                 self._add_nested(join(path, "package.xml"))
         if not reason:
             return entries
-        self.unseen.append(Skipped(child, reason))
+        self.unvisited.append(Skipped(child, reason))
         return None
 
     def _is_nested(self, child: str, names: Mapping[str, Kind]) -> bool:
@@ -295,10 +295,10 @@ class _Files:
         for depth in range(len(parts)):
             path = join(self._package, "/".join((*parts[:depth], "CMakeLists.txt")))
             try:
-                added = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
+                subdirectories = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
             except OSError:
                 continue  # usually there is none
-            if "/".join(parts[depth:]) in added:
+            if "/".join(parts[depth:]) in subdirectories:
                 return False
         return True
 
@@ -308,16 +308,16 @@ class _Files:
         except OSError as error:
             self.not_checked.append(UnreadFile.of(path, error))
 
-    def _not_followed(self, target: str, crossed: tuple[str, ...]) -> str:
+    def _not_followed(self, target: str, link_folders: tuple[str, ...]) -> str:
         """Return why a link is not followed, or "".
 
-        ``crossed`` are the folders that contain it or a link on the path to it.
+        ``link_folders`` are the folders that contain this link or a followed link on the path to it.
         """
-        if any(is_below(place, target) for place in crossed):
+        if any(is_below(folder, target) for folder in link_folders):
             return "a link to a folder that contains it"
-        if not any(is_below(target, place) for place in self._inside):
+        if not any(is_below(target, folder) for folder in self._roots):
             return "a link that leads out of the workspace"
-        if len(crossed) > 1 and target in self._linked:
+        if len(link_folders) > 1 and target in self._linked:
             return "a link to a folder that another link already leads to"
         self._linked.add(target)
         return ""

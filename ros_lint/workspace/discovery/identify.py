@@ -49,15 +49,15 @@ class Settings(NamedTuple):
 NO_SETTINGS = ColconSettings("", "", ())
 Verdict = Identity | Ignored | None
 
-_EVERYWHERE = ("COLCON_IGNORE", "_order_isolated_packages.py", "_setup_util.py")
-_ROS_ONLY = ("CATKIN_IGNORE", "AMENT_IGNORE")
+_IGNORED_EVERYWHERE = ("COLCON_IGNORE", "_order_isolated_packages.py", "_setup_util.py")
+_IGNORED_BY_ROS = ("CATKIN_IGNORE", "AMENT_IGNORE")
 _PREFIX_SCRIPTS = ("bash", "sh", "zsh", "ps1")
 _HOOKS = ("local_setup.dsv", "package.dsv")
 """Files that ament and colcon install next to the manifest of a package."""
 SIGNS = frozenset(
     (
-        *_EVERYWHERE,
-        *_ROS_ONLY,
+        *_IGNORED_EVERYWHERE,
+        *_IGNORED_BY_ROS,
         ".colcon_install_layout",
         ".built_by",
         "colcon_build.rc",
@@ -67,22 +67,22 @@ SIGNS = frozenset(
         *(f"local_setup.{shell}" for shell in _PREFIX_SCRIPTS),
     )
 )
-"""Names of which an ignored folder or a build product has at least one."""
+"""An ignored folder or a build product contains at least one of these names."""
 
 
 def ignored_everywhere(names: Mapping[str, Kind]) -> str:
     """Return the file name that makes colcon skip a folder with its subfolders in any case, or ""."""
     if "COLCON_IGNORE" in names:  # even a dangling link
         return "COLCON_IGNORE"
-    return next((name for name in _EVERYWHERE if _exists(names, name)), "")
+    return next((name for name in _IGNORED_EVERYWHERE if _exists(names, name)), "")
 
 
 def ignored_by_ros(names: Mapping[str, Kind]) -> str:
     """Return the file name that makes colcon-ros skip a folder and its subfolders, or ""."""
-    return next((name for name in _ROS_ONLY if _exists(names, name)), "")
+    return next((name for name in _IGNORED_BY_ROS if _exists(names, name)), "")
 
 
-def product(names: Collection[str]) -> str:
+def build_product(names: Collection[str]) -> str:
     """Return why a folder is a build product, or "" for a source folder.
 
     colcon marks its products with COLCON_IGNORE. Copies and products of other tools have no such marker.
@@ -133,10 +133,10 @@ class Folder:
         try:
             return read(path, self.tree.read(path))
         except OSError as error:
-            self.cannot(path, error.strerror or str(error))
+            self.record_unread(path, error.strerror or str(error))
             return None
 
-    def cannot(self, path: str, reason: str, span: Span | None = None) -> None:
+    def record_unread(self, path: str, reason: str, span: Span | None = None) -> None:
         """Record a file that could not be read."""
         self.not_checked.append(UnreadFile(path, reason, span or file_start(path)))
 
@@ -150,33 +150,36 @@ def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
     if manifest.problems or conditions.problems(manifest):
         return ""
     types = conditions.build_types(manifest, context)
-    sure = [name for name, active in types if active]
-    if len(sure) > 1:
+    certain = [name for name, active in types if active]
+    if len(certain) > 1:
         return ""
-    return (sure or [name for name, _ in types] or ["catkin"])[0]
+    return (certain or [name for name, _ in types] or ["catkin"])[0]
 
 
 def identify(folder: Folder, manifest: Manifest | None, settings: Settings, context: Mapping[str, str]) -> Verdict:
-    """Return what colcon identifies a folder as. ``context`` has the known variables of conditions."""
-    if reason := ignored_everywhere(folder.names) or product(folder.names):
+    """Return how colcon identifies a folder: a package, a folder to skip, or None for neither.
+
+    ``context`` has the known variables of conditions in package.xml.
+    """
+    if reason := ignored_everywhere(folder.names) or build_product(folder.names):
         return Ignored(reason)
-    own = _colcon_pkg(folder)
+    colcon_pkg = _colcon_pkg(folder)
     by_path = settings.by_identity.get(folder.identity, NO_SETTINGS)
-    name = own.name or by_path.name
-    kind = own.type or by_path.type or settings.of(name).type
-    found: Verdict = None
+    name = colcon_pkg.name or by_path.name
+    kind = colcon_pkg.type or by_path.type or settings.of(name).type
+    verdict: Verdict = None
     if name and kind:
-        found = Identity(name, kind, ())
+        verdict = Identity(name, kind, ())
     elif kind in ("", "ros"):
-        found = _as_ros(folder, name, manifest, context)
-    if found is None and kind in ("", "cmake", "python"):
-        found = _by_script(folder, name, kind)
-    if not isinstance(found, Identity):
-        return found
-    depends = (*own.depends, *settings.of(found.name).depends, *by_path.depends, *found.depends)
-    if found.type == "python" and (project := _setup_cfg(folder) or _setup_py(folder)):
+        verdict = _as_ros(folder, name, manifest, context)
+    if verdict is None and kind in ("", "cmake", "python"):
+        verdict = _by_script(folder, name, kind)
+    if not isinstance(verdict, Identity):
+        return verdict
+    depends = (*colcon_pkg.depends, *settings.of(verdict.name).depends, *by_path.depends, *verdict.depends)
+    if verdict.type == "python" and (project := _setup_cfg(folder) or _setup_py(folder)):
         depends += project.depends
-    return found._replace(depends=depends)
+    return verdict._replace(depends=depends)
 
 
 def _colcon_pkg(folder: Folder) -> ColconSettings:
@@ -188,7 +191,7 @@ def _colcon_pkg(folder: Folder) -> ColconSettings:
     try:
         return colcon_yaml.package(text)
     except colcon_yaml.ColconYamlError as error:
-        folder.cannot(text.path, str(error), error.span)
+        folder.record_unread(text.path, str(error), error.span)
         return NO_SETTINGS
 
 
@@ -214,8 +217,8 @@ def _by_script(folder: Folder, name: str, kind: str) -> Verdict:
         return cmake
     project = project or _setup_py(folder)
     if project and project.unknown:
-        reason = f"colcon may see a package here, but {project.unknown}"
-        folder.cannot(join(folder.path, "setup.py"), reason)
+        reason = f"colcon may find a package here, but {project.unknown}"
+        folder.record_unread(join(folder.path, "setup.py"), reason)
     if project is None or not project.name or name not in ("", project.name):
         return None
     return Identity(project.name, "python", ())
@@ -259,8 +262,8 @@ def _setup_cfg(folder: Folder) -> PythonProject | None:
         return None
     from ros_lint.collectors.colcon import python_project as colcon_python  # noqa: PLC0415  (needed only where there is no usable manifest)
 
-    found = colcon_python.from_setup_cfg(setup_cfg) if colcon_python.needs_no_run(setup_py) else None
-    return found if found and found.name else None
+    project = colcon_python.from_setup_cfg(setup_cfg) if colcon_python.needs_no_run(setup_py) else None
+    return project if project and project.name else None
 
 
 def _setup_py(folder: Folder) -> PythonProject | None:

@@ -25,14 +25,14 @@ def find_ignores(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> I
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])
-        paths.update([join(above, _NAME) for above in folders_of(folder)])
-    found: list[Pattern] = []
+        paths.update([join(parent_folder, _NAME) for parent_folder in folders_of(folder)])
+    result: list[Pattern] = []
     unread: list[UnreadFile] = []
     for path in sorted(paths, key=lambda path: (path.count("/"), path)):
         try:
-            found += patterns(parent(path), read(path, tree.read(path)).text)
+            result += patterns(parent(path), read(path, tree.read(path)).text)
         except (FileNotFoundError, NotADirectoryError):
             continue
         except OSError as error:
             unread.append(UnreadFile.of(path, error))
-    return Ignores(tuple(found), tuple(unread))
+    return Ignores(tuple(result), tuple(unread))

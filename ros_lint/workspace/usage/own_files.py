@@ -11,7 +11,7 @@ from ros_lint.facts.build import NOTHING_BUILT, BuildScript, InstalledFile, Unin
 from ros_lint.facts.sources import FileFacts
 
 _SHADOWED = frozenset({"launch"})
-"""Folders named like a module that everybody imports.
+"""Folder names that are also modules of released packages.
 
 Without __init__.py such a folder does not hide the module (PEP 420).
 """
@@ -49,65 +49,65 @@ class OwnFiles:
         folders = self._modules.get(module, set())
         if not folders:
             return False
-        here, _, name = importer.rpartition("/")
-        beside = here in folders and name != f"{module}.py"
-        return beside or module in self._installed_modules or not folders <= self._python_packages
+        own_folder, _, name = importer.rpartition("/")
+        is_neighbour = own_folder in folders and name != f"{module}.py"
+        return is_neighbour or module in self._installed_modules or not folders <= self._python_packages
 
-    def forgone(self, importers: Iterable[str]) -> frozenset[str]:
+    def optional_modules(self, importers: Iterable[str]) -> frozenset[str]:
         """Return the Python files that relative imports of the package treat as optional.
 
         Files that another import requires by their full name are left out.
         """
-        found: set[str] = set()
+        files: set[str] = set()
         for path in importers:
             for name in self.facts[path].optional_modules:
                 module = name.lstrip(".")
                 if module != name:
                     folders = path.split("/")[: len(module) - len(name)]
                     file = "/".join([*folders, module.replace(".", "/")])
-                    found.update([f"{file}.py", f"{file}/__init__.py"])
-        if not found:
+                    files.update([f"{file}.py", f"{file}/__init__.py"])
+        if not files:
             return frozenset()
-        needed = {m.name for facts in self.facts.values() for m in facts.mentions if m.via == "import" and not m.optional}
-        return frozenset([file for file in found if _module(file) not in needed])
+        required = {m.name for facts in self.facts.values() for m in facts.mentions if m.via == "import" and not m.optional}
+        return frozenset([file for file in files if _module(file) not in required])
 
-    def reached(self, roots: Iterable[str]) -> frozenset[str]:
+    def include_closure(self, roots: Iterable[str]) -> frozenset[str]:
         """Return the files among ``roots`` with the files of the package that they include, transitively."""
-        reached: set[str] = set()
-        waiting = [root for root in roots if root in self.facts]
-        while waiting:
-            path = waiting.pop()
-            if path not in reached:
-                reached.add(path)
-                waiting += self._includes(path)[1]
-        return frozenset(reached)
+        closure: set[str] = set()
+        pending = [root for root in roots if root in self.facts]
+        while pending:
+            path = pending.pop()
+            if path not in closure:
+                closure.add(path)
+                pending += self._includes(path)[1]
+        return frozenset(closure)
 
-    def compiled_along(self) -> Mapping[str, frozenset[str]]:
+    def headers_by_source(self) -> Mapping[str, frozenset[str]]:
         """Return the headers of the package that each compiled source includes, if they are unambiguous.
 
         Left out are tests, sources that some builds omit, and targets with unknown include directories.
         """
         targets = [t for t in (self.script or NOTHING_BUILT).products.targets if t.headers is not None and not t.test]
         sources = dict.fromkeys([source for t in targets for source in t.sources if source not in t.optional_sources])
-        return {source: self._along(source) for source in sources if source in self.facts}
+        return {source: self._certain_headers(source) for source in sources if source in self.facts}
 
-    def _along(self, source: str) -> frozenset[str]:
-        along: set[str] = set()
-        waiting = [source]
-        while waiting:
-            for path in self._includes(waiting.pop())[1]:
-                if path not in along and len(self.by_name[path.rpartition("/")[2]]) == 1:
-                    along.add(path)
-                    waiting.append(path)
-        return frozenset(along)
+    def _certain_headers(self, source: str) -> frozenset[str]:
+        headers: set[str] = set()
+        pending = [source]
+        while pending:
+            for path in self._includes(pending.pop())[1]:
+                if path not in headers and len(self.by_name[path.rpartition("/")[2]]) == 1:
+                    headers.add(path)
+                    pending.append(path)
+        return frozenset(headers)
 
     def _includes(self, path: str) -> tuple[set[str], list[str]]:
         """Return the headers of the package that a file includes: as written, and as possible files."""
-        found = self._included.get(path)
-        if found is not None:
-            return found
+        cached = self._included.get(path)
+        if cached is not None:
+            return cached
         folder, by_name, templates = path.rpartition("/")[0], self.by_name, self._templates
-        own = (self._name, ".", "..")
+        own_folders = (self._name, ".", "..")
         headers: set[str] = set()
         files: list[str] = []
         for mention in self.facts[path].mentions if path in self.facts else ():
@@ -116,10 +116,10 @@ class OwnFiles:
             header = mention.name
             first, slash, _ = header.partition("/")
             name = header.rpartition("/")[2]
-            means = self._own_headers(header, folder) if name in by_name else ()
-            if means or (slash and first in own) or (name in templates and self._is_made(header, folder)):
+            matches = self._own_headers(header, folder) if name in by_name else ()
+            if matches or (slash and first in own_folders) or (name in templates and self._is_generated(header, folder)):
                 headers.add(header)
-                files += means
+                files += matches
         self._included[path] = (headers, files)
         return headers, files
 
@@ -131,21 +131,21 @@ class OwnFiles:
         end = f"/{header}"
         if len(candidates) == 1 and f"/{candidates[0]}".endswith(end):
             return candidates
-        beside = resolve(folder, header) if "." in header[:2] else join(folder, header)
-        if beside in candidates:
-            return (beside,)
+        neighbour = resolve(folder, header) if "." in header[:2] else join(folder, header)
+        if neighbour in candidates:
+            return (neighbour,)
         return tuple([file for file in candidates if file == header or file.endswith(end)])
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[str, ...]]:
         """The files by name without folder."""
-        found: dict[str, tuple[str, ...]] = {}
+        files: dict[str, tuple[str, ...]] = {}
         for file in self.files:
             name = file.rpartition("/")[2]
-            found[name] = (*found[name], file) if name in found else (file,)
-        return found
+            files[name] = (*files[name], file) if name in files else (file,)
+        return files
 
-    def _is_made(self, header: str, folder: str) -> bool:
+    def _is_generated(self, header: str, folder: str) -> bool:
         return any(self._own_headers(f"{header}{suffix}", folder) for suffix in (".in", ".em"))
 
     @cached_property
@@ -156,23 +156,23 @@ class OwnFiles:
     @cached_property
     def _modules(self) -> Mapping[str, set[str]]:
         """The parent folders of Python files and folders with Python code, by module name."""
-        found: dict[str, set[str]] = {}
+        folders: dict[str, set[str]] = {}
         for file in self.files:
             if file.endswith(".py"):
                 path = file[:-3]
                 while path:
                     folder, _, name = path.rpartition("/")
-                    found.setdefault(name, set()).add(folder)
+                    folders.setdefault(name, set()).add(folder)
                     path = folder
-        for name in _SHADOWED & found.keys():
-            found[name] = {folder for folder in found[name] if f"{folder}/{name}".lstrip("/") in self._python_packages}
-        return found
+        for name in _SHADOWED & folders.keys():
+            folders[name] = {folder for folder in folders[name] if f"{folder}/{name}".lstrip("/") in self._python_packages}
+        return folders
 
     @cached_property
     def _python_packages(self) -> frozenset[str]:
         """Folders that are Python packages. The root of a ROS package is not one, whatever it contains."""
-        found = {file.rpartition("/")[0] for file in self.files if file.endswith("__init__.py")}
-        return frozenset(found - {"", "src"})
+        folders = {file.rpartition("/")[0] for file in self.files if file.endswith("__init__.py")}
+        return frozenset(folders - {"", "src"})
 
     @cached_property
     def _installed_modules(self) -> frozenset[str]:
@@ -192,33 +192,33 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
     generated by pip, so a neighbour of its module is found only as part of the Python package. setuptools installs
     no folder that is missing from ``packages``.
     """
-    yield from _unlisted(files, script, facts)
-    provides = script.products.installs
-    programs = [(p.path, p.source) for p in provides if p.source.endswith(".py") and p.source in facts and _is_program(p)]
+    yield from _unlisted_imports(files, script, facts)
+    installs = script.products.installs
+    programs = [(p.path, p.source) for p in installs if p.source.endswith(".py") and p.source in facts and _is_program(p)]
     modules = [(m.name, m.path) for m in script.python.entry_point_modules if m.path in facts and "." in m.name]
     if not (programs or modules):
         return
-    known = frozenset(files)
+    known_files = frozenset(files)
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
-    installed = {p.path for p in provides}
+    installed = {p.path for p in installs}
     installed.update([path[: path.rfind("/") + 1] for path in installed])
     for program, source in programs:
-        for module, beside, span in _beside(source, facts[source], known, folders):
-            there = f"{program[: program.rfind('/') + 1]}{module}"
-            if f"{there}.py" not in installed and f"{there}/" not in installed:
-                yield UninstalledImport(program, module, beside, span, not facts[source].sets_path)
+        for module, neighbour, span in _imported_neighbours(source, facts[source], known_files, folders):
+            installed_path = f"{program[: program.rfind('/') + 1]}{module}"
+            if f"{installed_path}.py" not in installed and f"{installed_path}/" not in installed:
+                yield UninstalledImport(program, module, neighbour, span, not facts[source].sets_path)
     names = {path.rpartition("/")[2] for path in installed}
-    setting = [path for path, of_file in facts.items() if of_file.sets_path] if modules else []
+    path_setters = [path for path, of_file in facts.items() if of_file.sets_path] if modules else []
     for name, source in modules:
         top = source.removesuffix(f"{name.replace('.', '/')}.py") + name.partition(".")[0]
-        if any(path.startswith(f"{top}/") for path in setting):
+        if any(path.startswith(f"{top}/") for path in path_setters):
             continue  # usually to make these modules importable
-        for module, beside, span in _beside(source, facts[source], known, folders):
+        for module, neighbour, span in _imported_neighbours(source, facts[source], known_files, folders):
             if f"{module}.py" not in names:
-                yield UninstalledImport(name, module, beside, span, sure=True)
+                yield UninstalledImport(name, module, neighbour, span, sure=True)
 
 
-def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[UninstalledImport]:
+def _unlisted_imports(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[UninstalledImport]:
     """Yield imports of folders that setup.py does not list, from the Python packages that it installs.
 
     An entry point's module is certainly started.
@@ -228,7 +228,7 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
     packages = frozenset(script.products.python_packages)
     started = {module.path for module in script.python.entry_point_modules}
     folders = {file.rpartition("/")[0] for file in files if file.endswith(".py")}
-    known = frozenset(files)
+    known_files = frozenset(files)
     for path, of_file in facts.items():
         folder = path.rpartition("/")[0]
         top = "src/" if folder.startswith("src/") else ""
@@ -238,23 +238,25 @@ def _unlisted(files: Sequence[str], script: BuildScript, facts: Mapping[str, Fil
             name = mention.name
             if mention.via != "import" or mention.optional or name.partition(".")[0] in of_file.optional_modules:
                 continue
-            if f"{top}{name.replace('.', '/')}.py" in known:
+            if f"{top}{name.replace('.', '/')}.py" in known_files:
                 name = name.rpartition(".")[0]
             source = f"{top}{name.replace('.', '/')}"
             if name not in packages and name.partition(".")[0] in packages and source in folders:
                 yield UninstalledImport(path, name, f"{source}/", mention.span, path in started)
 
 
-def _beside(source: str, facts: FileFacts, files: Container[str], folders: Container[str]) -> Iterator[tuple[str, str, Span]]:
+def _imported_neighbours(
+    source: str, facts: FileFacts, files: Container[str], folders: Container[str]
+) -> Iterator[tuple[str, str, Span]]:
     """Yield the modules next to a file that it imports: name, file or folder, place."""
-    here = source[: source.rfind("/") + 1]
+    folder = source[: source.rfind("/") + 1]
     for name, via, span, _, optional, _, _ in facts.mentions:
         module = name.partition(".")[0]
         if via != "import" or optional or not module or module in facts.optional_modules:
             continue
-        beside = f"{here}{module}.py" if f"{here}{module}.py" in files else f"{here}{module}/"
-        if beside in files or beside[:-1] in folders:
-            yield module, beside, span
+        neighbour = f"{folder}{module}.py" if f"{folder}{module}.py" in files else f"{folder}{module}/"
+        if neighbour in files or neighbour[:-1] in folders:
+            yield module, neighbour, span
 
 
 def _is_program(provided: InstalledFile) -> bool:

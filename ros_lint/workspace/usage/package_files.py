@@ -12,7 +12,7 @@ from ros_lint.facts.sources import FileFacts
 from ros_lint.facts.visibility import Opaque
 
 
-class Source(NamedTuple):
+class PackageSource(NamedTuple):
     """A package with its files, as the resolution of names needs it."""
 
     name: str
@@ -31,9 +31,9 @@ class Source(NamedTuple):
         return self.script or NOTHING_BUILT
 
 
-def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
+def include_index(sources: Iterable[PackageSource]) -> dict[str, tuple[str, ...]]:
     """Return the packages that have each header below an ``include`` folder, by include path."""
-    found: dict[str, tuple[str, ...]] = {}
+    index: dict[str, tuple[str, ...]] = {}
     for source in sources:
         for file in source.files:
             if not file.endswith(HEADERS):
@@ -43,17 +43,17 @@ def include_index(sources: Iterable[Source]) -> dict[str, tuple[str, ...]]:
                 continue
             # include/<package>/<package>/x.hpp and include/<package>/x.hpp are both included as <package>/x.hpp.
             for spelling in {header, header.removeprefix(f"{source.name}/") if header.count("/") > 1 else header}:
-                have = found.get(spelling, ())
-                if source.name not in have:
-                    found[spelling] = (*have, source.name)
-    return found
+                owners = index.get(spelling, ())
+                if source.name not in owners:
+                    index[spelling] = (*owners, source.name)
+    return index
 
 
-def opaque_of(source: Source) -> tuple[Opaque, ...]:
+def opaque_of(source: PackageSource) -> tuple[Opaque, ...]:
     """Return all places that hide a facet of the package."""
-    found: list[Opaque] = list(source.built.opaque)
+    places: list[Opaque] = list(source.built.opaque)
     for facts in source.facts.values():
-        found += facts.opaque
+        places += facts.opaque
     for launch in source.launch:
-        found += launch.opaque
-    return tuple(sorted(found, key=lambda opaque: (opaque.span, opaque.reason)))
+        places += launch.opaque
+    return tuple(sorted(places, key=lambda opaque: (opaque.span, opaque.reason)))

@@ -20,14 +20,14 @@ def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[s
         return ()
     installed = {_name(file.path) for file in provided}
     private = {_name(file): file for file in files if _name(file) not in installed}
-    lost = {header for header in headers if any(_is_private(name, private, installed) for name in _includes(facts[header]))}
-    waiting = list(lost)
-    while waiting:
-        wrong = f"/{waiting.pop()}"
-        more = [header for header in headers if header not in lost and any(map(wrong.endswith, _endings(facts[header])))]
-        lost.update(more)
-        waiting += more
-    return tuple(sorted(lost))
+    result = {header for header in headers if any(_is_private(name, private, installed) for name in _includes(facts[header]))}
+    pending = list(result)
+    while pending:
+        suffix = f"/{pending.pop()}"
+        includers = [header for header in headers if header not in result and any(map(suffix.endswith, _endings(facts[header])))]
+        result.update(includers)
+        pending += includers
+    return tuple(sorted(result))
 
 
 def _is_private(header: str, private: Mapping[str, str], installed: set[str]) -> bool:

@@ -19,7 +19,7 @@ from ros_lint.facts.sources import Mention, Use, Via
 from ros_lint.knowledge.spelling import may_be_package
 from ros_lint.workspace.usage.file_roles import FileRoles
 from ros_lint.workspace.usage.own_files import OwnFiles
-from ros_lint.workspace.usage.package_files import Source, include_index
+from ros_lint.workspace.usage.package_files import PackageSource, include_index
 
 if TYPE_CHECKING:
     from ros_lint.facts.repositories import ExpectedRepositories
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.world import Resolution
 
 
-class Names(Protocol):
+class ProviderLookup(Protocol):
     """The look-ups that resolution needs; :class:`ros_lint.knowledge.world.World` implements them."""
 
     def by_cmake(self, name: str) -> Providers: ...
@@ -51,12 +51,12 @@ _BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
 """Modules that are always available when a Python package is built."""
 
 _TEST = Role.TEST
-_LOOKED_UP = Role.EXEC
+_LOOK_UP_ROLE = Role.EXEC
 """Role of a package whose files are looked up at run time: nothing is compiled against it."""
 
 
-class Answer(NamedTuple):
-    """The owners of a mentioned name."""
+class ProviderMatch(NamedTuple):
+    """The packages that a mentioned name may belong to."""
 
     providers: tuple[str, ...]
     """Each name whose declaration satisfies the mention, the best first; empty if none is known."""
@@ -65,100 +65,106 @@ class Answer(NamedTuple):
     """Quotation of the mention for a message."""
 
 
-_NOBODY = Answer(())
+_NO_MATCH = ProviderMatch(())
 _INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
 """Headers and modules of interfaces: only ROS packages have them, even if the package is unknown."""
-_OF_ROS_1 = re.compile(r"[a-z][a-z0-9_]*_(?:msgs|srvs)/[A-Z]\w*\.h")
+_ROS_1_HEADER = re.compile(r"[a-z][a-z0-9_]*_(?:msgs|srvs)/[A-Z]\w*\.h")
 """Headers of messages as ROS 1 generates them; headers of ROS 2 are in a folder ``msg``."""
-_OF_TESTS = ("gtest/", "gmock/")
+_TEST_PREFIXES = ("gtest/", "gmock/")
 """Include prefixes that only tests use when they are in a header without a source."""
 
 
 class Resolver:
     """Resolves names to packages, once for all packages of a workspace."""
 
-    def __init__(self, sources: Sequence[Source], names: Names) -> None:
+    def __init__(self, sources: Sequence[PackageSource], names: ProviderLookup) -> None:
         self.names = names
         self._headers = include_index(sources)
         self._sources = frozenset([source.name for source in sources])
         self._empty = frozenset([source.name for source in sources if source.built.cmake.makes_nothing])
-        self._ask: Mapping[Via, Callable[[str], Answer]] = {
+        self._matchers: Mapping[Via, Callable[[str], ProviderMatch]] = {
             "include": self._include,
-            "import": self._imported,
-            "cmake": self._found,
-            "target": lambda name: self._told(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
-            "macro": lambda name: self._told(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
+            "import": self._import,
+            "cmake": self._find_package,
+            "target": lambda name: self._match(self.names.by_cmake(name.partition("::")[0]), name.partition("::")[0]),
+            "macro": lambda name: self._match(self.names.by_macro(name.partition("::")[0]), name.partition("::")[0]),
             "interface": lambda name: self._package(name.partition("/")[0]),
             "package": self._package,
-            "symbol": lambda name: Answer((name,)) if self.names.is_package(name) else _NOBODY,
-            "launch": lambda name: Answer((name,)) if self.names.is_package(name) else self._strange(name),
-            "key": lambda name: Answer((name,)),
+            "symbol": lambda name: ProviderMatch((name,)) if self.names.is_package(name) else _NO_MATCH,
+            "launch": lambda name: ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name),
+            "key": lambda name: ProviderMatch((name,)),
         }
-        self._answers: Mapping[Via, dict[str, Answer]] = {via: {} for via in self._ask}
+        self._matches: Mapping[Via, dict[str, ProviderMatch]] = {via: {} for via in self._matchers}
 
-    def answer(self, via: Via, name: str) -> Answer:
+    def match(self, via: Via, name: str) -> ProviderMatch:
         """Return the owner of a name, under the assumption that it is not the package that mentions it."""
-        answers = self._answers[via]
-        found = answers.get(name)
-        if found is None:
-            found = answers[name] = self._ask[via](name)._replace(what=_WHAT[via].format(name))
-        return found
+        matches = self._matches[via]
+        match = matches.get(name)
+        if match is None:
+            match = matches[name] = self._matchers[via](name)._replace(what=_QUOTATIONS[via].format(name))
+        return match
 
-    def _include(self, header: str) -> Answer:
-        found = self._headers.get(header)
+    def _include(self, header: str) -> ProviderMatch:
+        packages = self._headers.get(header)
         first, slash, _ = header.partition("/")
-        if not found:
-            if (slash and first in self._empty) or _OF_ROS_1.fullmatch(header):
-                return _NOBODY  # a library named like a metapackage, or headers of ROS 1
-            return self._told(self.names.by_include(header), first if slash else "", header)
-        if slash and first not in found:
-            known = self.names.by_include(header)
-            if known.known and not set(found).intersection(known.names):  # a vendored copy of a known header
-                return Answer((*known.names, *found), known.sure)
-        return Answer(tuple(sorted(found, key=lambda package: package != first)))
+        if not packages:
+            if (slash and first in self._empty) or _ROS_1_HEADER.fullmatch(header):
+                return _NO_MATCH  # a library named like a metapackage, or headers of ROS 1
+            return self._match(self.names.by_include(header), first if slash else "", header)
+        if slash and first not in packages:
+            providers = self.names.by_include(header)
+            if providers.known and not set(packages).intersection(providers.names):  # a vendored copy of a known header
+                return ProviderMatch((*providers.names, *packages), providers.sure)
+        return ProviderMatch(tuple(sorted(packages, key=lambda package: package != first)))
 
-    def _imported(self, module: str) -> Answer:
+    def _import(self, module: str) -> ProviderMatch:
         first = module.partition(".")[0]
-        found = self._told(self.names.by_import(module), first, module)
+        match = self._match(self.names.by_import(module), first, module)
         # An interface module refers to the package of its name even if the module is unknown.
-        meant = not found.providers and first in self._sources and _INTERFACES.match(module)
-        return Answer((first,)) if meant else found
+        is_own_interface = not match.providers and first in self._sources and _INTERFACES.match(module)
+        return ProviderMatch((first,)) if is_own_interface else match
 
-    def _package(self, name: str) -> Answer:
+    def _package(self, name: str) -> ProviderMatch:
         # Definitions in test data and look-ups in templates contain many names that do not exist.
-        return Answer((name,)) if self.names.is_package(name) else self._strange(name, self.names.is_declared(name))
+        return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
-    def looked_up(self, name: str) -> Answer:
+    def looked_up(self, name: str) -> ProviderMatch:
         """Return an owner of an unknown name that is certainly looked up: the package of that name."""
-        return Answer((name,), False, name) if self.names.standing(name) == "unknown" and may_be_package(name) else _NOBODY
+        return (
+            ProviderMatch((name,), False, name) if self.names.standing(name) == "unknown" and may_be_package(name) else _NO_MATCH
+        )
 
-    def _found(self, name: str) -> Answer:
-        known = self.names.by_cmake(name)
+    def _find_package(self, name: str) -> ProviderMatch:
+        providers = self.names.by_cmake(name)
         # A library may have any name, but hardly the name of a dependency of another package by chance.
-        return self._told(known, name) if known.known or not may_be_package(name) else self._package(name)
+        return self._match(providers, name) if providers.known or not may_be_package(name) else self._package(name)
 
-    def _told(self, providers: Providers, name: str, whole: str = "") -> Answer:
+    def _match(self, providers: Providers, name: str, mention: str = "") -> ProviderMatch:
         if providers.known:
-            return Answer(providers.names, providers.sure)
-        return self._strange(name, bool(whole) and _INTERFACES.match(whole) is not None)
+            return ProviderMatch(providers.names, providers.sure)
+        return self._unresolved(name, bool(mention) and _INTERFACES.match(mention) is not None)
 
-    def _strange(self, name: str, interfaces: bool = False) -> Answer:
+    def _unresolved(self, name: str, is_interface: bool = False) -> ProviderMatch:
         """Return the owner of a name that no package here provides.
 
-        The owner is a package of another or a former distribution, or the package of used ``interfaces``. The use
-        of the latter is certain only if the workspace declares the package.
+        The owner is a package of another or a former distribution, or (``is_interface``) the package of an interface.
+        The latter is certain only if the workspace declares the package.
         """
-        standing = self.names.standing(name) if name else "unknowable"
-        if standing == "elsewhere":
-            return Answer((name,))
-        declared = interfaces and self.names.is_declared(name)
+        resolution = self.names.standing(name) if name else "unknowable"
+        if resolution == "elsewhere":
+            return ProviderMatch((name,))
+        is_declared = is_interface and self.names.is_declared(name)
         # A submodule that is not cloned may be a library; a name that another package declares is not.
-        if standing == "end-of-life" or (standing == "unknown" and interfaces) or (standing == "unknowable" and declared):
-            return Answer((name,), declared)
-        return _NOBODY
+        if (
+            resolution == "end-of-life"
+            or (resolution == "unknown" and is_interface)
+            or (resolution == "unknowable" and is_declared)
+        ):
+            return ProviderMatch((name,), is_declared)
+        return _NO_MATCH
 
 
-_WHAT: Mapping[Via, str] = {
+_QUOTATIONS: Mapping[Via, str] = {
     "package": "{}",
     "cmake": "find_package({})",
     "macro": "{}()",
@@ -172,53 +178,53 @@ _WHAT: Mapping[Via, str] = {
 }
 
 
-def resolve(source: Source, resolver: Resolver, own: OwnFiles) -> tuple[Use, ...]:
+def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> tuple[Use, ...]:
     """Return each use of another package, sorted by place.
 
-    ``own`` resolves names of the package's own files.
+    ``own_files`` resolves names of the package's own files.
     """
     launched = frozenset(strip_folder(source.path, launch.path) for launch in source.launch)
     tests = frozenset(strip_folder(source.path, launch.path) for launch in source.launch if launch.test)
-    alive = FileRoles(own, launched)
-    uses = _Uses(source, own, alive, resolver)
-    forgone = own.forgone(_lenient(source, alive))
+    roles = FileRoles(own_files, launched)
+    uses = _Uses(source, own_files, roles, resolver)
+    optional_files = own_files.optional_modules(_files_with_optional_imports(source, roles))
     _add_script(source, uses)
     for path, facts in source.facts.items():
-        if not facts.mentions or alive.is_foreign(path):
+        if not facts.mentions or roles.is_template_or_recipe(path):
             continue
-        role, sure = alive.place(path)
+        role, certain = roles.role(path)
         role = _TEST if path in tests else role
         mentions = list(facts.mentions)
-        if alive.is_optional(path) or (path in forgone and not alive.is_started(path)):
+        if roles.is_optional(path) or (path in optional_files and not roles.is_started(path)):
             mentions = [mention._replace(optional=True) for mention in mentions]
         if path in launched:  # the launch collector yields the packages, except for those of plugins
             mentions = [mention for mention in mentions if mention.via != "package" or mention.purpose == "plugins"]
-        uses.add(path, mentions, role, _TEST if role is _TEST else _LOOKED_UP, sure)
+        uses.add(path, mentions, role, _TEST if role is _TEST else _LOOK_UP_ROLE, certain)
     for launch in source.launch:
         path = strip_folder(source.path, launch.path)
-        if alive.is_foreign(path):
+        if roles.is_template_or_recipe(path):
             continue
-        role, sure = alive.place(path)
-        _launch_uses(launch, _TEST if launch.test else role, uses, sure)
+        role, certain = roles.role(path)
+        _launch_uses(launch, _TEST if launch.test else role, uses, certain)
     return uses.sorted()
 
 
-def _add_script(source: Source, uses: _Uses) -> None:
+def _add_script(source: PackageSource, uses: _Uses) -> None:
     """Add the names in the build script, and the packages that it finds on behalf of dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
-    untaken = frozenset(source.built.cmake.unused_optional_finds)
+    unused_finds = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:
         if mention.purpose == "plugins":
             continue  # the loader of the plugins is optional, and headers name the package of the base class
         role = _TEST if mention.test else _script_role(source, mention)
-        only_named = mention.via == "cmake" and mention.span in untaken
-        ours = by_role.setdefault((mention.span.path, role), [])
-        ours.append(mention._replace(optional=True) if only_named else mention)
+        only_named = mention.via == "cmake" and mention.span in unused_finds
+        of_role = by_role.setdefault((mention.span.path, role), [])
+        of_role.append(mention._replace(optional=True) if only_named else mention)
     for (path, role), mentions in by_role.items():
-        uses.add(strip_folder(source.path, path), mentions, role, role, sure=True)
+        uses.add(strip_folder(source.path, path), mentions, role, role, in_use=True)
     for mention, always in source.built.exports.packages:
         uses.add(strip_folder(source.path, mention.span.path), [mention], Role.EXPORT, Role.EXPORT, always)
-    _unspoken(source, uses)
+    _add_implicit_uses(source, uses)
 
 
 class _Uses:
@@ -227,78 +233,93 @@ class _Uses:
     The last of several uses with equal place, package and name space counts.
     """
 
-    def __init__(self, source: Source, own: OwnFiles, alive: FileRoles, resolver: Resolver) -> None:
+    def __init__(self, source: PackageSource, own_files: OwnFiles, roles: FileRoles, resolver: Resolver) -> None:
         self.package = source.name
         self.resolver = resolver
-        self._own = own
-        self._alive = alive
-        self._absent = resolver.names.awaited.uncloned
-        self._caught = frozenset([name for path in _lenient(source, alive) for name in source.facts[path].optional_modules])
-        self._added = frozenset([span for facts in source.facts.values() for span in facts.path_additions])
+        self._own_files = own_files
+        self._roles = roles
+        self._uncloned = resolver.names.awaited.uncloned
+        self._optional_modules = frozenset(
+            [name for path in _files_with_optional_imports(source, roles) for name in source.facts[path].optional_modules]
+        )
+        self._path_additions = frozenset([span for facts in source.facts.values() for span in facts.path_additions])
         script = source.built
-        self._reaches_out = script.cmake.includes_outside_package
+        self._includes_outside = script.cmake.includes_outside_package
         self._bundled = frozenset([name.lower() for name in script.cmake.bundled_projects])
         self._found_always = frozenset(
             [mention.name for mention in script.mentions if mention.via == "cmake" and not (mention.optional or mention.test)]
         )
-        self._found: dict[tuple[Span, str, Via], Use] = {}
+        self._by_place: dict[tuple[Span, str, Via], Use] = {}
 
-    def put(self, use: Use) -> None:
-        self._found[use.span, use.package, use.via] = use
+    def add_use(self, use: Use) -> None:
+        self._by_place[use.span, use.package, use.via] = use
 
     def sorted(self) -> tuple[Use, ...]:
-        return tuple([use for _, use in sorted(self._found.items())])
+        return tuple([use for _, use in sorted(self._by_place.items())])
 
-    def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, sure: bool) -> None:
+    def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, in_use: bool) -> None:
         """Add the uses that result from the mentions in a file.
 
         ``looked_up`` is the role of packages whose files are looked up at run time.
         """
-        package, answer, found = self.package, self.resolver.answer, self._found
-        own = self._own.included(path)
-        for name, via, span, what, optional, test, purpose in mentions:
-            if (via == "include" and (name in own or self._is_bundled(name))) or (
+        package, match, uses = self.package, self.resolver.match, self._by_place
+        own_headers = self._own_files.included(path)
+        for name, via, span, quotation, optional, test, purpose in mentions:
+            if (via == "include" and (name in own_headers or self._is_of_bundled_project(name))) or (
                 via == "import" and self._is_own_module(name, path)
             ):
                 continue
-            providers, known, usual = answer(via, name)
-            if not providers and via == "package" and sure and not (optional or test or role is _TEST):
-                providers, known, usual = self.resolver.looked_up(name)
+            providers, certain, default_quotation = match(via, name)
+            if not providers and via == "package" and in_use and not (optional or test or role is _TEST):
+                providers, certain, default_quotation = self.resolver.looked_up(name)
             if not providers or package in providers:
                 continue
-            if via == "include" and providers[0] in self._own.include_folders and name.startswith(f"{providers[0]}/"):
+            if via == "include" and providers[0] in self._own_files.include_folders and name.startswith(f"{providers[0]}/"):
                 continue
             needed = _TEST if test else looked_up if via == "package" else role
-            if via == "include" and name.startswith(_OF_TESTS) and self._alive.serves_tests(path):
+            if via == "include" and name.startswith(_TEST_PREFIXES) and self._roles.serves_tests(path):
                 needed = _TEST
-            spared = optional
+            is_optional = optional
             if via == "import":
-                spared = spared or self._is_spared(name, span, providers[0])
-                known = known and name.partition(".")[0] not in self._absent
-            elif known and self._reaches_out and via == "include" and "/" not in name:
-                known = False  # any include directory may have it
-            elif self._absent and known:
-                known = self._is_here(name, providers[0])
-            if not known and providers[0] in self._found_always and _INTERFACES.match(name):
-                known = True  # certainly in use: the build fails without it
-            by: Via = "macro" if purpose == "helper" else via
-            found[span, providers[0], by] = _make(
-                Use, (providers[0], providers, needed, what or usual, by, spared, span, sure and known, name)
+                is_optional = is_optional or self._may_be_missing(name, span, providers[0])
+                certain = certain and name.partition(".")[0] not in self._uncloned
+            elif certain and self._includes_outside and via == "include" and "/" not in name:
+                certain = False  # any include directory may have it
+            elif self._uncloned and certain:
+                certain = self._is_available(name, providers[0])
+            if not certain and providers[0] in self._found_always and _INTERFACES.match(name):
+                certain = True  # certainly in use: the build fails without it
+            name_space: Via = "macro" if purpose == "helper" else via
+            uses[span, providers[0], name_space] = _make(
+                Use,
+                (
+                    providers[0],
+                    providers,
+                    needed,
+                    quotation or default_quotation,
+                    name_space,
+                    is_optional,
+                    span,
+                    in_use and certain,
+                    name,
+                ),
             )
 
-    def _is_here(self, name: str, best: str) -> bool:
-        """Return whether no submodule that is not cloned can provide a header or a library."""
-        if REPOSITORIES.get(name.partition("/")[0]) in self._absent:
+    def _is_available(self, name: str, provider: str) -> bool:
+        """Return False if a submodule that is not cloned may provide a header or a library."""
+        if REPOSITORIES.get(name.partition("/")[0]) in self._uncloned:
             return False
-        return self.resolver.names.is_package(best) or self._absent.isdisjoint(_WORD.findall(name))
+        return self.resolver.names.is_package(provider) or self._uncloned.isdisjoint(_WORD.findall(name))
 
-    def _is_spared(self, name: str, span: Span, best: str) -> bool:
+    def _may_be_missing(self, name: str, span: Span, provider: str) -> bool:
         """Return whether a module may be missing or unknown: the package imports it elsewhere as optional."""
-        if span in self._added:
-            return not self.resolver.names.is_package(best)
-        return bool(self._caught) and any(name == module or name.startswith(f"{module}.") for module in self._caught)
+        if span in self._path_additions:
+            return not self.resolver.names.is_package(provider)
+        return bool(self._optional_modules) and any(
+            name == module or name.startswith(f"{module}.") for module in self._optional_modules
+        )
 
-    def _is_bundled(self, header: str) -> bool:
+    def _is_of_bundled_project(self, header: str) -> bool:
         """Return whether a header is of a bundled project: in the project's folder, or ``owner/name.hpp``."""
         if not self._bundled:
             return False
@@ -308,53 +329,62 @@ class _Uses:
 
     def _is_own_module(self, name: str, path: str) -> bool:
         top = name.partition(".")[0]
-        return self._own.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
+        return self._own_files.has_module(top, path) or (top in _BUILD_MODULES and path.endswith("setup.py"))
 
 
-def _lenient(source: Source, alive: FileRoles) -> list[str]:
+def _files_with_optional_imports(source: PackageSource, roles: FileRoles) -> list[str]:
     """Return the files of the package with optional imports, tests aside."""
-    return [path for path, facts in source.facts.items() if facts.optional_modules and alive.place(path)[0] is not _TEST]
+    return [path for path, facts in source.facts.items() if facts.optional_modules and roles.role(path)[0] is not _TEST]
 
 
-def _unspoken(source: Source, uses: _Uses) -> None:
+def _add_implicit_uses(source: PackageSource, uses: _Uses) -> None:
     """Add the implicit use of action_msgs: rosidl generates actions with its types."""
     if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.products.interfaces):
         return
     for mention in source.built.mentions:
         if mention.via == "macro" and mention.purpose == "interfaces" and uses.resolver.names.is_package(_ACTIONS):
             role = _TEST if mention.test else Role.BUILD | Role.EXPORT | Role.EXEC
-            uses.put(Use(_ACTIONS, (_ACTIONS,), role, "an action", "macro", mention.optional, mention.span))
+            uses.add_use(Use(_ACTIONS, (_ACTIONS,), role, "an action", "macro", mention.optional, mention.span))
 
 
 _ACTIONS = "action_msgs"
 
 
-def _script_role(source: Source, mention: Mention) -> Role:
+def _script_role(source: PackageSource, mention: Mention) -> Role:
     if source.builds_with == "ament_python" or mention.via == "macro" or mention.purpose == "tool":
         return Role.TOOL
     return Role.EXPORT if mention.purpose == "export" else Role.BUILD
 
 
-def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, sure: bool) -> None:
+def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, in_use: bool) -> None:
     for reference in launch.references:
         package = reference.package
         if reference.kind == "program":
             continue
-        answer = uses.resolver.answer("launch", package)
-        if package != uses.package and answer.providers:
-            what = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
-            uses.put(
-                Use(package, (package,), role, what, "launch", reference.optional, reference.package_span, sure and answer.sure)
+        match = uses.resolver.match("launch", package)
+        if package != uses.package and match.providers:
+            quotation = package if reference.kind == "package" else f"{reference.kind} {reference.name}"
+            uses.add_use(
+                Use(
+                    package,
+                    (package,),
+                    role,
+                    quotation,
+                    "launch",
+                    reference.optional,
+                    reference.package_span,
+                    in_use and match.sure,
+                )
             )
 
 
 def satisfying(uses: Iterable[Use]) -> frozenset[str]:
     """Return each name whose declaration satisfies a use."""
-    return frozenset([name for answer in {use.providers for use in uses} for name in answer])
+    return frozenset([name for match in {use.providers for use in uses} for name in match])
 
 
 def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
     """Return the declared names that satisfy a use: for each use, only the best declared provider."""
     names = frozenset(declared)
-    answers = {use.providers for use in uses}
-    return frozenset([name for answer in answers for name in [provider for provider in answer if provider in names][:1]])
+    alternatives = {use.providers for use in uses}
+    return frozenset([name for match in alternatives for name in [provider for provider in match if provider in names][:1]])

@@ -6,7 +6,7 @@ Neither an include nor the name of the package is in the code. Examples:
 * a class, through a using-declaration of a third package,
 * a message, through ``using pkg::msg::Type;`` in a header.
 
-Such a place speaks against "unused", but it is not evidence of a missing dependency.
+A package with such a use is not reported as unused. The use alone is not reported as an undeclared dependency.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span
     from ros_lint.base.tree import Tree
-    from ros_lint.workspace.usage.package_files import Source
+    from ros_lint.workspace.usage.package_files import PackageSource
 
 _CODE = (*HEADERS, *SOURCES)
 
 
-class _Wanted(NamedTuple):
+class _TypeNames(NamedTuple):
     """The names that identify a use of a package."""
 
     types: frozenset[bytes]
@@ -38,7 +38,7 @@ class _Wanted(NamedTuple):
     """Components of the package's namespaces; a qualified type counts only after one of them."""
 
 
-class Names(Protocol):
+class NameSet(Protocol):
     """A set of names that supports ``in`` only."""
 
     def __contains__(self, name: str, /) -> bool: ...
@@ -47,55 +47,59 @@ class Names(Protocol):
 class Types:
     """Finds unqualified names of types in the packages of a workspace.
 
-    ``along`` returns the names that a package provides transitively.
+    ``transitive`` returns the names that a package provides transitively.
     """
 
-    def __init__(self, sources: Sequence[Source], tree: Tree, along: Callable[[str], Names]) -> None:
+    def __init__(self, sources: Sequence[PackageSource], tree: Tree, transitive: Callable[[str], NameSet]) -> None:
         self._by_name = {source.name: source for source in sources}
         self._tree = tree
-        self._along = along
-        self._public: dict[str, _Wanted] = {}
+        self._transitive = transitive
+        self._public: dict[str, _TypeNames] = {}
         self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
 
-    def used(self, source: Source, names: Iterable[str]) -> Mapping[str, Span]:
+    def used(self, source: PackageSource, names: Iterable[str]) -> Mapping[str, Span]:
         """Return a place for each name of a package whose types ``source`` uses unqualified.
 
         For a package of the workspace, the types are those that its public headers declare. For a package of
         interfaces, they are the names that public headers of transitive dependencies give to its messages.
         """
-        sought = {name: wanted for name in names if (wanted := self._wanted(source, name)).types or wanted.spaces}
-        if not sought:
+        wanted_names = {
+            name: type_names for name in names if (type_names := self._type_names(source, name)).types or type_names.spaces
+        }
+        if not wanted_names:
             return {}
         texts = list(self._texts(source, source.files))
         code: dict[str, bytes] = {}
-        found: dict[str, Span] = {}
-        for name, wanted in sought.items():
+        places: dict[str, Span] = {}
+        for name, type_names in wanted_names.items():
             tail = to_bytes(name.partition("_")[2])
-            for word in (*sorted(wanted.types), *([tail] if tail in wanted.spaces else [])):
-                having = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
-                code.update((path, cpp_types.code(text)) for path, text in having if path not in code)
-                place = cpp_types.first([(path, code[path]) for path, _ in having], word, wanted.spaces)
+            for word in (*sorted(type_names.types), *([tail] if tail in type_names.spaces else [])):
+                texts_with_word = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
+                code.update((path, cpp_types.code(text)) for path, text in texts_with_word if path not in code)
+                place = cpp_types.first([(path, code[path]) for path, _ in texts_with_word], word, type_names.spaces)
                 if place:
-                    found[name] = place
+                    places[name] = place
                     break
-        return found
+        return places
 
-    def _wanted(self, source: Source, name: str) -> _Wanted:
-        other = self._by_name.get(name)
-        if other is not None and not (other.script and other.script.products.interfaces):
-            return self._declared(other)
-        along = self._along(source.name)
-        types = [self._of_messages(name, *place) for place in self._naming.get(name, ()) if place[0] in along]
-        return _Wanted(frozenset(name for of_header in types for name in of_header), frozenset())
+    def _type_names(self, source: PackageSource, name: str) -> _TypeNames:
+        workspace_source = self._by_name.get(name)
+        if workspace_source is not None and not (workspace_source.script and workspace_source.script.products.interfaces):
+            return self._declared_types(workspace_source)
+        provided = self._transitive(source.name)
+        types = [
+            self._message_aliases(name, *header) for header in self._headers_by_package.get(name, ()) if header[0] in provided
+        ]
+        return _TypeNames(frozenset(name for of_header in types for name in of_header), frozenset())
 
-    def _declared(self, source: Source) -> _Wanted:
+    def _declared_types(self, source: PackageSource) -> _TypeNames:
         if source.name not in self._public:
             texts = [text for _, text in self._texts(source, filter(_is_public, source.files))]
             spaces = frozenset(part for text in texts for part in cpp_types.namespaces(text))
-            self._public[source.name] = _Wanted(frozenset(name for text in texts for name in cpp_types.declared(text)), spaces)
+            self._public[source.name] = _TypeNames(frozenset(name for text in texts for name in cpp_types.declared(text)), spaces)
         return self._public[source.name]
 
-    def _of_messages(self, name: str, package: str, file: str) -> Set[bytes]:
+    def _message_aliases(self, name: str, package: str, file: str) -> Set[bytes]:
         """Return the names that a header gives to messages of a package. The header is read once."""
         source = self._by_name[package]
         key = join(source.path, file)
@@ -104,18 +108,18 @@ class Types:
         return self._introduced[key].get(name, frozenset())
 
     @cached_property
-    def _naming(self) -> Mapping[str, Sequence[tuple[str, str]]]:
+    def _headers_by_package(self) -> Mapping[str, Sequence[tuple[str, str]]]:
         """The public headers that mention each package, with the package that has the header."""
-        found: dict[str, dict[tuple[str, str], None]] = {}
+        headers: dict[str, dict[tuple[str, str], None]] = {}
         for source in self._by_name.values():
             for file in filter(_is_public, source.files):
                 facts = source.facts.get(file)
                 for mention in facts.mentions if facts else ():
                     if mention.via in ("include", "symbol"):
-                        found.setdefault(mention.name.partition("/")[0], {})[source.name, file] = None
-        return {name: tuple(places) for name, places in found.items()}
+                        headers.setdefault(mention.name.partition("/")[0], {})[source.name, file] = None
+        return {name: tuple(places) for name, places in headers.items()}
 
-    def _texts(self, source: Source, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    def _texts(self, source: PackageSource, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
         return contents(self._tree, source.path, (file for file in files if file.endswith(_CODE)))
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.collectors.interfaces import naming as interface_names
+from ros_lint.collectors.interfaces import naming
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package
 
 
-def unused_in_sight(package: Package) -> Iterator[Mention]:
-    """Yield the first required find_package() of each name that no code uses, tests aside.
+def unused_finds(package: Package) -> Iterator[Mention]:
+    """Yield the first required find_package() of each name that no code uses, without those for tests.
 
     A target that is linked or exported is not a use by code. These count as uses:
 
@@ -24,13 +24,13 @@ def unused_in_sight(package: Package) -> Iterator[Mention]:
     if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
     used = {name for use in package.uses if use.via not in _BY_SCRIPT for name in use.providers}
-    read = _reads_interfaces(package)
+    reads_interfaces = _reads_interfaces(package)
     used |= {
         mention.name.partition("::")[0]
         for mention in script.mentions
         if mention.via not in _BY_SCRIPT
         or mention.purpose == "plugins"
-        or (mention.purpose == "interfaces" and not (read and mention.name not in interface_names.UNDERLYING))
+        or (mention.purpose == "interfaces" and not (reads_interfaces and mention.name not in naming.UNDERLYING))
     }
     used.add(package.name)
     for mention in script.mentions:
@@ -44,9 +44,13 @@ _BY_SCRIPT = ("cmake", "target")
 
 def _reads_interfaces(package: Package) -> bool:
     """Return whether all generated interface files are read, so that the types of their fields are known."""
-    given = generated_from(package)
-    read = {package.relative(file.path) for file in package.interface_files if not file.problems}
-    return len(given) == len(package.built.products.interfaces) and given <= read and not package.hidden(Facet.INTERFACES)
+    generated = generated_from(package)
+    read_files = {package.relative(file.path) for file in package.interface_files if not file.problems}
+    return (
+        len(generated) == len(package.built.products.interfaces)
+        and generated <= read_files
+        and not package.hidden(Facet.INTERFACES)
+    )
 
 
 def generated_from(package: Package) -> frozenset[str]:

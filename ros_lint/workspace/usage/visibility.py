@@ -52,8 +52,8 @@ def makes_something(package: Package) -> bool:
     script = package.script
     if script is None or package.opaque or builds_something(package):
         return True
-    by_rote = ("share/ament_index/", f"share/{package.name}/package.xml", f"share/{package.name}/cmake/")
-    return any(not provided.path.startswith(by_rote) for provided in script.products.installs)
+    always_installed = ("share/ament_index/", f"share/{package.name}/package.xml", f"share/{package.name}/cmake/")
+    return any(not file.path.startswith(always_installed) for file in script.products.installs)
 
 
 def builds_something(package: Package) -> bool:
@@ -64,5 +64,7 @@ def builds_something(package: Package) -> bool:
     script = package.script
     if script is None:
         return False
-    made = script.products.targets or script.products.interfaces or script.products.python_packages or script.products.components
-    return bool(made) or any(provided.path.startswith("include/") for provided in script.products.installs)
+    products = (
+        script.products.targets or script.products.interfaces or script.products.python_packages or script.products.components
+    )
+    return bool(products) or any(provided.path.startswith("include/") for provided in script.products.installs)

@@ -1,11 +1,12 @@
-"""Readers of the tags of XML and YAML launch files that start no program."""
+"""Readers of the tags of XML and YAML launch files, except for nodes and processes."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
 
-from ros_lint.collectors.launch.markup.attributes import Reader, Rule
+from ros_lint.collectors.launch.groups import group
+from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchCondition, LaunchValue
@@ -39,41 +40,44 @@ def _unescaped(value: str) -> str:
     return re.sub(r"\\(.)", r"\1", value) if "\\" in value else value
 
 
-def _assignment(kind: str, name: str = "name", value: str = "value") -> Rule:
-    def rule(reader: Reader, entity: Entity) -> LaunchAction:
+def _assignment(kind: str, name: str = "name", value: str = "value") -> TagReader:
+    def read(reader: Reader, entity: Entity) -> LaunchAction:
         conditions = reader.conditions(entity)
-        target, given = reader.text(entity, name), reader.text(entity, value)
+        target, assigned = reader.text(entity, name), reader.text(entity, value)
         span = reader.package_span(entity, value)
-        return LaunchAction(kind, entity.span, target=target, value=given, package_span=span, conditions=conditions)
+        return LaunchAction(kind, entity.span, target=target, value=assigned, package_span=span, conditions=conditions)
 
-    return rule
+    return read
 
 
-def _single(kind: str, name: str) -> Rule:
-    def rule(reader: Reader, entity: Entity) -> LaunchAction:
+def _single(kind: str, name: str) -> TagReader:
+    def read(reader: Reader, entity: Entity) -> LaunchAction:
         conditions = reader.conditions(entity)
         value = reader.text(entity, name)
         span = reader.package_span(entity, name)
         return LaunchAction(kind, entity.span, value=value, package_span=span, conditions=conditions)
 
-    return rule
+    return read
 
 
 def _append_environment(reader: Reader, entity: Entity) -> LaunchAction:
     action = _assignment("environment")(reader, entity)
     reader.need_truth(entity, "prepend")
-    before = reader.typed(entity, "prepend", "bool") is True
+    prepends = reader.typed(entity, "prepend", "bool") is True
     separator = reader.optional(entity, "separator")
     return action._replace(
-        name=LaunchValue(("prepend" if before else "append",), entity.span),
+        name=LaunchValue(("prepend" if prepends else "append",), entity.span),
         arguments=(("separator", separator),) if separator else (),
     )
 
 
 def _unset_environment(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    reader.text(entity, "name")
-    return LaunchAction("other", entity.span, conditions=conditions)
+    return LaunchAction("unset_environment", entity.span, target=reader.text(entity, "name"), conditions=conditions)
+
+
+def _reset_environment(reader: Reader, entity: Entity) -> LaunchAction:
+    return LaunchAction("reset_environment", entity.span, conditions=reader.conditions(entity))
 
 
 def _bare(reader: Reader, entity: Entity) -> LaunchAction:
@@ -82,7 +86,7 @@ def _bare(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _reset(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    return LaunchAction("other", entity.span, arguments=reader.named(entity, "keep"), conditions=conditions)
+    return LaunchAction("reset", entity.span, arguments=reader.named(entity, "keep"), conditions=conditions)
 
 
 def _log(reader: Reader, entity: Entity) -> LaunchAction:
@@ -99,12 +103,11 @@ def _shutdown(reader: Reader, entity: Entity) -> LaunchAction:
 
 def _group(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
-    scoped = entity.get("scoped", "bool")
-    entity.get("forwarding", "bool")
-    kept = reader.named(entity, "keep")
+    scoped = entity.get("scoped", "bool") is not False
+    forwarding = entity.get("forwarding", "bool") is not False
+    configurations = reader.named(entity, "keep")
     children = reader.actions(child for child in entity.actions() if child.tag != "keep")
-    name = LaunchValue((UNSCOPED,), entity.span) if scoped is False else None
-    return LaunchAction("group", entity.span, name=name, arguments=kept, conditions=conditions, children=tuple(children))
+    return group(entity.span, children, configurations, conditions, scoped=scoped, forwarding=forwarding)
 
 
 def _timer(reader: Reader, entity: Entity) -> LaunchAction:
@@ -128,9 +131,9 @@ def _loop(reader: Reader, entity: Entity) -> LaunchAction:
     for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
         reader.text(entity, attribute)
     children = reader.actions(entity.actions())
-    perhaps = LaunchCondition((UNKNOWN,), None)
+    unknown = LaunchCondition((UNKNOWN,), None)
     unscoped = LaunchValue((UNSCOPED,), entity.span)
-    return LaunchAction("group", entity.span, name=unscoped, conditions=(*conditions, perhaps), children=tuple(children))
+    return LaunchAction("group", entity.span, name=unscoped, conditions=(*conditions, unknown), children=tuple(children))
 
 
 def _include(reader: Reader, entity: Entity) -> LaunchAction:
@@ -152,13 +155,13 @@ def _include(reader: Reader, entity: Entity) -> LaunchAction:
     )
 
 
-RULES: Mapping[str, Rule] = {
+TAG_READERS: Mapping[str, TagReader] = {
     "arg": _argument,
     "let": _assignment("set"),
     "set_env": _assignment("environment"),
     "append_env": _append_environment,
     "unset_env": _unset_environment,
-    "reset_env": _bare,
+    "reset_env": _reset_environment,
     "reset": _reset,
     "for": _loop,
     "for_each": _loop,

@@ -20,24 +20,24 @@ from ros_lint.collectors.symbolic_text import joined
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
 from ros_lint.facts.visibility import Problem
 
-_make = tuple.__new__  # half of what the constructor takes
+_make = tuple.__new__  # half the time of the constructor
 
 
 class Reader:
-    """Reads entities by the function for their tag, and notes the errors of the front end."""
+    """Reads entities by the reader of their tag, and notes the errors of the front end."""
 
-    def __init__(self, source: Text, rules: Mapping[str, Rule]) -> None:
+    def __init__(self, source: Text, readers: Mapping[str, TagReader]) -> None:
         self._source = source
-        self._rules = rules
+        self._readers = readers
         self.problems: list[Problem] = []
         self.newer: dict[Problem, None] = {}
         """Features that not every distribution supports; ``kind`` is the first distribution that does."""
 
-    def note_newer(self, what: str, span: Span) -> None:
+    def note_newer(self, feature: str, span: Span) -> None:
         """Note a feature that not every distribution supports."""
-        self.newer[Problem(SINCE[what], what, span)] = None
+        self.newer[Problem(SINCE[feature], feature, span)] = None
 
-    def refuse(self, error: Rejected) -> None:
+    def note_rejection(self, error: Rejected) -> None:
         """Note an error of the front end."""
         self.problems.append(error.problem)
 
@@ -48,18 +48,18 @@ class Reader:
             try:
                 actions += self._action(entity)
             except Rejected as error:
-                self.refuse(error)
+                self.note_rejection(error)
         return actions
 
     def _action(self, entity: Entity) -> list[LaunchAction]:
-        rule = self._rules.get(entity.tag)
-        if rule is None:
+        reader = self._readers.get(entity.tag)
+        if reader is None:
             if entity.tag in EXTENSIONS:
-                return []  # the package that defines the tag also defines its attributes
+                return []  # its attributes are defined by another package
             raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span, ROS_1.get(f"<{entity.tag}>", ""))
         if entity.tag in _NEWER_TAGS:
             self.note_newer(f"<{entity.tag}>", entity.span)
-        action = rule(self, entity)
+        action = reader(self, entity)
         entity.finish()
         return [action]
 
@@ -67,27 +67,29 @@ class Reader:
 
     def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
         """Return the alternatives of a value with substitutions. Raises Rejected."""
-        texts_or_mistake = reading(value)
+        texts_or_mistake = read_value(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
-        return self._refused(entity, name, value, texts_or_mistake) if isinstance(texts_or_mistake, Mistake) else texts_or_mistake
+        return self._reject(entity, name, value, texts_or_mistake) if isinstance(texts_or_mistake, Mistake) else texts_or_mistake
 
     def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
         """Return a value as literals and substitutions. Raises Rejected."""
-        found = _pieces(value)
+        pieces = _pieces(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
-        return self._refused(entity, name, value, found) if isinstance(found, Mistake) else found
+        return self._reject(entity, name, value, pieces) if isinstance(pieces, Mistake) else pieces
 
     def _note_substitutions(self, entity: Entity, name: str, value: str) -> None:
         pieces = _pieces(value)
         for piece in () if isinstance(pieces, Mistake) else _substitutions(pieces):
-            what = "$(eval) with modules" if piece.name == "eval" and len(piece.arguments) > 1 else f"$({piece.name})"
-            if what in SINCE:
-                self.note_newer(what, self._inner(entity, name, value, piece.start, piece.end))
+            feature = "$(eval) with modules" if piece.name == "eval" and len(piece.arguments) > 1 else f"$({piece.name})"
+            if feature in SINCE:
+                self.note_newer(feature, self._inner(entity, name, value, piece.start, piece.end))
 
-    def _refused(self, entity: Entity, name: str, value: str, found: Mistake) -> NoReturn:
-        raise Rejected(found.kind, found.message, self._inner(entity, name, value, found.start, found.end), found.instead)
+    def _reject(self, entity: Entity, name: str, value: str, mistake: Mistake) -> NoReturn:
+        raise Rejected(
+            mistake.kind, mistake.message, self._inner(entity, name, value, mistake.start, mistake.end), mistake.instead
+        )
 
     def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
         """Return the span of a part of a value.
@@ -205,13 +207,13 @@ class Reader:
         """Return the conditions of the attributes ``if`` and ``unless``. Raises Rejected."""
         if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
             return ()
-        wanted, unwanted = entity.get("if"), entity.get("unless")
-        if wanted is not None and unwanted is not None:
+        if_text, unless_text = entity.get("if"), entity.get("unless")
+        if if_text is not None and unless_text is not None:
             raise Rejected("conditions", f"<{entity.tag}> has both 'if' and 'unless'", entity.place("unless"))
-        if wanted is not None:
-            return (LaunchCondition(self._texts(entity, "if", wanted), None),)
-        if unwanted is not None:
-            return (LaunchCondition(self._texts(entity, "unless", unwanted), None, wanted=False),)
+        if if_text is not None:
+            return (LaunchCondition(self._texts(entity, "if", if_text), None),)
+        if unless_text is not None:
+            return (LaunchCondition(self._texts(entity, "unless", unless_text), None, wanted=False),)
         return ()
 
 
@@ -231,8 +233,8 @@ def _as_yaml(row: tuple[str, ...]) -> str:
 
 
 @lru_cache(maxsize=4_096)
-def reading(value: str) -> tuple[str, ...] | Mistake:
-    """Return the alternatives of a value, or its error. Cached, because most values occur repeatedly."""
+def read_value(value: str) -> tuple[str, ...] | Mistake:
+    """Return the alternative texts of a value, or its error. Cached, because values occur repeatedly."""
     simple = simple_text(value)
     if simple is not None:
         return (simple,)
@@ -247,9 +249,9 @@ def _pieces(value: str) -> Pieces | Mistake:
     except SubstitutionError as error:
         return Mistake("substitution", error.message, error.offset, len(value))
     for piece in _substitutions(pieces):
-        wrong = _wrong(piece)
-        if wrong is not None:
-            return Mistake(*wrong, piece.start, piece.end, ROS_1.get(f"$({piece.name})", ""))
+        argument_error = _argument_error(piece)
+        if argument_error is not None:
+            return Mistake(*argument_error, piece.start, piece.end, ROS_1.get(f"$({piece.name})", ""))
     return pieces
 
 
@@ -263,29 +265,31 @@ def _package_place(value: str) -> tuple[int, int] | None:
     return (argument[0].start, argument[-1].end) if argument else None
 
 
-_NEWER_TAGS = frozenset([what[1:-1] for what in SINCE if re.fullmatch(r"<\w+>", what)])
-_NEWER = re.compile(r"\$\((?:eval|" + "|".join([what[2:-1] for what in SINCE if re.fullmatch(r"\$\(.*\)", what)]) + r")[ )]")
+_NEWER_TAGS = frozenset([feature[1:-1] for feature in SINCE if re.fullmatch(r"<\w+>", feature)])
+_NEWER = re.compile(
+    r"\$\((?:eval|" + "|".join([feature[2:-1] for feature in SINCE if re.fullmatch(r"\$\(.*\)", feature)]) + r")[ )]"
+)
 """Substitutions, or arguments of them, that not every distribution supports."""
 _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 
-def _wrong(piece: Substitution) -> tuple[str, str] | None:
-    """Return kind and message of a wrong number of arguments of a substitution, None if it is right."""
+def _argument_error(piece: Substitution) -> tuple[str, str] | None:
+    """Return kind and message of the error in the arguments of a substitution, None if they are valid."""
     limits = SUBSTITUTIONS.get(piece.name)
     if limits is None:
         return "unknown-substitution", f"there is no substitution $({piece.name})"
     least, most = limits
     if not least <= len(piece.arguments) <= most:
-        wanted = str(least) if least == most else f"{least} to {most}"
+        expected = str(least) if least == most else f"{least} to {most}"
         count = len(piece.arguments)
-        message = f"$({piece.name}) takes {wanted} argument{'' if wanted == '1' else 's'}, not {count}"
+        message = f"$({piece.name}) takes {expected} argument{'' if expected == '1' else 's'}, not {count}"
         return "substitution-arguments", message
     if (
         piece.name == "eval"
         and len(piece.arguments) == 2
-        and any(isinstance(one, Substitution) for one in piece.arguments[1][:1])
+        and any(isinstance(part, Substitution) for part in piece.arguments[1][:1])
     ):
-        return "substitution-arguments", "the modules of $(eval) must be written out"
+        return "substitution-arguments", "the modules of $(eval) must be literal"
     return None
 
 
@@ -297,4 +301,4 @@ def _substitutions(pieces: Pieces) -> Iterable[Substitution]:
                 yield from _substitutions(argument)
 
 
-Rule = Callable[[Reader, Entity], LaunchAction]
+TagReader = Callable[[Reader, Entity], LaunchAction]

@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ros_lint.base.text import Text
-from ros_lint.collectors.launch.markup import actions as launch_markup_actions
-from ros_lint.collectors.launch.markup import nodes as launch_markup_nodes
-from ros_lint.collectors.launch.markup.attributes import Reader, Rule
+from ros_lint.collectors.launch.markup import actions as actions_of_tags
+from ros_lint.collectors.launch.markup import nodes as nodes_of_tags
+from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.symbolic_text import UNKNOWN
@@ -21,7 +21,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchReference
 from ros_lint.facts.visibility import Opaque, Problem
 
 
-class Found(NamedTuple):
+class MarkupFacts(NamedTuple):
     """The references, opaque places, problems and actions of a launch file."""
 
     references: tuple[LaunchReference, ...]
@@ -32,9 +32,9 @@ class Found(NamedTuple):
     """Features that not every distribution supports; ``kind`` is the first distribution that does."""
 
 
-def read(source: Text, root: Entity) -> Found:
+def read(source: Text, root: Entity) -> MarkupFacts:
     """Return the facts of the entities of a launch file."""
-    reader = Reader(source, _RULES)
+    reader = Reader(source, _TAG_READERS)
     actions: list[LaunchAction] = []
     try:
         if root.tag != "launch":
@@ -42,11 +42,11 @@ def read(source: Text, root: Entity) -> Found:
         root.get("deprecated")
         children = root.actions()
     except Rejected as error:
-        reader.refuse(error)
+        reader.note_rejection(error)
     else:
         actions = reader.actions(children)
     references = References(actions)
-    return Found(
+    return MarkupFacts(
         references.all(),
         tuple(references.opaque),
         (*reader.problems, *references.problems),
@@ -56,15 +56,15 @@ def read(source: Text, root: Entity) -> Found:
 
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_ASKED = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
+_VARIABLE = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
 
 
-def asks(text: str) -> tuple[str, ...]:
+def configurations_read(text: str) -> tuple[str, ...]:
     """Return the launch configurations that a text reads, sorted, with UNKNOWN for computed names."""
     if "$(var" not in text:
         return ()
-    names = set(_ASKED.findall(_COMMENT.sub("", text) if "<!--" in text else text))
+    names = set(_VARIABLE.findall(_COMMENT.sub("", text) if "<!--" in text else text))
     return tuple(sorted(UNKNOWN if name == "$(" else name for name in names))
 
 
-_RULES: Mapping[str, Rule] = {**launch_markup_actions.RULES, **launch_markup_nodes.RULES}
+_TAG_READERS: Mapping[str, TagReader] = {**actions_of_tags.TAG_READERS, **nodes_of_tags.TAG_READERS}

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
 """The requested type of an attribute; ``any`` is the type that YAML gives to the text."""
 
-_make = tuple.__new__  # half of what the constructor takes
+_make = tuple.__new__  # half the time of the constructor
 
 _SCALARS: Mapping[str, type] = {"str": str, "int": int, "float": float, "bool": bool}
 _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools": bool}
 
 
 class Rejected(Exception):  # noqa: N818
-    """The real front end rejects the file here, see :class:`Problem`."""
+    """The launch front end rejects the file; ``problem`` is the error."""
 
     def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
         super().__init__(message)
@@ -70,7 +70,7 @@ class Entity:
         spots: dict[str, tuple[int, int]] | None,
         simple: bool,
     ) -> None:
-        """Create an entity. ``spots`` are the offsets of the attribute values, None to compute them lazily."""
+        """Create an entity. ``spots`` are the offsets of the attribute values, None to find them on demand."""
         self._source = source
         self.tag = tag
         self.attributes = attributes
@@ -96,20 +96,20 @@ class Entity:
 
     def written(self, name: str) -> tuple[Span, bool]:
         """Return the span of the value of an existing attribute, and whether it is literal in the source."""
-        found = self._written
-        if found is None:
-            found = self._written = self._find_written()
-        return found.get(name) or (self._source.span(self.start - 1, self.start - 1), False)
+        places = self._written
+        if places is None:
+            places = self._written = self._find_written()
+        return places.get(name) or (self._source.span(self.start - 1, self.start - 1), False)
 
     def _find_written(self) -> dict[str, tuple[Span, bool]]:
         source, text = self._source, self._source.text
         if self._spots is not None:
             return self._from_spots(self._spots)
         # Nearly all attributes are literal, and in the order of the parser, so one pass from line to line suffices.
-        found: dict[str, tuple[Span, bool]] = {}
+        places: dict[str, tuple[Span, bool]] = {}
         at = self.end
         path, line, column, _, _ = source.span(at, at)
-        before = at - column
+        line_offset = at - column
         for name, value in self.attributes.items():
             plain = f'{name}="{value}"'
             start = at + 1
@@ -120,15 +120,15 @@ class Entity:
                     return self._from_spots(attribute_places(text, Element(self.tag, {}, self.start - 1)))
                 if not gap.isascii() or "\r" in gap:
                     _, line, column, _, _ = source.span(start, start)
-                    before = start - column
+                    line_offset = start - column
                 elif "\n" in gap:
                     line += gap.count("\n")
-                    before = at + gap.rindex("\n")
+                    line_offset = at + gap.rindex("\n")
             start += len(name) + 2
             end = start + len(value)
-            found[name] = (_make(Span, (path, line, start - before, line, end - before)), True)
+            places[name] = (_make(Span, (path, line, start - line_offset, line, end - line_offset)), True)
             at = end + 1
-        return found
+        return places
 
     def _from_spots(self, spots: dict[str, tuple[int, int]]) -> dict[str, tuple[Span, bool]]:
         text, span = self._source.text, self._source.span
@@ -138,7 +138,7 @@ class Entity:
         """Return the span of the value of an attribute, of the tag if it has no such attribute."""
         return self.written(name)[0] if name in self.attributes else self.span
 
-    def lacks(self, names: Iterable[str]) -> bool:
+    def has_none_of(self, names: Iterable[str]) -> bool:
         """Return whether no name is an attribute, and requesting one could not raise."""
         return self.form == "element" and self.attributes.keys().isdisjoint(names)
 
@@ -156,7 +156,7 @@ class Entity:
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
         if name not in attributes:
             if self.form == "mapping" and any(child.tag == name for child in self.children):
-                raise Rejected("wrong-type", f"{name} of <{self.tag}> is a list", self.span)
+                raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is a list", self.span)
             return None
         self.read.add(name)
         if not _is_instance(attributes[name], kind):
@@ -212,22 +212,22 @@ class Entity:
             self._read_children = (self._read_children or set()) | {CHILDREN}
             for child in self.children:
                 if child.tag == CHILDREN:
-                    return [_only(inner) for inner in child.children]
+                    return [_single_entity(inner) for inner in child.children]
             raise Rejected("missing-attribute", f"<{self.tag}> requires 'children'", self.span)
         if self.form == "list":
             self._read_children = None
-            return [_only(inner) for inner in self.children]
+            return [_single_entity(inner) for inner in self.children]
         raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
 
     def finish(self) -> None:
         """Raise Rejected if there is an attribute or a child that was not requested."""
-        known = self._read_children
+        requested = self._read_children
         if self.form == "list":
-            if known is not None:
+            if requested is not None:
                 raise Rejected("unexpected-child", f"<{self.tag}> cannot contain a list", self.span)
             return
         for child in self.children:
-            if known is not None and child.tag not in known:
+            if requested is not None and child.tag not in requested:
                 name = "children" if child.tag == CHILDREN else child.tag
                 raise Rejected("unexpected-child", f"<{self.tag}> cannot contain <{name}>", child.span)
         if len(self.read) != len(self.attributes):
@@ -241,11 +241,11 @@ CHILDREN: Final = "\0children"
 """The tag of the key ``children`` of YAML, and of a list item that is not an entity."""
 
 
-def _only(item: Entity) -> Entity:
-    """Return the entity of a list item, which has exactly one key."""
+def _single_entity(item: Entity) -> Entity:
+    """Return the entity of a list item. Raises Rejected if the item does not have exactly one key."""
     if item.tag != CHILDREN:
         return item
-    raise Rejected("wrong-type", "each item must have one key, the tag", item.span)
+    raise Rejected("wrong-type", "each list item must have exactly one key, the tag", item.span)
 
 
 _NAMES: Mapping[Type, str] = {
@@ -265,8 +265,8 @@ def _is_valid(value: Any) -> bool:
     """Return whether a value is a scalar or a list of texts and one type (``is_instance_of_valid_type``)."""
     if not isinstance(value, list):
         return isinstance(value, (int, float, bool, str))
-    kind = next((type(one) for one in value if type(one) is not str), str)
-    return kind in (int, float, bool, str) and all(isinstance(one, (kind, str)) for one in value)
+    kind = next((type(item) for item in value if type(item) is not str), str)
+    return kind in (int, float, bool, str) and all(isinstance(item, (kind, str)) for item in value)
 
 
 def _is_instance(value: Any, kind: Type) -> bool:
@@ -275,7 +275,7 @@ def _is_instance(value: Any, kind: Type) -> bool:
         return _is_valid(value)
     if kind in _SCALARS:
         return isinstance(value, (str, _SCALARS[kind]))
-    return isinstance(value, list) and all(isinstance(one, (str, _LISTS[kind])) for one in value)
+    return isinstance(value, list) and all(isinstance(item, (str, _LISTS[kind])) for item in value)
 
 
 def _coerced(value: str | list[str], kind: Type) -> Any:
@@ -284,10 +284,10 @@ def _coerced(value: str | list[str], kind: Type) -> Any:
         if kind in _SCALARS:
             raise ValueError(kind)
         inner: Type = "any" if kind == "any" else kind[:-1]  # type: ignore[assignment]
-        found = [_coerced(one, inner) for one in value]
-        if not _is_valid(found):
+        items = [_coerced(item, inner) for item in value]
+        if not _is_valid(items):
             raise ValueError(kind)
-        return found
+        return items
     if kind == "str":
         return value
     if kind in ("int", "float"):
@@ -301,7 +301,7 @@ def _coerced(value: str | list[str], kind: Type) -> Any:
     if kind == "bool":
         if not isinstance(output, (str, bool)):
             raise ValueError(kind)
-    elif kind != "any" and not (isinstance(output, list) and all(isinstance(one, (str, _LISTS[kind])) for one in output)):
+    elif kind != "any" and not (isinstance(output, list) and all(isinstance(item, (str, _LISTS[kind])) for item in output)):
         raise ValueError(kind)
     return output
 
@@ -319,10 +319,10 @@ def _as_yaml(value: str) -> Any:
     if _DECIMAL.fullmatch(value):
         return float(value)
     if _SIMPLE_LIST.fullmatch(value):
-        found = [_as_yaml(one.strip(" ")) for one in value[1:-1].split(",")]
-        if not _is_valid(found):
+        items = [_as_yaml(item.strip(" ")) for item in value[1:-1].split(",")]
+        if not _is_valid(items):
             raise ValueError(value)
-        return found
+        return items
     from ros_lint.base.safe_yaml import YamlError, load  # noqa: PLC0415  (few values are of YAML)
 
     try:

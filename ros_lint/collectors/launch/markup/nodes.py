@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ros_lint.collectors.launch.markup.attributes import Reader, Rule
+from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected, Type
 from ros_lint.collectors.launch.markup.tags import SINCE
 from ros_lint.facts.launch import LaunchAction, LaunchValue
@@ -16,14 +16,14 @@ def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
     arguments: list[tuple[str, LaunchValue]] = []
     if kind == "process":
         arguments += reader.words(entity, "cmd", entity.need("cmd"))
-    for attribute in () if entity.lacks(_SURROUNDINGS) else _SURROUNDINGS:
+    for attribute in () if entity.has_none_of(_SURROUNDINGS) else _SURROUNDINGS:
         value = reader.optional(entity, attribute)
         if value is not None and attribute in ("cwd", "launch-prefix"):
             arguments.append((attribute.removeprefix("launch-"), value))
     name = reader.optional(entity, "name")
     if entity.get("on_exit") not in (None, "shutdown"):
         raise Rejected("on-exit", f"'on_exit' of <{entity.tag}> can only be 'shutdown'", entity.place("on_exit"))
-    if not entity.lacks(_LIMITS):
+    if not entity.has_none_of(_LIMITS):
         _limits(reader, entity)
     entity.get("shell", "bool")
     entity.get("emulate_tty", "bool")
@@ -174,12 +174,14 @@ def _parameters(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue]
     return tuple(parameters)
 
 
-def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, LaunchValue]]:
-    names = [f"{above}{one}" for one in reader.text(param, "name").texts]
-    wanted = param.get("type", "any")
-    if wanted is not None and wanted not in _TYPES:
-        raise Rejected("wrong-type", f"there is no parameter type '{wanted}'; expected {', '.join(_TYPES)}", param.place("type"))
-    kind: Type = _TYPES[wanted] if wanted is not None else "any"
+def _nested(reader: Reader, param: Entity, prefix: str) -> list[tuple[str, LaunchValue]]:
+    names = [f"{prefix}{parameter}" for parameter in reader.text(param, "name").texts]
+    type_name = param.get("type", "any")
+    if type_name is not None and type_name not in _TYPES:
+        raise Rejected(
+            "wrong-type", f"there is no parameter type '{type_name}'; expected {', '.join(_TYPES)}", param.place("type")
+        )
+    kind: Type = _TYPES[type_name] if type_name is not None else "any"
     value = param.get("value", kind)
     inner = param.entities("param")
     param.finish()
@@ -190,18 +192,18 @@ def _nested(reader: Reader, param: Entity, above: str) -> list[tuple[str, Launch
     if value is None and not inner:
         raise Rejected("parameter", "<param> requires a value or nested parameters", param.span)
     if inner:
-        return [one for child in inner for name in names for one in _nested(reader, child, f"{name}.")]
+        return [parameter for child in inner for name in names for parameter in _nested(reader, child, f"{name}.")]
     typed = reader.typed(param, "value", kind)
     if isinstance(typed, list):
         typed = reader.listed(param, "value", typed)
     if isinstance(typed, LaunchValue):
         return [(name, typed) for name in names]
     if kind in _SCALARS and not isinstance(typed, _SCALARS[kind]):
-        raise Rejected("wrong-type", f"the value of <param> is not of type '{wanted}'", param.place("value"))
+        raise Rejected("wrong-type", f"the value of <param> is not of type '{type_name}'", param.place("value"))
     return [(name, LaunchValue((str(typed),), param.place("value"))) for name in names]
 
 
-RULES: Mapping[str, Rule] = {
+TAG_READERS: Mapping[str, TagReader] = {
     "executable": _executable,
     "node": _node,
     "lifecycle_node": _lifecycle_node,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Piece, Substitution
 from ros_lint.collectors.launch.markup.tags import SUBSTITUTIONS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, joined, quoted
@@ -17,11 +17,11 @@ Texts = tuple[str, ...]
 def texts(pieces: Pieces) -> Texts:
     """Return the alternative texts of a value when the launch file runs."""
     if len(pieces) == 1:
-        return _one(pieces[0])
-    rows = [_one(piece) for piece in pieces]
+        return _texts_of_piece(pieces[0])
+    rows = [_texts_of_piece(piece) for piece in pieces]
     if all(len(row) == 1 for row in rows):
         text = "".join([row[0] for row in rows])
-        return (text if len(text) <= launch_text.LONGEST else UNKNOWN,)
+        return (text if len(text) <= symbolic_text.LONGEST else UNKNOWN,)
     return joined(rows, "".join)
 
 
@@ -33,24 +33,24 @@ def simple_text(value: str) -> str | None:
     """Return the text of a value with only simple and valid substitutions, None if it needs the parser."""
     if "\\" in value:
         return None
-    parts_made: list[str] = []
+    output: list[str] = []
     parts = _SIMPLE.split(value)
     for at in range(0, len(parts) - 1, 3):
-        literal, name, rest = parts[at : at + 3]
-        arguments = rest.split(" ")[1:]
+        literal, name, argument_text = parts[at : at + 3]
+        arguments = argument_text.split(" ")[1:]
         least, most = SUBSTITUTIONS.get(name, (1, 0))
         if "$(" in literal or not least <= len(arguments) <= most:
             return None
-        rule = _RULES.get(name)
-        made = rule([(argument,) for argument in arguments]) if rule is not None else (UNKNOWN,)
-        if len(made) != 1:
+        reader = _READERS.get(name)
+        alternatives = reader([(argument,) for argument in arguments]) if reader is not None else (UNKNOWN,)
+        if len(alternatives) != 1:
             return None
-        parts_made += (literal, made[0])
+        output += (literal, alternatives[0])
     if "$(" in parts[-1]:
         return None
-    parts_made.append(parts[-1])
-    text = "".join(parts_made)
-    return text if len(text) <= launch_text.LONGEST or len(parts_made) == 1 else UNKNOWN
+    output.append(parts[-1])
+    text = "".join(output)
+    return text if len(text) <= symbolic_text.LONGEST or len(output) == 1 else UNKNOWN
 
 
 def package_of(pieces: Pieces) -> Pieces:
@@ -62,51 +62,51 @@ def package_of(pieces: Pieces) -> Pieces:
             if piece.name == "exec-in-pkg" and len(piece.arguments) == 2:
                 return piece.arguments[1]
             for argument in piece.arguments:
-                if found := package_of(argument):
-                    return found
+                if package := package_of(argument):
+                    return package
     return ()
 
 
-def _one(piece: Piece) -> Texts:
+def _texts_of_piece(piece: Piece) -> Texts:
     if isinstance(piece, Literal):
         return (piece.text,)
-    rule = _RULES.get(piece.name)
-    if rule is None:
+    reader = _READERS.get(piece.name)
+    if reader is None:
         return (UNKNOWN,)
-    return rule([texts(argument) for argument in piece.arguments])
+    return reader([texts(argument) for argument in piece.arguments])
 
 
-Rule = Callable[[list[Texts]], Texts]
+SubstitutionReader = Callable[[list[Texts]], Texts]
 
 
-def _of_one(function: Callable[[str], str]) -> Rule:
+def _of_first(function: Callable[[str], str]) -> SubstitutionReader:
     return lambda rows: tuple(function(text) for text in rows[0]) if rows else (UNKNOWN,)
 
 
-def _or_default(function: Callable[[str, str | None], str]) -> Rule:
-    def rule(rows: list[Texts]) -> Texts:
+def _or_default(function: Callable[[str, str | None], str]) -> SubstitutionReader:
+    def read(rows: list[Texts]) -> Texts:
         if not rows:
             return (UNKNOWN,)
         defaults: tuple[str | None, ...] = rows[1] if len(rows) > 1 else (None,)
         return tuple(function(name, default) for name in rows[0] for default in defaults)
 
-    return rule
+    return read
 
 
 def _environment(name: str, default: str | None) -> str:
-    return launch_text.configuration(f"${name}", default)
+    return symbolic_text.configuration(f"${name}", default)
 
 
 def _in_package(rows: list[Texts]) -> Texts:
     return (
-        joined([rows[1], rows[0]], lambda row: f"{launch_text.prefix(row[0])}/lib/{row[0]}/{row[1]}")
+        joined([rows[1], rows[0]], lambda row: f"{symbolic_text.prefix(row[0])}/lib/{row[0]}/{row[1]}")
         if len(rows) == 2
         else (UNKNOWN,)
     )
 
 
-def _logic(name: str) -> Rule:
-    return lambda rows: joined(rows, lambda row: launch_text.expression(f"{name}({', '.join(quoted(one) for one in row)})"))
+def _logic(name: str) -> SubstitutionReader:
+    return lambda rows: joined(rows, lambda row: symbolic_text.expression(f"{name}({', '.join(quoted(text) for text in row)})"))
 
 
 def _choice(rows: list[Texts]) -> Texts:
@@ -114,21 +114,21 @@ def _choice(rows: list[Texts]) -> Texts:
         return (UNKNOWN,)
     return joined(
         [rows[0], rows[1], rows[2] if len(rows) > 2 else ("",)],
-        lambda row: launch_text.expression(f"_if({', '.join(quoted(one) for one in row)})"),
+        lambda row: symbolic_text.expression(f"_if({', '.join(quoted(text) for text in row)})"),
     )
 
 
-_RULES: Mapping[str, Rule] = {
-    "var": _or_default(launch_text.configuration),
+_READERS: Mapping[str, SubstitutionReader] = {
+    "var": _or_default(symbolic_text.configuration),
     "env": _or_default(_environment),
-    "find-pkg-share": _of_one(launch_text.share),
-    "find-pkg-prefix": _of_one(launch_text.prefix),
+    "find-pkg-share": _of_first(symbolic_text.share),
+    "find-pkg-prefix": _of_first(symbolic_text.prefix),
     "exec-in-pkg": _in_package,
-    "find-exec": _of_one(str),
+    "find-exec": _of_first(str),
     "dirname": lambda rows: (OWN_FOLDER,),
     "filename": lambda rows: (f"{OWN_FOLDER}/{UNKNOWN}",),
-    "eval": _of_one(launch_text.expression),
-    "command": _of_one(launch_text.command),
+    "eval": _of_first(symbolic_text.expression),
+    "command": _of_first(symbolic_text.command),
     "if": _choice,
     "equals": _logic("_equals"),
     "not-equals": _logic("_not_equals"),

@@ -19,11 +19,11 @@ def collect(source: Text) -> LaunchFile:
         return LaunchFile(
             source.path,
             "xml",
-            opaque=(Opaque(Facet.USES, "the file is no XML that can be read", span),),
+            opaque=(Opaque(Facet.USES, "the file is not valid XML", span),),
             problems=(Problem("syntax", error.message, span),),
         )
     facts = launch_markup.read(source, root)
-    asks = launch_markup.asks(source.text)
+    configurations_read = launch_markup.configurations_read(source.text)
     return LaunchFile(
         source.path,
         "xml",
@@ -31,7 +31,7 @@ def collect(source: Text) -> LaunchFile:
         facts.opaque,
         facts.problems,
         actions=facts.actions,
-        configurations_read=asks,
+        configurations_read=configurations_read,
         version_problems=facts.newer,
     )
 

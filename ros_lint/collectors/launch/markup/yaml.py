@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import yaml
 
 _MAX_DEPTH = 100
-_MOST_ENTITIES = 20_000
+_MAX_ENTITIES = 20_000
 
 
 def collect(source: Text) -> LaunchFile:
@@ -30,16 +30,16 @@ def collect(source: Text) -> LaunchFile:
         return LaunchFile(
             source.path,
             "yaml",
-            opaque=(Opaque(Facet.USES, "the file is no YAML that can be read", span),),
+            opaque=(Opaque(Facet.USES, "the file is not valid YAML", span),),
             problems=(Problem("syntax", f"not valid YAML: {error.message}", span),),
         )
     root = _Reader(source).root(node)
     if root is None:
         start = source.span(0, 0)
-        problem = Problem("root", "the file must be a mapping with the one key launch", start)
+        problem = Problem("root", "the file must be a mapping with 'launch' as its only key", start)
         return LaunchFile(source.path, "yaml", problems=(problem,))
     facts = launch_markup.read(source, root)
-    asks = launch_markup.asks(source.text)
+    configurations_read = launch_markup.configurations_read(source.text)
     return LaunchFile(
         source.path,
         "yaml",
@@ -47,7 +47,7 @@ def collect(source: Text) -> LaunchFile:
         facts.opaque,
         facts.problems,
         actions=facts.actions,
-        configurations_read=asks,
+        configurations_read=configurations_read,
         version_problems=facts.newer,
     )
 
@@ -57,7 +57,7 @@ class _Reader:
 
     def __init__(self, source: Text) -> None:
         self._source = source
-        self._left = _MOST_ENTITIES
+        self._remaining = _MAX_ENTITIES
 
     def root(self, node: yaml.Node | None) -> Entity | None:
         import yaml  # noqa: PLC0415
@@ -70,16 +70,16 @@ class _Reader:
     def _entity(self, key: yaml.Node, value: yaml.Node, depth: int) -> Entity:
         """Return the entity of a key: a mapping has attributes and lists of entities, a list has children."""
         tag = str(key.value) if _is_scalar(key) else "?"
-        return self._made(tag, key.start_mark.index, key.end_mark.index, value, depth)
+        return self._entity_of_value(tag, key.start_mark.index, key.end_mark.index, value, depth)
 
-    def _made(self, tag: str, start: int, end: int, value: yaml.Node, depth: int) -> Entity:
+    def _entity_of_value(self, tag: str, start: int, end: int, value: yaml.Node, depth: int) -> Entity:
         import yaml  # noqa: PLC0415
 
-        self._left -= 1 + (len(value.value) if isinstance(value.value, list) else 0)
+        self._remaining -= 1 + (len(value.value) if isinstance(value.value, list) else 0)
         attributes: dict[str, Any] = {}
         spots: dict[str, tuple[int, int]] = {}
         children: list[Entity] = []
-        if depth >= _MAX_DEPTH or self._left <= 0:
+        if depth >= _MAX_DEPTH or self._remaining <= 0:
             return Entity(self._source, tag, {}, [], start, end, "other", {}, simple=False)
         if isinstance(value, yaml.SequenceNode):
             children = [self._item(item, depth + 1) for item in value.value]

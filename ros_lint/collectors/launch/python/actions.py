@@ -8,59 +8,64 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.base.text import Span
-from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.expressions import means_true
-from ros_lint.collectors.launch.python import events as launch_py_events
-from ros_lint.collectors.launch.python import nodes as launch_py_nodes
+from ros_lint.collectors.launch.groups import group
+from ros_lint.collectors.launch.python import events, nodes
 from ros_lint.collectors.launch.python.nodes import nested, started_node
 from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_text, texts
-from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of
+from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.protocol import Interpreter
 from ros_lint.collectors.python.interpreter.values import Conditions, LaunchObject, Source, Value, alternatives, plain
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchValue
+from ros_lint.facts.launch import LaunchAction, LaunchValue
 
-_MOST_TEXTS = 2_000
+_MAX_TEXTS = 2_000
 
 
 def walker(machine: Interpreter, source: Source) -> Walker:
     """Return the walker that turns the objects of a launch file into actions."""
-    return Walker(machine, source, _RULES, _other)
+    return Walker(machine, source, _BUILDERS, _other)
 
 
-def _include(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    source_argument = made.get(0, "launch_description_source")
-    node, where = made.written(0, "launch_description_source"), made.source
-    while isinstance(source := plain(source_argument), LaunchObject) and source.name.endswith("LaunchDescriptionSource"):
-        node, where = source.written(0, "launch_file_path", "location", "launch_description"), source.source
-        source_argument = source.get(0, "launch_file_path", "location", "launch_description")
-    if isinstance(source, LaunchObject) and source.name == "LaunchDescription":
-        return walker.actions(source, conditions)
-    target = walker.text(source, node, where)
-    passed = list(_pairs(walker, made.get(1, "launch_arguments"), made))
+def _include(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    source_argument = launch_object.get(0, "launch_description_source")
+    node, module = launch_object.written(0, "launch_description_source"), launch_object.source
+    while isinstance(description_source := plain(source_argument), LaunchObject) and description_source.name.endswith(
+        "LaunchDescriptionSource"
+    ):
+        node, module = (
+            description_source.written(0, "launch_file_path", "location", "launch_description"),
+            description_source.source,
+        )
+        source_argument = description_source.get(0, "launch_file_path", "location", "launch_description")
+    if isinstance(description_source, LaunchObject) and description_source.name == "LaunchDescription":
+        return walker.actions(description_source, conditions)
+    target = walker.text(description_source, node, module)
+    arguments = list(_passed_arguments(walker, launch_object.get(1, "launch_arguments"), launch_object))
     include = LaunchAction(
         "include",
-        place_of(made),
+        place_of(launch_object),
         target=target,
         package_span=walker.package_span(target),
         conditions=conditions,
-        builtin_model=made.source.lent,
+        builtin_model=launch_object.source.lent,
     )
-    return [_given(action, passed) for action in walker.apart(include, source_argument)]
+    return [_with_arguments(action, arguments) for action in walker.split_by_conditions(include, source_argument)]
 
 
-def _given(include: LaunchAction, passed: Sequence[_Passed]) -> LaunchAction:
-    """Return an include with its arguments. Those of a branch that excludes the include are omitted."""
-    together = [argument for argument in passed if launch_text.are_consistent((*include.conditions, *argument.conditions))]
+def _with_arguments(include: LaunchAction, arguments: Sequence[_PassedArgument]) -> LaunchAction:
+    """Return an include with its arguments, except for those of branches that exclude the include."""
+    consistent = [argument for argument in arguments if symbolic_text.are_consistent((*include.conditions, *argument.conditions))]
     return include._replace(
-        arguments=tuple([(argument.name, argument.value) for argument in together]),
-        argument_spans=tuple([argument.span for argument in together]),
-        conditional_arguments=_perhaps(together),
+        arguments=tuple([(argument.name, argument.value) for argument in consistent]),
+        argument_spans=tuple([argument.span for argument in consistent]),
+        conditional_arguments=_uncertain_names(consistent),
     )
 
 
-class _Passed(NamedTuple):
+class _PassedArgument(NamedTuple):
     """An argument of an included file."""
 
     name: str
@@ -69,46 +74,48 @@ class _Passed(NamedTuple):
     value: LaunchValue
     conditions: Conditions
     """The conditions under which it is passed; () if there are several alternatives."""
-    perhaps: bool
-    """True if it is unknown whether the argument is passed."""
+    uncertain: bool
+    """True if the argument may not be passed."""
 
 
-def _pairs(walker: Walker, value: Value, made: LaunchObject) -> Iterator[_Passed]:
-    node = made.written(1, "launch_arguments")
-    passed = plain(value)
-    if isinstance(passed, dict):
-        passed = list(passed.items())
-    pairs = items(walker.machine, passed) if passed is not None else []
-    for pair in pairs if pairs is not None else [passed]:
+def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: LaunchObject) -> Iterator[_PassedArgument]:
+    node = launch_object.written(1, "launch_arguments")
+    pairs_value = plain(launch_arguments)
+    if isinstance(pairs_value, dict):
+        pairs_value = list(pairs_value.items())
+    pairs = items(walker.machine, pairs_value) if pairs_value is not None else []
+    for pair in pairs if pairs is not None else [pairs_value]:
         parts = items(walker.machine, pair)
         if parts is None or len(parts) != 2:
-            unknown = walker.text(UNKNOWN, node, made.source)
-            yield _Passed(UNKNOWN, unknown.span, unknown, (), perhaps=True)
+            unknown = walker.text(UNKNOWN, node, launch_object.source)
+            yield _PassedArgument(UNKNOWN, unknown.span, unknown, (), uncertain=True)
             continue
-        place = walker.text(parts[0], node, made.source).span
-        ways = [alternative.conditions for alternative in alternatives(pair)]
-        perhaps = any(UNKNOWN in text for way in ways for condition in way for text in condition.texts)
+        place = walker.text(parts[0], node, launch_object.source).span
+        condition_sets = [alternative.conditions for alternative in alternatives(pair)]
+        is_uncertain = any(
+            UNKNOWN in text for conditions in condition_sets for condition in conditions for text in condition.texts
+        )
         for name in texts(parts[0]):
-            what = walker.text(parts[1], node, made.source)
-            yield _Passed(str(name), place, what, ways[0] if len(ways) == 1 else (), perhaps)
+            value = walker.text(parts[1], node, launch_object.source)
+            yield _PassedArgument(str(name), place, value, condition_sets[0] if len(condition_sets) == 1 else (), is_uncertain)
 
 
-def _perhaps(passed: Sequence[_Passed]) -> tuple[str, ...]:
-    """Return the arguments that may not be passed. Those that both sides of a branch pass are certain."""
-    sides = Counter([argument.name for argument in passed])
-    return tuple([argument.name for argument in passed if argument.perhaps and sides[argument.name] == 1])
+def _uncertain_names(arguments: Sequence[_PassedArgument]) -> tuple[str, ...]:
+    """Return the names of arguments that may not be passed; those passed in both branches are certain."""
+    counts = Counter([argument.name for argument in arguments])
+    return tuple([argument.name for argument in arguments if argument.uncertain and counts[argument.name] == 1])
 
 
-def _declare(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    options = made.get(-1, "choices")
+def _declare(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    options = launch_object.get(-1, "choices")
     # For a text, launch tests whether the value is a substring of it.
     choices = items(walker.machine, options) if options is not None and not isinstance(plain(options), str) else None
-    default = walker.value(made, 1, "default_value")
+    default = walker.value(launch_object, 1, "default_value")
     return [
         LaunchAction(
             "argument",
-            place_of(made),
-            target=walker.value(made, 0, "name"),
+            place_of(launch_object),
+            target=walker.value(launch_object, 0, "name"),
             value=default,
             package_span=walker.package_span(default),
             choices=tuple(str(text) for choice in choices or () for text in texts(choice)),
@@ -117,76 +124,101 @@ def _declare(walker: Walker, made: LaunchObject, conditions: Conditions) -> list
     ]
 
 
-def _assigns(kind: str, *names: tuple[str, ...]) -> Rule:
-    def rule(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-        value = walker.value(made, 1, *names[1])
-        target = walker.value(made, 0, *names[0])
+def _assignment(kind: str, *names: tuple[str, ...]) -> ActionBuilder:
+    def build(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        value = walker.value(launch_object, 1, *names[1])
+        target = walker.value(launch_object, 0, *names[0])
         span = walker.package_span(value)
-        return [LaunchAction(kind, place_of(made), target=target, value=value, package_span=span, conditions=conditions)]
+        return [LaunchAction(kind, place_of(launch_object), target=target, value=value, package_span=span, conditions=conditions)]
 
-    return rule
+    return build
 
 
-def _append(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    (action,) = _assigns("environment", ("name",), ("value",))(walker, made, conditions)
-    first = made.get(2, "prepend")
-    before = plain(first) is True or (isinstance(first, str) and means_true(first) is True)
-    separator = walker.value(made, 3, "separator")
+def _append(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    (action,) = _assignment("environment", ("name",), ("value",))(walker, launch_object, conditions)
+    first = launch_object.get(2, "prepend")
+    prepends = plain(first) is True or (isinstance(first, str) and means_true(first) is True)
+    separator = walker.value(launch_object, 3, "separator")
     return [
         action._replace(
-            name=LaunchValue(("prepend" if before else "append",), place_of(made)),
+            name=LaunchValue(("prepend" if prepends else "append",), place_of(launch_object)),
             arguments=(("separator", separator),) if separator else (),
         )
     ]
 
 
-def _one_value(kind: str, *names: str) -> Rule:
-    def rule(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-        value = walker.value(made, 0, *names)
-        return [LaunchAction(kind, place_of(made), value=value, package_span=walker.package_span(value), conditions=conditions)]
+def _single_value(kind: str, *names: str) -> ActionBuilder:
+    def build(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        value = walker.value(launch_object, 0, *names)
+        return [
+            LaunchAction(
+                kind, place_of(launch_object), value=value, package_span=walker.package_span(value), conditions=conditions
+            )
+        ]
+
+    return build
+
+
+def _group(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(launch_object.get(0, "actions"), (), place_of(launch_object))
+    configurations = tuple(_configurations(walker, launch_object, -1))
+    scoped = plain(launch_object.get(-1, "scoped")) is not False
+    forwarding = plain(launch_object.get(-1, "forwarding")) is not False
+    return [group(place_of(launch_object), children, configurations, conditions, scoped=scoped, forwarding=forwarding)]
+
+
+def _configurations(walker: Walker, launch_object: LaunchObject, position: int) -> Iterator[tuple[str, LaunchValue]]:
+    configurations = plain(launch_object.get(position, "launch_configurations"))
+    if isinstance(configurations, dict):
+        for name, value in configurations.items():
+            yield str(name), walker.text(value, launch_object.written(position, "launch_configurations"), launch_object.source)
+
+
+def _reset(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    kept = tuple(_configurations(walker, launch_object, 0))
+    return [LaunchAction("reset", place_of(launch_object), arguments=kept, conditions=conditions)]
+
+
+def _unset(kind: str) -> ActionBuilder:
+    def rule(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        return [LaunchAction(kind, place_of(launch_object), target=walker.value(launch_object, 0, "name"), conditions=conditions)]
 
     return rule
 
 
-def _group(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    children = walker.actions(made.get(0, "actions"), (), place_of(made))
-    scoped = plain(made.get(-1, "scoped")) is not False
-    passed = tuple(_group_configurations(walker, made))
-    name = None if scoped else LaunchValue((UNSCOPED,), place_of(made))
-    return [LaunchAction("group", place_of(made), name=name, arguments=passed, conditions=conditions, children=tuple(children))]
+def _bare(kind: str) -> ActionBuilder:
+    def rule(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+        return [LaunchAction(kind, place_of(launch_object), conditions=conditions)]
+
+    return rule
 
 
-def _group_configurations(walker: Walker, made: LaunchObject) -> Iterator[tuple[str, LaunchValue]]:
-    given = plain(made.get(-1, "launch_configurations"))
-    if isinstance(given, dict):
-        for name, value in given.items():
-            yield str(name), walker.text(value, made.written(-1, "launch_configurations"), made.source)
-
-
-def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    if "package" in made.keywords and ("executable" in made.keywords or "node_executable" in made.keywords):
-        return started_node(walker, made, conditions)
-    if made.name in SUBSTITUTIONS:
+def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    if "package" in launch_object.keywords and (
+        "executable" in launch_object.keywords or "node_executable" in launch_object.keywords
+    ):
+        return started_node(walker, launch_object, conditions)
+    if launch_object.name in SUBSTITUTIONS:
         return []
-    if made.name.endswith("LaunchDescription"):  # judging by the name, a function that returns one
-        walker.blind.append((f"{made.name}() cannot be followed", place_of(made)))
-    if _DECLARES.match(made.name):
-        (action,) = _declare(walker, made, conditions)
-        unknown = LaunchValue((UNKNOWN,), place_of(made))  # it may have a default in its own class, which is not read
+    if launch_object.name.endswith("LaunchDescription"):  # judging by the name, a function that returns one
+        walker.unknown_launches.append((f"{launch_object.name}() cannot be followed", place_of(launch_object)))
+    if _DECLARES.match(launch_object.name):
+        (action,) = _declare(walker, launch_object, conditions)
+        unknown = LaunchValue((UNKNOWN,), place_of(launch_object))  # its class, which is not read, may have a default
         return [action._replace(value=action.value or unknown)] if action.target else []
     arguments: list[tuple[str, LaunchValue]] = []
-    for position, value in enumerate(made.arguments):
-        arguments += [("", walker.text(text, made.written(position), made.source)) for text in _texts_in(value)]
-    for name, value in made.keywords.items():
-        arguments += [("", walker.text(text, made.written(-1, name), made.source)) for text in _texts_in(value)]
+    for position, value in enumerate(launch_object.arguments):
+        arguments += [("", walker.text(text, launch_object.written(position), launch_object.source)) for text in _texts_in(value)]
+    for name, value in launch_object.keywords.items():
+        arguments += [("", walker.text(text, launch_object.written(-1, name), launch_object.source)) for text in _texts_in(value)]
     return [
         LaunchAction(
             "other",
-            place_of(made),
-            name=LaunchValue((made.name,), place_of(made)),
+            place_of(launch_object),
+            name=LaunchValue((launch_object.name,), place_of(launch_object)),
             arguments=tuple(arguments),
             conditions=conditions,
-            children=tuple(nested(walker, made)),
+            children=tuple(nested(walker, launch_object)),
         )
     ]
 
@@ -194,49 +226,51 @@ def _other(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[L
 def _texts_in(value: Value) -> list[Value]:
     """Return the texts in a value: itself, or those in a list or dictionary."""
     text_values: list[Value] = []
-    waiting = [value]
-    for _ in range(_MOST_TEXTS):
-        if not waiting:
+    pending = [value]
+    for _ in range(_MAX_TEXTS):
+        if not pending:
             break
-        item = plain(waiting.pop(0))
+        item = plain(pending.pop(0))
         if isinstance(item, dict):
-            waiting += item.values()
+            pending += item.values()
         elif isinstance(item, (list, tuple)):
-            waiting += item
+            pending += item
         elif isinstance(item, str) or is_text(item):
             text_values.append(item)
     return text_values
 
 
-def _silent(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+def _no_action(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
     return []
 
 
 _DECLARES = re.compile(r"Declare\w*Arg(?:ument)?\Z")
 """Classes that declare an argument, as ``DeclareBooleanLaunchArg`` of moveit_configs_utils does."""
 
-_RULES: Mapping[str, Rule] = {
-    **launch_py_nodes.RULES,
-    **launch_py_events.RULES,
+_BUILDERS: Mapping[str, ActionBuilder] = {
+    **nodes.BUILDERS,
+    **events.BUILDERS,
     "IncludeLaunchDescription": _include,
     "DeclareLaunchArgument": _declare,
-    "SetLaunchConfiguration": _assigns("set", ("name",), ("value",)),
-    "SetEnvironmentVariable": _assigns("environment", ("name",), ("value",)),
+    "SetLaunchConfiguration": _assignment("set", ("name",), ("value",)),
+    "SetEnvironmentVariable": _assignment("environment", ("name",), ("value",)),
     "AppendEnvironmentVariable": _append,
-    "SetParameter": _assigns("parameter", ("name",), ("value",)),
-    "SetRemap": _assigns("remap", ("src",), ("dst",)),
-    "SetParametersFromFile": _one_value("parameter", "filename"),
-    "PushRosNamespace": _one_value("namespace", "namespace"),
-    "PushROSNamespace": _one_value("namespace", "namespace"),
+    "SetParameter": _assignment("parameter", ("name",), ("value",)),
+    "SetRemap": _assignment("remap", ("src",), ("dst",)),
+    "SetParametersFromFile": _single_value("parameter", "filename"),
+    "PushRosNamespace": _single_value("namespace", "namespace"),
+    "PushROSNamespace": _single_value("namespace", "namespace"),
     "GroupAction": _group,
-    "LogInfo": _silent,
-    "Shutdown": _silent,
-    "EmitEvent": _silent,
-    "UnsetEnvironmentVariable": _silent,
-    "UnsetLaunchConfiguration": _silent,
-    "SetUseSimTime": _silent,
-    "ReadyToTest": _silent,
+    "LogInfo": _no_action,
+    "Shutdown": _no_action,
+    "EmitEvent": _no_action,
+    "UnsetEnvironmentVariable": _unset("unset_environment"),
+    "UnsetLaunchConfiguration": _unset("unset"),
+    "ResetEnvironment": _bare("reset_environment"),
+    "ResetLaunchConfigurations": _reset,
+    "SetUseSimTime": _no_action,
+    "ReadyToTest": _no_action,
 }
 
-LAUNCHED = frozenset(_RULES) - {"LaunchDescription"}
+LAUNCHED = frozenset(_BUILDERS) - {"LaunchDescription"}
 """Classes whose objects have an effect when they are launched."""

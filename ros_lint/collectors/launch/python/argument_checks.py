@@ -26,7 +26,7 @@ from ros_lint.facts.visibility import Problem
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import LaunchObject, Source
 
-_TAKES: Mapping[str, tuple[int, frozenset[str]]] = {
+_PARAMETERS: Mapping[str, tuple[int, frozenset[str]]] = {
     name: (int(words.split()[0]), frozenset(words.split()[1:]))
     for name, words in {
         "AnyLaunchDescriptionSource": "1 launch_file_path",
@@ -70,7 +70,7 @@ _TAKES: Mapping[str, tuple[int, frozenset[str]]] = {
 From launch 3.7.1 and launch_ros 0.28.
 """
 
-_READS: Mapping[str, tuple[str, ...]] = {
+_OTHER_FORMATS: Mapping[str, tuple[str, ...]] = {
     "PythonLaunchDescriptionSource": (".xml", ".yaml", ".yml"),
     "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),
     "YAMLLaunchDescriptionSource": (".py", ".xml"),
@@ -78,56 +78,77 @@ _READS: Mapping[str, tuple[str, ...]] = {
 """The file suffixes that a launch description source cannot read."""
 
 
-def not_taken(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
+def rejected_arguments(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield arguments that the classes of the launch libraries reject."""
-    found = [(node, problem) for one in made if one.source is source for node, problem in _refused(one)]
-    caught = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in tried(node)} if found else set()
-    for node, problem in found:
-        if node not in caught and is_from_launch(tree, node.func):
+    problems = [
+        (node, problem)
+        for launch_object in launch_objects
+        if launch_object.source is source
+        for node, problem in _rejected_arguments_of(launch_object)
+    ]
+    guarded = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in tried(node)} if problems else set()
+    for node, problem in problems:
+        if node not in guarded and is_from_launch(tree, node.func):
             yield problem
 
 
-def _refused(made: LaunchObject) -> Iterator[tuple[ast.Call, Problem]]:
-    node = made.node
-    if callee(node) != made.name or are_unknown(made.conditions):
+def _rejected_arguments_of(launch_object: LaunchObject) -> Iterator[tuple[ast.Call, Problem]]:
+    node = launch_object.node
+    if callee(node) != launch_object.name or are_unknown(launch_object.conditions):
         return
-    most, known = _TAKES.get(made.name, (len(node.args), None))
-    if known is not None:
+    max_positional, keywords = _PARAMETERS.get(launch_object.name, (len(node.args), None))
+    if keywords is not None:
         for keyword in node.keywords:
-            if keyword.arg is not None and keyword.arg not in known:
-                yield node, _keyword(keyword, keyword.arg, known, made)
-    if len(node.args) > most and not any(isinstance(argument, ast.Starred) for argument in node.args):
-        accepted = "keyword arguments only" if not most else f"at most {most} positional argument{'s' if most > 1 else ''}"
-        yield node, Problem("too-many-arguments", f"{made.name} accepts {accepted}", span_of(node.args[most], made.source))
-    if made.name in _READS:
-        paths = [text for text in texts(made.get(0, "launch_file_path")) if text]
-        if paths and all(path.endswith(_READS[made.name]) and not path.endswith(UNKNOWN) for path in paths):
+            if keyword.arg is not None and keyword.arg not in keywords:
+                yield node, _unknown_keyword(keyword, keyword.arg, keywords, launch_object)
+    if len(node.args) > max_positional and not any(isinstance(argument, ast.Starred) for argument in node.args):
+        accepted = (
+            "only keyword arguments"
+            if not max_positional
+            else f"at most {max_positional} positional argument{'s' if max_positional > 1 else ''}"
+        )
+        yield (
+            node,
+            Problem(
+                "too-many-arguments",
+                f"{launch_object.name} accepts {accepted}",
+                span_of(node.args[max_positional], launch_object.source),
+            ),
+        )
+    if launch_object.name in _OTHER_FORMATS:
+        paths = [text for text in texts(launch_object.get(0, "launch_file_path")) if text]
+        if paths and all(path.endswith(_OTHER_FORMATS[launch_object.name]) and not path.endswith(UNKNOWN) for path in paths):
             end = "." + paths[0].rpartition(".")[2]
-            message = f"{made.name} does not read {end} files; use AnyLaunchDescriptionSource(...)"
-            yield node, Problem("other-format", message, span_of(made.written(0, "launch_file_path"), made.source))
+            message = f"{launch_object.name} does not read {end} files; use AnyLaunchDescriptionSource(...)"
+            yield (
+                node,
+                Problem("other-format", message, span_of(launch_object.written(0, "launch_file_path"), launch_object.source)),
+            )
 
 
-def _keyword(keyword: ast.keyword, name: str, known: frozenset[str], made: LaunchObject) -> Problem:
-    begun = sorted(other for other in known if other.startswith(f"{name}_"))
-    near = begun[:1] or similar_names(name, sorted(known), 1, 0.75)
-    kind = "misspelt-keyword" if near else "unexpected-keyword"
-    meant = ask_if_meant([f"{one}=" for one in near])
-    return Problem(kind, f"{made.name} has no keyword argument '{name}='{meant}", span_of(keyword, made.source))
+def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], launch_object: LaunchObject) -> Problem:
+    completions = sorted(keyword_name for keyword_name in keywords if keyword_name.startswith(f"{name}_"))
+    suggestions = completions[:1] or similar_names(name, sorted(keywords), 1, 0.75)
+    kind = "misspelt-keyword" if suggestions else "unexpected-keyword"
+    question = ask_if_meant([f"{suggestion}=" for suggestion in suggestions])
+    return Problem(
+        kind, f"{launch_object.name} has no keyword argument '{name}='{question}", span_of(keyword, launch_object.source)
+    )
 
 
-def dropped(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield the absolute paths that are joined to a path: the path before them is dropped."""
+def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
+    """Yield absolute paths that are joined to another path: Python drops the path before them."""
     if not _SLASH.search(source.text.text):
         return  # because walking the whole tree takes longer
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
-        parts = _joined(node)
+        parts = _joined_parts(node)
         place = next((part for part in parts[1:] if _is_absolute(part)), None)
         if isinstance(place, ast.Constant) and not _is_absolute(parts[0]):
-            said = str(place.value)
-            remedy = f"write {said.lstrip('/')!r}" if said.strip("/") else "remove it"
-            message = f"the path before {said!r} is dropped, because {said!r} begins with a slash; {remedy}"
+            path_text = str(place.value)
+            remedy = f"write {path_text.lstrip('/')!r}" if path_text.strip("/") else "remove it"
+            message = f"the path before {path_text!r} is dropped, because {path_text!r} begins with a slash; {remedy}"
             yield Problem("forgotten-path", message, span_of(place, source))
 
 
@@ -135,7 +156,7 @@ _SLASH = re.compile(r",\s*['\"]/")
 """A text that begins with a slash and follows a comma."""
 
 
-def _joined(node: ast.Call) -> list[ast.expr]:
+def _joined_parts(node: ast.Call) -> list[ast.expr]:
     """Return the parts that a call joins to a path."""
     if callee(node) == "PathJoinSubstitution" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
         return node.args[0].elts

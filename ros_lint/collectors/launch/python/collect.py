@@ -14,11 +14,11 @@ from ros_lint.base.text import Span, Text
 from ros_lint.collectors.launch.detect import entries
 from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
 from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
-from ros_lint.collectors.launch.python.argument_checks import dropped, not_taken
-from ros_lint.collectors.launch.python.import_checks import strays
+from ros_lint.collectors.launch.python.argument_checks import dropped_paths, rejected_arguments
+from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
 from ros_lint.collectors.launch.python.runtime_errors import misused, not_condition, not_text, undefined
-from ros_lint.collectors.launch.python.substitutions import Within, texts
+from ros_lint.collectors.launch.python.substitutions import TextEvaluation, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.values import PERHAPS, BudgetExceeded, Frame, Function, Modules, ProgramRaised, Source
@@ -28,7 +28,7 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
-_LONGEST = 250_000
+_MAX_LENGTH = 250_000
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -43,50 +43,50 @@ def collect(
     path.
     """
     defined = entries(source.text)
-    if len(source.text) > _LONGEST:
-        opaque = Opaque(Facet.USES, "the file is too long to be followed", source.span(0, 0))
+    if len(source.text) > _MAX_LENGTH:
+        opaque = Opaque(Facet.USES, "the file is too long to be interpreted", source.span(0, 0))
         return LaunchFile(source.path, "python", opaque=(opaque,), test="launch" not in defined, helper=not defined)
     test, helper = "launch" not in defined and "test" in defined, not defined
     try:
         tree, newer = read(source)
     except NotPythonError as error:
-        why = refusal(source, error)
-        problems = (why.problem(),) if why.known else ()
-        return LaunchFile(source.path, "python", (), (why.opaque(Facet.USES),), problems, test, helper)
-    helper = helper or any(_asks_for_arguments(node) for node in tree.body)
-    reading = _Reading(source, Machine(modules, files, LaunchLibraries()))
+        syntax_refusal = refusal(source, error)
+        problems = (syntax_refusal.problem(),) if syntax_refusal.known else ()
+        return LaunchFile(source.path, "python", (), (syntax_refusal.opaque(Facet.USES),), problems, test, helper)
+    helper = helper or any(_has_required_parameters(node) for node in tree.body)
+    interpretation = _Interpretation(source, Machine(modules, files, LaunchLibraries()))
     try:
-        reading.read(tree, helper)
+        interpretation.read(tree, helper)
     except (BudgetExceeded, RecursionError, MemoryError):
-        reading.stopped("following the file takes too many steps")
-    reading.problems.extend(reading.refused(tree))
-    references = References(reading.actions, reading.places())
-    reading.add_to(references)
+        interpretation.stop("interpreting the file takes too many steps")
+    interpretation.problems.extend(interpretation.runtime_problems(tree))
+    references = References(interpretation.actions, interpretation.places())
+    interpretation.add_to(references)
     return LaunchFile(
         source.path,
         "python",
         references.all(),
         tuple(references.opaque),
-        tuple(dict.fromkeys([*_misplaced(tree, source)] or [*reading.problems, *references.problems])),
+        tuple(dict.fromkeys([*_compile_errors(tree, source)] or [*interpretation.problems, *references.problems])),
         test,
         helper,
-        tuple(reading.actions),
+        tuple(interpretation.actions),
         tuple(_imports(source, tree)),
-        reading.asks(),
-        tuple(sorted(map(str, reading.wants))),  # the cache accepts only plain str
+        interpretation.configurations_read(),
+        tuple(sorted(map(str, interpretation.missing_inputs))),  # the cache accepts only plain str
         syntax=newer,
     )
 
 
-def _misplaced(tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield what the compiler of Python refuses, such as a keyword that is given twice."""
+def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
+    """Yield the errors of the Python compiler, such as a repeated keyword argument."""
     if (error := compiled(tree)) is not None:
         from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
 
         yield from misplaced(error, tree, source)
 
 
-def _asks_for_arguments(node: ast.stmt) -> bool:
+def _has_required_parameters(node: ast.stmt) -> bool:
     """Return whether generate_launch_description() has required parameters.
 
     Such a file is a helper, because launch calls the function without arguments.
@@ -108,7 +108,7 @@ def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
             yield "." * statement.level + (statement.module or ""), span_of(text, statement)
 
 
-class _Reading:
+class _Interpretation:
     """The interpretation of one launch file, from its syntax tree to its actions."""
 
     def __init__(self, text: Text, machine: Machine) -> None:
@@ -116,24 +116,24 @@ class _Reading:
         self._source = Source(text)
         self._walker = walker(machine, self._source)
         self.actions: list[LaunchAction] = []
-        self._blind: list[Opaque] = []
+        self._opaque: list[Opaque] = []
 
     @property
-    def wants(self) -> set[str]:
+    def missing_inputs(self) -> set[str]:
         return self._machine.wanted
 
     @property
     def problems(self) -> list[Problem]:
         return self._walker.problems
 
-    def refused(self, tree: ast.Module) -> Iterator[Problem]:
+    def runtime_problems(self, tree: ast.Module) -> Iterator[Problem]:
         yield from undefined(tree, self._source, self._machine.unbound)
         yield from misused(tree, self._source, self._machine.misused)
         yield from not_text(tree, self._source, self._machine.made)
         yield from not_condition(tree, self._source, self._machine.made)
-        yield from not_taken(tree, self._source, self._machine.made)
-        yield from dropped(tree, self._source)
-        yield from strays(tree, self._source)
+        yield from rejected_arguments(tree, self._source, self._machine.made)
+        yield from dropped_paths(tree, self._source)
+        yield from misplaced_imports(tree, self._source)
 
     def read(self, tree: ast.Module, helper: bool) -> None:
         frame = self._machine.run(tree, self._source)
@@ -144,12 +144,12 @@ class _Reading:
                 self.actions += [*self._walker.actions(self._machine.variables), *started]
                 if function.changed:
                     place = span_of(self._source.text, function.node)
-                    self._blind.append(Opaque(Facet.USES, f"what a decorator makes of {name}() is not followed", place))
+                    self._opaque.append(Opaque(Facet.USES, f"the decorator of {name}() cannot be followed", place))
         if helper:
             for name, function in list(frame.names.items()):
                 if isinstance(function, Function) and function.frame is frame:
                     self._call(function, name, frame)
-        self._leftovers(everything=helper)
+        self._add_escaped(all_objects=helper)
 
     def _call(self, function: Function, name: str, frame: Frame) -> object:
         call = ast.Call(ast.Name(name), [], [])
@@ -157,24 +157,24 @@ class _Reading:
         try:
             return self._machine.call(function, [], {}, call, frame)
         except ProgramRaised:
-            self.stopped(f"{name}() raises an exception")
+            self.stop(f"{name}() raises an exception")
             return None
 
-    def asks(self) -> tuple[str, ...]:
+    def configurations_read(self) -> tuple[str, ...]:
         """Return the launch configurations that are read, with UNKNOWN among them if others may be."""
-        within = Within()
+        evaluation = TextEvaluation()
         names = {
             str(name)
-            for made in self._machine.made
-            if made.name.startswith("LaunchConfig")  # also LaunchConfigAsBool of nav2_common
-            for name in texts(made.get(0, "variable_name", "launch_configuration_name"), within)
+            for launch_object in self._machine.made
+            if launch_object.name.startswith("LaunchConfig")  # includes LaunchConfigAsBool of nav2_common
+            for name in texts(launch_object.get(0, "variable_name", "launch_configuration_name"), evaluation)
         }
         if self._machine.borrows or ".launch_configurations" in self._source.text.text:
             names.add(UNKNOWN)
         return tuple(sorted(names))
 
-    def _spare(self, references: References) -> None:
-        """Mark packages as optional whose look-ups all tolerate that the package is missing.
+    def _mark_optional(self, references: References) -> None:
+        """Mark a package as optional if none of its look-ups requires that it is installed.
 
         A look-up while the file is read stops the file if the package is missing, unless the exception is caught or a
         condition tests for the package.
@@ -183,37 +183,37 @@ class _Reading:
         for package, _, _, conditions in self._machine.looked_up:
             if not is_guarded_by_presence(conditions):
                 optional.pop(package, None)
-        references.spare(optional)
+        references.mark_optional(optional)
 
     def places(self) -> dict[str, Span]:
-        """Return the look-ups of packages that have a path in the file or a command that it runs."""
+        """Return the place of the first look-up of each package."""
         return {package: self._walker.look_up_span(package) for package in self._machine.named}
 
-    def stopped(self, reason: str) -> None:
-        """Note that the interpretation stopped early: every object that was created may be launched."""
-        self._blind.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
+    def stop(self, reason: str) -> None:
+        """Note that the interpretation stopped early. Every object that was created may be launched."""
+        self._opaque.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
         self._machine.grant()
         with suppress(BudgetExceeded, RecursionError, MemoryError):
-            self._leftovers(everything=True)
+            self._add_escaped(all_objects=True)
 
-    def _leftovers(self, everything: bool) -> None:
-        """Add objects as perhaps launched that escaped to code which cannot be followed."""
-        for made in self._machine.made:
-            if not made.seen and (made.escaped or everything) and made.name in LAUNCHED:
-                self.actions += self._walker.actions(made, (PERHAPS,))
+    def _add_escaped(self, all_objects: bool) -> None:
+        """Add the objects that may be launched by code that cannot be followed, or all objects."""
+        for launch_object in self._machine.made:
+            if not launch_object.seen and (launch_object.escaped or all_objects) and launch_object.name in LAUNCHED:
+                self.actions += self._walker.actions(launch_object, (PERHAPS,))
 
     def add_to(self, references: References) -> None:
         """Add the files and packages that are read immediately, and the opaque places."""
         for path, node, source, conditions in self._machine.opened:
             if source is self._source:
-                references.opens(self._walker.text(path, node, source), conditions)
-        self._spare(references)
-        references.do_without(path for paths in self._machine.asked.values() for path in paths)
+                references.note_opened(self._walker.text(path, node, source), conditions)
+        self._mark_optional(references)
+        references.mark_guarded(path for paths in self._machine.asked.values() for path in paths)
         for package, node, source, conditions in self._machine.looked_up:
             value = self._walker.text(package, node, source)
             if value.texts == (package,):
-                references.look_up(package, value, conditions)
-        for reason, span in self._walker.blind:
-            references.hide(f"what is launched is not known: {reason}", span)
-        for opaque in self._blind:
+                references.note_look_up(package, value, conditions)
+        for reason, span in self._walker.unknown_launches:
+            references.hide(f"the launched actions are not known: {reason}", span)
+        for opaque in self._opaque:
             references.opaque[opaque] = None

@@ -1,10 +1,10 @@
-"""Actions that Python launch files run at events, and actions that their functions return."""
+"""Actions that Python launch files run at events, and actions that functions return during the launch."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ros_lint.collectors.launch.python.walker import Rule, Walker, place_of
+from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -22,24 +22,24 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction
 
 
-def _timer(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    children = walker.actions(made.get(-1, "actions"), (), place_of(made))
-    return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(children))]
+def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    children = walker.actions(launch_object.get(-1, "actions"), (), place_of(launch_object))
+    return [LaunchAction("later", place_of(launch_object), conditions=conditions, children=tuple(children))]
 
 
-def _event(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """Return the actions of an event handler: its list of actions, or the result of its function."""
     actions: list[LaunchAction] = []
-    for alternative in alternatives(made.get(0, "event_handler")):
+    for alternative in alternatives(launch_object.get(0, "event_handler")):
         handler = alternative.value
         if isinstance(handler, Instance):
             handler = handler.made
         if isinstance(handler, LaunchObject):
-            actions += _handled(walker, handler)
-    return [LaunchAction("later", place_of(made), conditions=conditions, children=tuple(actions))] if actions else []
+            actions += _handler_actions(walker, handler)
+    return [LaunchAction("later", place_of(launch_object), conditions=conditions, children=tuple(actions))] if actions else []
 
 
-def _handled(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
+def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
     handler.seen = True
     actions: list[LaunchAction] = []
     targets = {"target_action", "matcher", "handle_once", "target_lifecycle_node", "start_state", "goal_state", "transition"}
@@ -54,52 +54,54 @@ def _handled(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
     return actions
 
 
-def later(walker: Walker, made: LaunchObject, *names: str) -> list[LaunchAction]:
+def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[LaunchAction]:
     """Return the actions that run when the event of one of the named arguments occurs."""
     actions: list[LaunchAction] = []
     for name in names:
-        for alternative in alternatives(made.get(-1, name)) if name in made.keywords else ():
+        for alternative in alternatives(launch_object.get(-1, name)) if name in launch_object.keywords else ():
             value = alternative.value
             if isinstance(value, (Function, Bound)):
-                value = walker.run(value, [Unknown("an event"), Context()], {}, made)
+                value = walker.run(value, [Unknown("an event"), Context()], {}, launch_object)
             if value is not None and not isinstance(value, Unknown):
-                actions += walker.actions(value, alternative.conditions, place_of(made))
-    return [LaunchAction("later", place_of(made), children=tuple(actions))] if actions else []
+                actions += walker.actions(value, alternative.conditions, place_of(launch_object))
+    return [LaunchAction("later", place_of(launch_object), children=tuple(actions))] if actions else []
 
 
-def _opaque_function(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    arguments = items(walker.machine, made.get(-1, "args")) if made.get(-1, "args") is not None else []
-    keywords = plain(made.get(-1, "kwargs"))
-    before, variables = walker.machine.conditions, walker.machine.variables
+def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    arguments = items(walker.machine, launch_object.get(-1, "args")) if launch_object.get(-1, "args") is not None else []
+    keywords = plain(launch_object.get(-1, "kwargs"))
+    outer_conditions, variables = walker.machine.conditions, walker.machine.variables
     walker.machine.conditions, walker.machine.variables = (), []
     try:
         result = walker.run(
-            made.get(0, "function"),
+            launch_object.get(0, "function"),
             [Context(), *(arguments or [])],
             {str(k): v for k, v in keywords.items()} if isinstance(keywords, dict) else {},
-            made,
+            launch_object,
         )
     finally:
-        walker.machine.conditions, its_own = before, walker.machine.variables
+        walker.machine.conditions, assignments = outer_conditions, walker.machine.variables
         walker.machine.variables = variables
     # Its assignments may depend on arguments that are declared before it, not on later ones.
-    actions = walker.actions(its_own, conditions, place_of(made))
-    return [*actions, *walker.actions(result, conditions, place_of(made))] if result is not None else actions
+    actions = walker.actions(assignments, conditions, place_of(launch_object))
+    return [*actions, *walker.actions(result, conditions, place_of(launch_object))] if result is not None else actions
 
 
-def _for_each(walker: Walker, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+def _for_each(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """Return the actions of a function that launch calls once for each set of keyword values.
 
     Any keyword may be passed, and the number of calls may be 0.
     """
-    function = plain(made.get(1, "function"))
+    function = plain(launch_object.get(1, "function"))
     spec = function.node.args if isinstance(function, Function) else None
     names = [argument.arg for argument in (*spec.args, *spec.kwonlyargs)] if spec else []
-    result = walker.run(function, [], dict.fromkeys([*names, UNKNOWN], Unknown(f"a value of {made.name}")), made)
-    return walker.actions(result, (*conditions, PERHAPS), place_of(made))
+    result = walker.run(
+        function, [], dict.fromkeys([*names, UNKNOWN], Unknown(f"a value of {launch_object.name}")), launch_object
+    )
+    return walker.actions(result, (*conditions, PERHAPS), place_of(launch_object))
 
 
-RULES: Mapping[str, Rule] = {
+BUILDERS: Mapping[str, ActionBuilder] = {
     "TimerAction": _timer,
     "ROSTimer": _timer,
     "RosTimer": _timer,

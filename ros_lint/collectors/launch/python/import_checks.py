@@ -1,4 +1,4 @@
-"""Names that a Python launch file takes from the wrong module of the launch libraries, an error."""
+"""Names that a Python launch file imports from the wrong module of the launch libraries."""
 
 from __future__ import annotations
 
@@ -46,40 +46,46 @@ _MODULES: Mapping[str, frozenset[str]] = {
 From launch 3.7.1, launch_ros 0.28 and later.
 """
 ACTIONS = _MODULES["launch.actions"] | _MODULES["launch_ros.actions"]
-_HOMES: Mapping[str, tuple[str, ...]] = {
+_MODULES_BY_NAME: Mapping[str, tuple[str, ...]] = {
     name: tuple(module for module, names in _MODULES.items() if name in names) for names in _MODULES.values() for name in names
 }
 
 
 # A pattern that begins with letters is searched fast; the lookbehind is tested only at the matches.
-_ASKED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
+_QUALIFIED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
 
 
-def strays(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield the names that are taken from a launch module without them, while another one has them."""
+def misplaced_imports(tree: ast.Module, source: Source) -> Iterator[Problem]:
+    """Yield names that are imported from a launch module that lacks them, if another launch module has them."""
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
             for alias in node.names:
-                yield from _stray(node.module, alias.name, alias, source)
-    if not any(_is_stray(f"launch{module}", name) for module, name in _ASKED.findall(source.text.text)):
+                yield from _misplaced_import(node.module, alias.name, alias, source)
+    if not any(_is_misplaced(f"launch{module}", name) for module, name in _QUALIFIED.findall(source.text.text)):
         return  # because walking the whole tree takes longer than everything else
     imported = _imported(tree)
     for node_inside in ast.walk(tree):
-        if isinstance(node_inside, ast.Attribute) and node_inside.attr in _HOMES and isinstance(node_inside.value, ast.Attribute):
+        if (
+            isinstance(node_inside, ast.Attribute)
+            and node_inside.attr in _MODULES_BY_NAME
+            and isinstance(node_inside.value, ast.Attribute)
+        ):
             root = node_inside.value.value
             if isinstance(root, ast.Name) and root.id in imported:
-                yield from _stray(f"{root.id}.{node_inside.value.attr}", node_inside.attr, node_inside, source)
+                yield from _misplaced_import(f"{root.id}.{node_inside.value.attr}", node_inside.attr, node_inside, source)
 
 
-def _stray(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
-    if _is_stray(module, name):
+def _misplaced_import(module: str, name: str, node: Node, source: Source) -> Iterator[Problem]:
+    if _is_misplaced(module, name):
         yield Problem(
-            "stray-name", f"'{module}' has no {name}; import it from {' or '.join(_HOMES[name])}", span_of(node, source)
+            "stray-name",
+            f"'{module}' has no '{name}'; import it from {' or '.join(map(repr, _MODULES_BY_NAME[name]))}",
+            span_of(node, source),
         )
 
 
-def _is_stray(module: str, name: str) -> bool:
-    return name in _HOMES and module in _MODULES and module not in _HOMES[name]
+def _is_misplaced(module: str, name: str) -> bool:
+    return name in _MODULES_BY_NAME and module in _MODULES and module not in _MODULES_BY_NAME[name]
 
 
 def _imported(tree: ast.Module) -> frozenset[str]:

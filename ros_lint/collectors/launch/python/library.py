@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.python.substitutions import conditions_of
-from ros_lint.collectors.python.interpreter import path_functions as launch_py_paths
+from ros_lint.collectors.python.interpreter import path_functions
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import items
@@ -40,78 +40,80 @@ if TYPE_CHECKING:
 
 def call_library(
     machine: Interpreter,
-    what: str | Method,
+    callee: str | Method,
     arguments: list[Value],
     keywords: dict[str, Value],
     node: ast.Call,
     frame: Frame,
 ) -> Value:
     """Return the result of a library function, or of a method of a library object."""
-    if isinstance(what, Method):
-        return _method(Call(machine, what.name, arguments, keywords, node, frame), what.owner)
-    call = Call(machine, what, arguments, keywords, node, frame)
-    last = what.rpartition(".")[2]
-    rule = _BY_NAME.get(what) or (_BY_LAST.get(last) if not what.startswith(("os.", "builtins.")) else None)
-    if rule is not None:
-        return rule(call)
+    if isinstance(callee, Method):
+        return _method(Call(machine, callee.name, arguments, keywords, node, frame), callee.owner)
+    call = Call(machine, callee, arguments, keywords, node, frame)
+    last = callee.rpartition(".")[2]
+    model = _MODELS_BY_NAME.get(callee) or (
+        _MODELS_BY_LAST_PART.get(last) if not callee.startswith(("os.", "builtins.")) else None
+    )
+    if model is not None:
+        return model(call)
     if last[:1].isupper():
-        return _make(call, last)
+        return _create(call, last)
     machine.escape([arguments, keywords])
     if "package" in keywords and "executable" in keywords:
-        _make(call, "Node").escaped = True  # judging by the name, a function that creates one
-    return Unknown("" if what.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
+        _create(call, "Node").escaped = True  # judging by the keywords, a function that creates a node
+    return Unknown("" if callee.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 
-def _make(call: Call, name: str) -> LaunchObject:
-    made = LaunchObject(name, call.arguments, call.keywords, call.node, call.frame.source)
-    made.conditions = call.machine.conditions
-    call.machine.made.append(made)
+def _create(call: Call, name: str) -> LaunchObject:
+    launch_object = LaunchObject(name, call.arguments, call.keywords, call.node, call.frame.source)
+    launch_object.conditions = call.machine.conditions
+    call.machine.made.append(launch_object)
     if name == "LaunchDescription":
-        entities = made.get(0, "initial_entities")
-        found = items(call.machine, entities) if entities is not None else []
-        made.entities = found if found is not None else [entities]
+        entities = launch_object.get(0, "initial_entities")
+        entity_list = items(call.machine, entities) if entities is not None else []
+        launch_object.entities = entity_list if entity_list is not None else [entities]
     elif name in ("FindPackageShare", "FindPackagePrefix", "FindPackage"):
-        _note(call, made.get(0, "package"), made.written(0, "package"), eager=False)
+        _note(call, launch_object.get(0, "package"), launch_object.written(0, "package"), eager=False)
     elif name == "ExecutableInPackage":
-        _note(call, made.get(1, "package"), made.written(1, "package"), eager=False)
+        _note(call, launch_object.get(1, "package"), launch_object.written(1, "package"), eager=False)
     elif name == "Command":
-        _note_command(call, made)
+        _note_command(call, launch_object)
     elif name in ("MoveItConfigsBuilder", "ParameterBuilder"):
-        _note_builder(call, made)
-    return made
+        _note_builder(call, launch_object)
+    return launch_object
 
 
-def _note_command(call: Call, made: LaunchObject) -> None:
-    """Note the first place that runs a command of a package."""
-    command, expression = made.get(0, "command"), made.written(0, "command")
+def _note_command(call: Call, launch_object: LaunchObject) -> None:
+    """Note the package of a command, xacro, at the first place that runs it."""
+    command, expression = launch_object.get(0, "command"), launch_object.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(command)):
         first = expression.elts[0] if isinstance(expression, (ast.List, ast.Tuple)) and expression.elts else expression
         call.machine.named.setdefault("xacro", (first, call.frame.source))
 
 
-def _note_builder(call: Call, made: LaunchObject) -> None:
+def _note_builder(call: Call, launch_object: LaunchObject) -> None:
     """Note the package that a builder of moveit_configs_utils looks up immediately.
 
     Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
     """
-    position = 2 if made.name == "MoveItConfigsBuilder" else 0
-    package = made.get(position, "package_name")
+    position = 2 if launch_object.name == "MoveItConfigsBuilder" else 0
+    package = launch_object.get(position, "package_name")
     if package is not None:
-        _note(call, package, made.written(position, "package_name"), eager=True)
+        _note(call, package, launch_object.written(position, "package_name"), eager=True)
     elif position:
-        robots = made.get(0, "robot_name")
+        robots = launch_object.get(0, "robot_name")
         names = tuple(f"{robot.value}_moveit_config" for robot in alternatives(robots) if isinstance(robot.value, str))
         for name in names:
-            _note(call, name, made.written(0, "robot_name"), eager=True)
+            _note(call, name, launch_object.written(0, "robot_name"), eager=True)
 
 
-def built_for(builder: LaunchObject) -> str:
-    """Return the package of a builder of MoveIt, "" if unknown. The default contains the robot's name."""
+def package_of_builder(builder: LaunchObject) -> str:
+    """Return the package of a MoveIt builder, "" if unknown; the default is composed of the robot's name."""
     of_robots = builder.name == "MoveItConfigsBuilder"
     package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
     if package is None and of_robots and isinstance(robot, str):
         package = f"{robot}_moveit_config"
-    return package if isinstance(package, str) and launch_text.is_plain(package) else ""
+    return package if isinstance(package, str) and symbolic_text.is_plain(package) else ""
 
 
 def attribute_of_library(owner: LaunchObject, name: str) -> Value:
@@ -121,12 +123,12 @@ def attribute_of_library(owner: LaunchObject, name: str) -> Value:
             return owner.entities
         case "DeclareLaunchArgument", "name":
             return owner.get(0, "name")
-        case "MoveItConfigsBuilder", "package_path" if package := built_for(owner):
-            return FilePath(launch_text.share(package))
+        case "MoveItConfigsBuilder", "package_path" if package := package_of_builder(owner):
+            return FilePath(symbolic_text.share(package))
     return Method(owner, name)
 
 
-_READ_BY_BUILDERS: Mapping[str, int] = {
+_FILE_POSITIONS: Mapping[str, int] = {
     "file_parameter": 1,
     "joint_limits": 0,
     "moveit_cpp": 0,
@@ -140,30 +142,30 @@ _READ_BY_BUILDERS: Mapping[str, int] = {
 }
 """The position of the argument with the file that a method of MoveIt's builders reads.
 
-``sensors_3d`` is omitted, because it checks first if the file exists.
+``sensors_3d`` is omitted, because it checks whether the file exists.
 """
 
 
 def _note_built(call: Call, owner: LaunchObject) -> None:
     """Note the file that MoveIt's builders read immediately, relative to the share folder of the package."""
-    position = _READ_BY_BUILDERS.get(call.name)
+    position = _FILE_POSITIONS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
         return
-    package, file = built_for(owner), call.get(position, "file_path")
+    package, file = package_of_builder(owner), call.get(position, "file_path")
     if not package or not isinstance(file, (str, FilePath)):
         return
     expression = argument_of(call.node, position, "file_path")
     for path in text_of(file):
-        whole = posixpath.join(launch_text.share(package), path)
-        call.machine.opened.append((whole, expression, call.frame.source, call.machine.conditions))
+        full_path = posixpath.join(symbolic_text.share(package), path)
+        call.machine.opened.append((full_path, expression, call.frame.source, call.machine.conditions))
 
 
 def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
     source = call.frame.source
     for alternative in alternatives(package):
-        node, where = getattr(alternative.value, "node", at), getattr(alternative.value, "source", source)
+        node, place_source = getattr(alternative.value, "node", at), getattr(alternative.value, "source", source)
         if isinstance(alternative.value, str):
-            call.machine.look_up(str(alternative.value), node, where, eager, alternative.conditions)
+            call.machine.look_up(str(alternative.value), node, place_source, eager, alternative.conditions)
         elif isinstance(alternative.value, LaunchObject):
             for text in call.machine.texts(alternative.value):
                 call.machine.named.setdefault(text, (at, source))
@@ -179,7 +181,7 @@ def _method(call: Call, owner: LaunchObject) -> Value:
         owner.entities.append(machine.guard(call.get(0, "action", "entity")))
         return None
     if name == "extend" and owner.name == "LaunchDescription":
-        owner.entities += [machine.guard(one) for one in call.items(0) or [call.get(0)]]
+        owner.entities += [machine.guard(item) for item in call.items(0) or [call.get(0)]]
         return None
     if name in ("perform", "toxml", "toprettyxml"):
         return call.result(machine.texts(owner))
@@ -200,7 +202,7 @@ def _method(call: Call, owner: LaunchObject) -> Value:
 def _share(call: Call) -> Value:
     package = call.get(0, "package_name", "package")
     _note(call, package, call.node.args[0] if call.node.args else call.node, eager=True)
-    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.share(row[0])))
+    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: symbolic_text.share(row[0])))
 
 
 def _share_path(call: Call) -> Value:
@@ -211,7 +213,7 @@ def _share_path(call: Call) -> Value:
 def _prefix(call: Call) -> Value:
     package = call.get(0, "package_name", "package")
     _note(call, package, call.node.args[0] if call.node.args else call.node, eager=True)
-    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: launch_text.prefix(row[0])))
+    return call.result(joined([call.texts(0, "package_name", "package")], lambda row: symbolic_text.prefix(row[0])))
 
 
 def _join(call: Call) -> Value:
@@ -221,7 +223,7 @@ def _join(call: Call) -> Value:
     return call.result(joined(rows, lambda row: posixpath.join("", *row)))
 
 
-def _on_path(function: Callable[[str], str]) -> Rule:
+def _path_function(function: Callable[[str], str]) -> Rule:
     return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
 
 
@@ -248,19 +250,19 @@ def _variable(call: Call) -> Value:
 
 
 def _has_resource(call: Call) -> Value:
-    return _is_there(call.texts(1, "resource_name"))
+    return _is_installed(call.texts(1, "resource_name"))
 
 
-def _is_there(names: tuple[str, ...]) -> Value:
-    asked = presence(names[0] if len(names) == 1 else UNKNOWN)
-    return Unknown("whether something is installed", LaunchCondition((asked,), None))
+def _is_installed(names: tuple[str, ...]) -> Value:
+    symbolic = presence(names[0] if len(names) == 1 else UNKNOWN)
+    return Unknown("whether something is installed", LaunchCondition((symbolic,), None))
 
 
 def _exists(call: Call) -> Value:
     return call.machine.ask(call.texts(0, "path"))
 
 
-def _first(call: Call) -> Value:
+def _first_argument(call: Call) -> Value:
     return call.get(0)
 
 
@@ -268,32 +270,32 @@ def _perform(position: int) -> Rule:
     return lambda call: call.result(call.machine.texts(call.get(position)))
 
 
-def _configured(call: Call) -> Value:
+def _configuration(call: Call) -> Value:
     default = call.get(1)
     defaults = call.texts(1) if default is not None else (None,)
-    return call.result(tuple(launch_text.configuration(name, value) for name in call.texts(0) for value in defaults))
+    return call.result(tuple(symbolic_text.configuration(name, value) for name in call.texts(0) for value in defaults))
 
 
-def _expanded(call: Call) -> Value:
+def _xacro_output(call: Call) -> Value:
     """Return the output of xacro, for ``xacro.process_file`` and similar functions."""
-    return _make(call, "Command") if call.arguments else unknown(call)
+    return _create(call, "Command") if call.arguments else unknown(call)
 
 
-def _makes(position: int) -> Rule:
-    """Return the model of a function that writes a file, which need not exist before."""
+def _writes_file(position: int) -> Rule:
+    """Return the model of a function that writes a file. The file need not exist when the launch starts."""
 
-    def rule(call: Call) -> Value:
+    def model(call: Call) -> Value:
         call.machine.ask(call.texts(position))
         return unknown(call)
 
-    return rule
+    return model
 
 
 _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 
 
-def _runs(call: Call) -> Value:
-    """Note the output file of a command (``>`` of the shell, or ``-o``): it need not exist before."""
+def _runs_command(call: Call) -> Value:
+    """Note the output file of a command (after ``>`` or ``-o``), which need not exist when the launch starts."""
     words = call.items(0)
     if words is None:
         call.machine.ask(tuple([path for command in call.texts(0) for path in _OUTPUT.findall(command)]))
@@ -311,11 +313,11 @@ def subscript_library(machine: Interpreter, owner: Value, key: Value) -> Value:
         if owner.name == "os.environ":
             return union(machine.variable(name) for name in text_of(key))
         if owner.name == "context.launch_configurations":
-            return union(launch_text.configuration(name) for name in text_of(key))
+            return union(symbolic_text.configuration(name) for name in text_of(key))
     if isinstance(owner, (Unknown, LibraryName)):
-        return Unknown("element of what is not known")
+        return Unknown("an element of an unknown value")
     machine.escape(owner)
-    return Unknown("element of what is not known")
+    return Unknown("an element of an unknown value")
 
 
 _STANDARD = frozenset(
@@ -328,21 +330,21 @@ _STANDARD = frozenset(
 """Modules whose functions return nothing that can be launched."""
 
 
-_BY_NAME: Mapping[str, Rule] = {
+_MODELS_BY_NAME: Mapping[str, Rule] = {
     **FUNCTIONS,
     "os.path.join": _join,
-    "os.path.basename": _on_path(lambda path: launch_py_paths.split(path)[1]),
-    "os.path.dirname": _on_path(lambda path: launch_py_paths.split(path)[0]),
-    "os.path.normpath": _on_path(posixpath.normpath),
-    "os.path.split": _split(launch_py_paths.split),
-    "os.path.splitext": _split(launch_py_paths.split_suffix),
-    "os.path.abspath": _on_path(str),
-    "os.path.realpath": _on_path(str),
-    "os.path.expanduser": _on_path(str),
-    "os.path.expandvars": _on_path(str),
+    "os.path.basename": _path_function(lambda path: path_functions.split(path)[1]),
+    "os.path.dirname": _path_function(lambda path: path_functions.split(path)[0]),
+    "os.path.normpath": _path_function(posixpath.normpath),
+    "os.path.split": _split(path_functions.split),
+    "os.path.splitext": _split(path_functions.split_suffix),
+    "os.path.abspath": _path_function(str),
+    "os.path.realpath": _path_function(str),
+    "os.path.expanduser": _path_function(str),
+    "os.path.expandvars": _path_function(str),
     "os.path.exists": _exists,
     "os.path.isfile": _exists,
-    "os.fspath": _on_path(str),
+    "os.fspath": _path_function(str),
     "os.getenv": _variable,
     "os.environ.get": _variable,
     "os.getcwd": unknown_text,
@@ -353,19 +355,19 @@ _BY_NAME: Mapping[str, Rule] = {
     "pathlib.PurePosixPath": _path,
     "pathlib.Path.cwd": lambda call: FilePath(UNKNOWN),
     "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
-    "context.launch_configurations.get": _configured,
+    "context.launch_configurations.get": _configuration,
     "context.perform_substitution": _perform(0),
     f"{INSTALLED}.keys": lambda call: LibraryName(INSTALLED),
-    f"{INSTALLED}.get": lambda call: _is_there(call.texts(0)),
-    "xacro.process_file": _expanded,
-    "xacro.process": _expanded,
-    "xacro.open_output": _makes(0),
-    **dict.fromkeys(("shutil.copy", "shutil.copy2", "shutil.copyfile"), _makes(1)),
-    **{f"subprocess.{name}": _runs for name in ("Popen", "call", "check_call", "check_output", "getoutput", "run")},
-    "os.system": _runs,
+    f"{INSTALLED}.get": lambda call: _is_installed(call.texts(0)),
+    "xacro.process_file": _xacro_output,
+    "xacro.process": _xacro_output,
+    "xacro.open_output": _writes_file(0),
+    **dict.fromkeys(("shutil.copy", "shutil.copy2", "shutil.copyfile"), _writes_file(1)),
+    **{f"subprocess.{name}": _runs_command for name in ("Popen", "call", "check_call", "check_output", "getoutput", "run")},
+    "os.system": _runs_command,
 }
 
-_BY_LAST: Mapping[str, Rule] = {
+_MODELS_BY_LAST_PART: Mapping[str, Rule] = {
     "get_package_share_directory": _share,
     "get_package_share_path": _share_path,
     "get_package_prefix": _prefix,
@@ -374,6 +376,6 @@ _BY_LAST: Mapping[str, Rule] = {
     "get_search_paths": lambda call: LibraryName(INSTALLED),
     "has_resource": _has_resource,
     "perform_substitutions": _perform(1),
-    "normalize_to_list_of_substitutions": _first,
+    "normalize_to_list_of_substitutions": _first_argument,
     "Path": _path,
 }

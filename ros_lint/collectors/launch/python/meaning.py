@@ -8,7 +8,7 @@ from collections.abc import Callable
 from ros_lint.collectors.launch.expressions import evaluate
 from ros_lint.collectors.launch.python.library import attribute_of_library, call_library, subscript_library
 from ros_lint.collectors.launch.python.released_helpers import HELPERS, helper
-from ros_lint.collectors.launch.python.substitutions import CONDITIONS, SUBSTITUTIONS, Within, is_text, texts
+from ros_lint.collectors.launch.python.substitutions import CONDITIONS, SUBSTITUTIONS, TextEvaluation, is_text, texts
 from ros_lint.collectors.python.interpreter.protocol import Interpreter
 from ros_lint.collectors.python.interpreter.recorder import How
 from ros_lint.collectors.python.interpreter.values import Frame, LaunchObject, Method, Value
@@ -26,7 +26,7 @@ _DESCRIBED = LAUNCH_RUNTIME | {
 }
 """Libraries with models.
 
-Their sources are not interpreted in a workspace that builds ROS itself, because they need a running launch system.
+Their sources are not interpreted, even if the workspace contains them, because they need a running launch system.
 """
 
 
@@ -60,19 +60,19 @@ class LaunchLibraries:
         return subscript_library(interpreter, owner, key)
 
     def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
-        return texts(value, Within(spend))
+        return texts(value, TextEvaluation(spend))
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
         defaults = {
             str(name): texts(default)
-            for made in interpreter.made
-            if made.name == "DeclareLaunchArgument"
-            if (default := made.get(1, "default_value")) is not None
-            for name in texts(made.get(0, "name"))
+            for launch_object in interpreter.made
+            if launch_object.name == "DeclareLaunchArgument"
+            if (default := launch_object.get(1, "default_value")) is not None
+            for name in texts(launch_object.get(0, "name"))
         }
         return fill(text, defaults.get, evaluate)
 
-    def misuse(self, made: LaunchObject, how: How) -> How | None:
-        if how == "tested" and made.name in CONDITIONS:
+    def misuse(self, launch_object: LaunchObject, how: How) -> How | None:
+        if how == "tested" and launch_object.name in CONDITIONS:
             return "combined"
-        return how if is_text(made) else None
+        return how if is_text(launch_object) else None

@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Source, Value
 
 
-def undefined(tree: ast.Module, source: Source, met: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
-    """Yield those of the unbound names that certainly raise NameError."""
-    for node in unbound(tree, [node for node, where in met if where is source]):
+def undefined(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
+    """Yield the names that certainly raise NameError; ``names`` were unbound in the interpretation."""
+    for node in unbound(tree, [node for node, module in names if module is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 
 
-_SAY: Mapping[How, tuple[str, str]] = {
+_MESSAGES: Mapping[How, tuple[str, str]] = {
     "added": ("substitution-refused", "a {name} cannot be added to a string; write a list of both, [a, b]"),
     "joined": ("substitution-refused", "os.path.join() does not accept a {name}; use PathJoinSubstitution([a, b])"),
     "formatted": (
@@ -43,62 +43,62 @@ _SAY: Mapping[How, tuple[str, str]] = {
     "tested": ("substitution-as-text", "a {name} is always true in Python; use IfCondition(a) or perform(context)"),
     "combined": ("substitution-as-text", "Python uses only one of the two conditions here; write {way}"),
 }
-_JOINED = "Python uses only one of the two substitutions here; write {joined}Substitution(a, b)"
-_DECIDED = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
-_TELLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
-"""Calls whose texts only humans read."""
+_JOINED_MESSAGE = "Python uses only one of the two substitutions here; write {joined}Substitution(a, b)"
+_DECIDED_MESSAGE = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
+_LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
+"""Functions that print or log their arguments."""
 
 
-def misused(tree: ast.Module, source: Source, noted: Iterable[Misused]) -> Iterator[Problem]:
+def misused(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
     """Yield the problems of misused substitutions in a module, at most one for each line."""
-    noted = [one for one in noted if one.source is source]
-    if not noted:
+    misuses = [misuse for misuse in misuses if misuse.source is source]
+    if not misuses:
         return
-    spared, functions, compared = _spared(tree), _functions(tree), _compared(tree)
+    ignored, functions, compared = _ignored_nodes(tree), _functions(tree), _compared(tree)
     combined = [node for node in ast.walk(tree) if isinstance(node, ast.BoolOp)]
-    decided = {inner for node in ast.walk(tree) if isinstance(node, (ast.If, ast.IfExp)) for inner in ast.walk(node.test)}
-    joined = {value: "Or" if isinstance(node.op, ast.Or) else "And" for node in combined for value in node.values}
+    in_condition = {inner for node in ast.walk(tree) if isinstance(node, (ast.If, ast.IfExp)) for inner in ast.walk(node.test)}
+    operators = {value: "Or" if isinstance(node.op, ast.Or) else "And" for node in combined for value in node.values}
     reported: set[int] = set()
-    for one in noted:
-        if one.node in spared or one.node.lineno in reported:
+    for misuse in misuses:
+        if misuse.node in ignored or misuse.node.lineno in reported:
             continue
         # A function that receives a substitution may test whether it is None.
-        if one.how in ("tested", "combined") and not _same_function(one, functions):
+        if misuse.how in ("tested", "combined") and not _same_function(misuse, functions):
             continue
-        reported.add(one.node.lineno)
-        kind, message = _SAY["compared" if one.how == "formatted" and one.node in compared else one.how]
-        if one.how == "combined" and one.node in decided:
-            message = _DECIDED
-        elif one.how == "tested" and one.node in joined and one.node not in decided:
-            message = _JOINED
-        said = message.format(name=one.made.name, way=_way(one, combined), joined=joined.get(one.node, ""))
-        yield Problem(kind, said, span_of(one.node, source))
+        reported.add(misuse.node.lineno)
+        kind, message = _MESSAGES["compared" if misuse.how == "formatted" and misuse.node in compared else misuse.how]
+        if misuse.how == "combined" and misuse.node in in_condition:
+            message = _DECIDED_MESSAGE
+        elif misuse.how == "tested" and misuse.node in operators and misuse.node not in in_condition:
+            message = _JOINED_MESSAGE
+        text = message.format(name=misuse.made.name, way=_replacement(misuse, combined), joined=operators.get(misuse.node, ""))
+        yield Problem(kind, text, span_of(misuse.node, source))
 
 
-def _way(one: Misused, combined: Iterable[ast.BoolOp]) -> str:
+def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:
     """Return the replacement for ``and`` or ``or`` of two conditions, according to the kinds of both."""
-    both = next((node for node in combined if one.node in node.values), None)
-    kinds = [callee(value) if isinstance(value, ast.Call) else "" for value in both.values[:2]] if both else []
-    either = both is not None and isinstance(both.op, ast.Or)
+    junction = next((node for node in combined if misuse.node in node.values), None)
+    kinds = [callee(value) if isinstance(value, ast.Call) else "" for value in junction.values[:2]] if junction else []
+    is_or = junction is not None and isinstance(junction.op, ast.Or)
     if kinds == ["UnlessCondition"] * 2:
-        return f"UnlessCondition({'And' if either else 'Or'}Substitution(a, b))"
+        return f"UnlessCondition({'And' if is_or else 'Or'}Substitution(a, b))"
     words = [f"NotSubstitution({word})" if kind == "UnlessCondition" else word for kind, word in zip(kinds, "ab", strict=False)]
-    return f"IfCondition({'Or' if either else 'And'}Substitution({', '.join(words or 'ab')}))"
+    return f"IfCondition({'Or' if is_or else 'And'}Substitution({', '.join(words or 'ab')}))"
 
 
-def _spared(tree: ast.Module) -> set[ast.AST]:
-    """Return the nodes where an error is caught, or where it only changes a message for humans."""
-    found: set[ast.AST] = set()
+def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
+    """Return the nodes in a try statement that catches errors, or in the arguments of a logging call."""
+    result: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
-            found.update(tried(node))
-        elif isinstance(node, ast.Call) and callee(node) in _TELLS:
-            found.update(ast.walk(node))
-    return found
+            result.update(tried(node))
+        elif isinstance(node, ast.Call) and callee(node) in _LOGGING_CALLS:
+            result.update(ast.walk(node))
+    return result
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all nodes in comparisons: a text that is compared is not launched."""
+    """Return all nodes in comparisons; a text that is formatted there is only compared."""
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 
@@ -107,19 +107,19 @@ def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]
     return [node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
 
 
-def _same_function(one: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
+def _same_function(misuse: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
     """Return whether a substitution is created in the body of the function that tests it."""
-    if one.made.source is not one.source:
+    if misuse.made.source is not misuse.source:
         return False
-    return all(_holds(function, one.node) == _holds(function, one.made.node) for function in functions)
+    return all(_contains(function, misuse.node) == _contains(function, misuse.made.node) for function in functions)
 
 
-def _holds(function: ast.FunctionDef | ast.AsyncFunctionDef, node: ast.expr) -> bool:
+def _contains(function: ast.FunctionDef | ast.AsyncFunctionDef, node: ast.expr) -> bool:
     last = function.body[-1]
     return function.body[0].lineno <= node.lineno <= (last.end_lineno or last.lineno)
 
 
-_WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
+_TEXT_ARGUMENTS: Mapping[str, tuple[tuple[int, str], ...]] = {
     **dict.fromkeys(("IfCondition", "UnlessCondition"), ((0, "predicate_expression"),)),
     **dict.fromkeys(("SetLaunchConfiguration", "SetEnvironmentVariable", "AppendEnvironmentVariable"), ((1, "value"),)),
     **dict.fromkeys(("Node", "LifecycleNode"), ((-1, "arguments"), (-1, "ros_arguments"), (-1, "remappings"))),
@@ -134,68 +134,80 @@ _WHERE: Mapping[str, tuple[tuple[int, str], ...]] = {
 """The arguments that must be texts or substitutions (``normalize_to_list_of_substitutions``)."""
 
 
-def not_text(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
+def not_text(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield numbers, booleans and actions given as a text, and launch_arguments given as a dictionary."""
-    found: list[tuple[str, ast.expr]] = []
-    for one in made:
-        for position, name in _WHERE.get(one.name, ()) if one.source is source and not are_unknown(one.conditions) else ():
-            value = one.get(position, name)
-            if name == "launch_arguments" and not one.seen:
+    errors: list[tuple[str, ast.expr]] = []
+    for launch_object in launch_objects:
+        for position, name in (
+            _TEXT_ARGUMENTS.get(launch_object.name, ())
+            if launch_object.source is source and not are_unknown(launch_object.conditions)
+            else ()
+        ):
+            value = launch_object.get(position, name)
+            if name == "launch_arguments" and not launch_object.seen:
                 continue  # the arguments are evaluated only if the include is launched
             if name == "launch_arguments" and isinstance(value, dict):
-                found.append(("launch_arguments must be pairs; write .items()", one.written(position, name)))
-            elif (odd := _odd_in(value)) is not None:
-                message = f"'{name}' of {one.name} must consist of strings and substitutions{_instead(odd, one)}"
-                found.append((message, one.written(position, name)))
-    spared = _spared(tree) if found else set()
-    for message, node in found:
-        if node not in spared:
+                errors.append(("'launch_arguments' must be pairs; write .items()", launch_object.written(position, name)))
+            elif (wrong_item := _first_wrong_item(value)) is not None:
+                hint = _replacement_hint(wrong_item, launch_object)
+                message = f"'{name}' of {launch_object.name} must consist of strings and substitutions{hint}"
+                errors.append((message, launch_object.written(position, name)))
+    ignored = _ignored_nodes(tree) if errors else set()
+    for message, node in errors:
+        if node not in ignored:
             yield Problem("no-text", message, span_of(node, source))
 
 
-def not_condition(tree: ast.Module, source: Source, made: Iterable[LaunchObject]) -> Iterator[Problem]:
+def not_condition(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield values given as a condition that have no evaluate(), which launch calls."""
-    found: list[tuple[str, ast.expr]] = []
-    for one in made:
-        if one.name not in ACTIONS or one.source is not source or not one.seen or are_unknown(one.conditions):
+    errors: list[tuple[str, ast.expr]] = []
+    for launch_object in launch_objects:
+        if (
+            launch_object.name not in ACTIONS
+            or launch_object.source is not source
+            or not launch_object.seen
+            or are_unknown(launch_object.conditions)
+        ):
             continue
-        given = one.get(-1, "condition")
-        if isinstance(given, Function):
-            found.append(("a function; use IfCondition(...) or Condition(predicate=...)", one.written(-1, "condition")))
-        elif isinstance(given, LaunchObject) and is_text(given):
-            found.append((f"a {given.name}; use IfCondition(...)", one.written(-1, "condition")))
-        elif isinstance(given, (bool, str)):
-            found.append((f"{given!r}; use IfCondition('{given}')", one.written(-1, "condition")))
-    spared = _spared(tree) if found else set()
-    for message, node in found:
-        if node not in spared:
+        condition = launch_object.get(-1, "condition")
+        if isinstance(condition, Function):
+            errors.append(
+                ("a function; use IfCondition(...) or Condition(predicate=...)", launch_object.written(-1, "condition"))
+            )
+        elif isinstance(condition, LaunchObject) and is_text(condition):
+            errors.append((f"a {condition.name}; use IfCondition(...)", launch_object.written(-1, "condition")))
+        elif isinstance(condition, (bool, str)):
+            errors.append((f"{condition!r}; use IfCondition('{condition}')", launch_object.written(-1, "condition")))
+    ignored = _ignored_nodes(tree) if errors else set()
+    for message, node in errors:
+        if node not in ignored:
             yield Problem("no-condition", f"'condition' cannot be {message}", span_of(node, source))
 
 
-def _odd_in(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return the first number or action that is the value or is in its lists."""
-    waiting = [value]
-    for _ in range(_MOST_ITEMS):
-        if not waiting:
+def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
+    """Return the first number or action in a value (the value itself, or in nested lists), else None."""
+    pending = [value]
+    for _ in range(_MAX_ITEMS):
+        if not pending:
             break
-        one = waiting.pop()
-        if isinstance(one, (bool, int, float)) or (isinstance(one, LaunchObject) and one.name in ACTIONS):
-            return one
-        if isinstance(one, (list, tuple)):
-            waiting += one
+        item = pending.pop()
+        if isinstance(item, (bool, int, float)) or (isinstance(item, LaunchObject) and item.name in ACTIONS):
+            return item
+        if isinstance(item, (list, tuple)):
+            pending += item
     return None
 
 
-def _instead(odd: bool | int | float | LaunchObject, taken: LaunchObject) -> str:
-    """Return the end of the message about a value that is not a text."""
-    if not isinstance(odd, LaunchObject):
-        return f"; write '{odd}' instead of {odd}"
-    name = odd.get(0, "name") if odd.name == "DeclareLaunchArgument" else None
+def _replacement_hint(wrong_item: bool | int | float | LaunchObject, receiver: LaunchObject) -> str:
+    """Return the end of the message about a value that is not a text: what to write instead."""
+    if not isinstance(wrong_item, LaunchObject):
+        return f"; write '{wrong_item}' instead of {wrong_item}"
+    name = wrong_item.get(0, "name") if wrong_item.name == "DeclareLaunchArgument" else None
     if not isinstance(name, str):
-        return f", not {odd.name}"
-    return f", not {odd.name}; write " + (
-        f"'{name}'" if taken.name == "LaunchConfiguration" else f"LaunchConfiguration('{name}')"
+        return f", not {wrong_item.name}"
+    return f", not {wrong_item.name}; write " + (
+        f"'{name}'" if receiver.name == "LaunchConfiguration" else f"LaunchConfiguration('{name}')"
     )
 
 
-_MOST_ITEMS = 200
+_MAX_ITEMS = 200

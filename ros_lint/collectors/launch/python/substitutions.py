@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ros_lint.collectors import symbolic_text as launch_text
+from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -24,56 +24,58 @@ from ros_lint.collectors.python.interpreter.values import (
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, distinct, joined, quoted
 from ros_lint.facts.launch import LaunchCondition
 
-_DEEPEST = 60
-_MOST_STEPS = 2_000
+_MAX_DEPTH = 60
+_MAX_STEPS = 2_000
 
 
-class Within:
-    """The state of one computation of texts.
+class TextEvaluation:
+    """The state of one evaluation of a value to its texts.
 
-    Its depth and steps are limited, because objects can contain each other or occur in one many times.
+    Depth and steps are limited, because objects can contain each other or occur many times.
     """
 
-    __slots__ = ("depth", "known", "left", "spend")
+    __slots__ = ("depth", "remaining", "results", "spend")
 
     def __init__(self, spend: Callable[[int], None] = lambda steps: None) -> None:
-        """Start a computation. ``spend`` is called with the number of steps, and may raise."""
+        """Start an evaluation. ``spend`` is called with numbers of steps, and may raise an exception."""
         self.depth = 0
-        self.left = _MOST_STEPS
-        self.known: dict[int, tuple[Value, tuple[str, ...]]] = {}
+        self.remaining = _MAX_STEPS
+        self.results: dict[int, tuple[Value, tuple[str, ...]]] = {}
         self.spend = spend
 
 
-def texts(value: Value, within: Within | None = None) -> tuple[str, ...]:
+def texts(value: Value, evaluation: TextEvaluation | None = None) -> tuple[str, ...]:
     """Return every text that a value can become when launch performs it; a list is concatenated."""
     if isinstance(value, str):
         return (str(value),)  # a plain str, so that facts contain no objects of the interpreter
-    if within is None:
-        within = Within()
-    known = within.known.get(id(value))
-    if known is not None:
-        return known[1]
-    if within.depth > _DEEPEST or within.left <= 0:
+    if evaluation is None:
+        evaluation = TextEvaluation()
+    cached = evaluation.results.get(id(value))
+    if cached is not None:
+        return cached[1]
+    if evaluation.depth > _MAX_DEPTH or evaluation.remaining <= 0:
         return (UNKNOWN,)
-    within.left -= 1
-    within.spend(3)
-    within.depth += 1
-    result = _found(value, within)
-    within.depth -= 1
-    within.known[id(value)] = (value, result)
+    evaluation.remaining -= 1
+    evaluation.spend(3)
+    evaluation.depth += 1
+    result = _evaluate(value, evaluation)
+    evaluation.depth -= 1
+    evaluation.results[id(value)] = (value, result)
     return result
 
 
-def _found(value: Value, within: Within) -> tuple[str, ...]:
+def _evaluate(value: Value, evaluation: TextEvaluation) -> tuple[str, ...]:
     if not isinstance(value, (Union, Guarded)):
-        only = _one(value, within)
-        if len(only) == 1:
-            return only
-    result = distinct(text for choice in alternatives(value) for text in under(_one(choice.value, within), choice.conditions))
-    return result if 0 < len(result) <= launch_text.MOST else (UNKNOWN,)
+        single = _evaluate_single(value, evaluation)
+        if len(single) == 1:
+            return single
+    result = distinct(
+        text for choice in alternatives(value) for text in under(_evaluate_single(choice.value, evaluation), choice.conditions)
+    )
+    return result if 0 < len(result) <= symbolic_text.MOST else (UNKNOWN,)
 
 
-def _one(value: Value, within: Within) -> tuple[str, ...]:
+def _evaluate_single(value: Value, evaluation: TextEvaluation) -> tuple[str, ...]:
     if isinstance(value, str):
         return (str(value),)
     if isinstance(value, FilePath):
@@ -81,96 +83,96 @@ def _one(value: Value, within: Within) -> tuple[str, ...]:
     if value is None or isinstance(value, (bool, int, float)):
         return (str(value),)
     if isinstance(value, (list, tuple)):
-        return joined([texts(part, within) for part in value], "".join)
+        return joined([texts(part, evaluation) for part in value], "".join)
     if isinstance(value, Instance):
         value = value.made
     if isinstance(value, LaunchObject):
-        rule = _RULES.get(value.name)
-        if rule is not None:
-            return rule(value, within)
+        reader = _READERS.get(value.name)
+        if reader is not None:
+            return reader(value, evaluation)
         if value.name.endswith("LaunchDescriptionSource"):
-            return texts(value.get(0, "launch_file_path", "location", "launch_description"), within)
+            return texts(value.get(0, "launch_file_path", "location", "launch_description"), evaluation)
     return (UNKNOWN,)
 
 
-def _configuration(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    names = texts(made.get(0, "variable_name"), within)
-    default = made.get(1, "default")
-    defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, within)
-    return tuple(launch_text.configuration(name, value) for name in names for value in defaults)
+def _configuration(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    names = texts(launch_object.get(0, "variable_name"), evaluation)
+    default = launch_object.get(1, "default")
+    defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, evaluation)
+    return tuple(symbolic_text.configuration(name, value) for name in names for value in defaults)
 
 
-def _environment(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    names = texts(made.get(0, "name"), within)
-    default = made.get(1, "default_value")
-    defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, within)
+def _environment(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    names = texts(launch_object.get(0, "name"), evaluation)
+    default = launch_object.get(1, "default_value")
+    defaults: tuple[str | None, ...] = (None,) if default is None else texts(default, evaluation)
     return tuple(environment(name, value) for name in names for value in defaults)
 
 
-def _path(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    parts = plain(made.get(0, "substitutions", "path"))
+def _path(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    parts = plain(launch_object.get(0, "substitutions", "path"))
     if not isinstance(parts, (list, tuple)):
-        return texts(parts, within)
-    return joined([texts(part, within) for part in parts], lambda row: posixpath.join("", *row))
+        return texts(parts, evaluation)
+    return joined([texts(part, evaluation) for part in parts], lambda row: posixpath.join("", *row))
 
 
-def _share(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    return joined([texts(made.get(0, "package"), within)], lambda row: launch_text.share(row[0]))
+def _share(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    return joined([texts(launch_object.get(0, "package"), evaluation)], lambda row: symbolic_text.share(row[0]))
 
 
-def _prefix(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    return joined([texts(made.get(0, "package"), within)], lambda row: launch_text.prefix(row[0]))
+def _prefix(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    return joined([texts(launch_object.get(0, "package"), evaluation)], lambda row: symbolic_text.prefix(row[0]))
 
 
-def _in_package(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    names = texts(made.get(0, "executable"), within)
-    packages = texts(made.get(1, "package"), within)
-    return joined([packages, names], lambda row: f"{launch_text.prefix(row[0])}/lib/{row[0]}/{row[1]}")
+def _in_package(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    names = texts(launch_object.get(0, "executable"), evaluation)
+    packages = texts(launch_object.get(1, "package"), evaluation)
+    return joined([packages, names], lambda row: f"{symbolic_text.prefix(row[0])}/lib/{row[0]}/{row[1]}")
 
 
-def _inner(*names: str) -> Callable[[LaunchObject, Within], tuple[str, ...]]:
-    return lambda made, within: texts(made.get(0, *names), within)
+def _inner(*names: str) -> Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]:
+    return lambda launch_object, evaluation: texts(launch_object.get(0, *names), evaluation)
 
 
-def _expression(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    return joined([texts(made.get(0, "expression"), within)], lambda row: launch_text.expression(row[0]))
+def _expression(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    return joined([texts(launch_object.get(0, "expression"), evaluation)], lambda row: symbolic_text.expression(row[0]))
 
 
-def _command(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    return joined([texts(made.get(0, "command"), within)], lambda row: launch_text.command(row[0]))
+def _command(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    return joined([texts(launch_object.get(0, "command"), evaluation)], lambda row: symbolic_text.command(row[0]))
 
 
-def _choice(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    parts = (made.get(0, "condition"), made.get(1, "if_value") or "", made.get(2, "else_value") or "")
+def _choice(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    parts = (launch_object.get(0, "condition"), launch_object.get(1, "if_value") or "", launch_object.get(2, "else_value") or "")
     return joined(
-        [texts(part, within) for part in parts],
-        lambda row: launch_text.expression(f"_if({', '.join(quoted(one) for one in row)})"),
+        [texts(part, evaluation) for part in parts],
+        lambda row: symbolic_text.expression(f"_if({', '.join(quoted(text) for text in row)})"),
     )
 
 
-def _join(made: LaunchObject, within: Within) -> tuple[str, ...]:
-    parts = plain(made.get(0, "substitutions"))
-    delimiter = made.get(1, "delimiter")
+def _join(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+    parts = plain(launch_object.get(0, "substitutions"))
+    delimiter = launch_object.get(1, "delimiter")
     if not isinstance(parts, (list, tuple)):
         return (UNKNOWN,)
-    rows = [texts(delimiter or "", within), *[texts(part, within) for part in parts]]
+    rows = [texts(delimiter or "", evaluation), *[texts(part, evaluation) for part in parts]]
     return joined(rows, lambda row: row[0].join(row[1:]))
 
 
-def _logic(name: str) -> Callable[[LaunchObject, Within], tuple[str, ...]]:
-    """Return the reader of a substitution that compares, as an expression for ``launch/expressions.py``."""
+def _logic(name: str) -> Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]:
+    """Return the reader of a logical substitution; its text is a call of a function in ``expressions.py``."""
 
-    def rule(made: LaunchObject, within: Within) -> tuple[str, ...]:
-        parts: list[Any] = [*made.arguments, *made.keywords.values()]
+    def read(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
+        parts: list[Any] = [*launch_object.arguments, *launch_object.keywords.values()]
         return joined(
-            [texts(part, within) for part in parts],
-            lambda row: launch_text.expression(f"{name}({', '.join(quoted(one) for one in row)})"),
+            [texts(part, evaluation) for part in parts],
+            lambda row: symbolic_text.expression(f"{name}({', '.join(quoted(text) for text in row)})"),
         )
 
-    return rule
+    return read
 
 
-_RULES: Mapping[str, Callable[[LaunchObject, Within], tuple[str, ...]]] = {
+_READERS: Mapping[str, Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]] = {
     "LaunchConfiguration": _configuration,
     "LaunchConfigAsBool": _configuration,
     "EnvironmentVariable": _environment,
@@ -180,8 +182,8 @@ _RULES: Mapping[str, Callable[[LaunchObject, Within], tuple[str, ...]]] = {
     "FindPackagePrefix": _prefix,
     "FindPackage": _prefix,
     "ExecutableInPackage": _in_package,
-    "ThisLaunchFileDir": lambda made, within: (OWN_FOLDER,),
-    "ThisLaunchFile": lambda made, within: (f"{OWN_FOLDER}/{UNKNOWN}",),
+    "ThisLaunchFileDir": lambda launch_object, evaluation: (OWN_FOLDER,),
+    "ThisLaunchFile": lambda launch_object, evaluation: (f"{OWN_FOLDER}/{UNKNOWN}",),
     "TextSubstitution": _inner("text"),
     "PythonExpression": _expression,
     "Command": _command,
@@ -201,40 +203,40 @@ _RULES: Mapping[str, Callable[[LaunchObject, Within], tuple[str, ...]]] = {
     "ReplaceString": _inner("source_file"),
 }
 
-SUBSTITUTIONS = frozenset(_RULES) | {"AnonName", "Parameter", "FileContent", "LocalSubstitution", "LaunchLogDir"}
+SUBSTITUTIONS = frozenset(_READERS) | {"AnonName", "Parameter", "FileContent", "LocalSubstitution", "LaunchLogDir"}
 """Classes whose objects represent a text."""
 
 
 def is_text(value: Value) -> bool:
     """Return whether a value is a substitution."""
-    made = plain(value)
-    return isinstance(made, LaunchObject) and made.name in SUBSTITUTIONS
+    launch_object = plain(value)
+    return isinstance(launch_object, LaunchObject) and launch_object.name in SUBSTITUTIONS
 
 
-_ASKING = frozenset({"IfCondition", "UnlessCondition"})
-_COMPARING = frozenset({"LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})
-CONDITIONS = _ASKING | _COMPARING
+_PREDICATE_CONDITIONS = frozenset({"IfCondition", "UnlessCondition"})
+_COMPARISON_CONDITIONS = frozenset({"LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})
+CONDITIONS = _PREDICATE_CONDITIONS | _COMPARISON_CONDITIONS
 """Classes whose objects are conditions."""
 
 
-def conditions_of(value: Value, within: Within | None = None) -> Conditions:
+def conditions_of(value: Value, evaluation: TextEvaluation | None = None) -> Conditions:
     """Return the conditions of an IfCondition, UnlessCondition or comparison of a configuration.
 
     Any other value gives an unknown condition.
     """
     conditions: list[LaunchCondition] = []
     for alternative in alternatives(value):
-        made = alternative.value
-        if isinstance(made, LaunchObject) and made.name in _ASKING:
-            predicates = tuple(map(str, texts(made.get(0, "predicate_expression"), within)))
-            conditions.append(LaunchCondition(predicates, None, made.name == "IfCondition"))
-        elif isinstance(made, LaunchObject) and made.name in _COMPARING:
-            names = texts(made.get(0, "launch_configuration_name"), within)
-            wanted = texts(made.get(1, "expected_value"), within)
-            if len(names) != 1 or len(wanted) != 1:
+        launch_object = alternative.value
+        if isinstance(launch_object, LaunchObject) and launch_object.name in _PREDICATE_CONDITIONS:
+            predicates = tuple(map(str, texts(launch_object.get(0, "predicate_expression"), evaluation)))
+            conditions.append(LaunchCondition(predicates, None, launch_object.name == "IfCondition"))
+        elif isinstance(launch_object, LaunchObject) and launch_object.name in _COMPARISON_CONDITIONS:
+            names = texts(launch_object.get(0, "launch_configuration_name"), evaluation)
+            values = texts(launch_object.get(1, "expected_value"), evaluation)
+            if len(names) != 1 or len(values) != 1:
                 return (PERHAPS,)
-            equal = made.name == "LaunchConfigurationEquals"
-            conditions.append(LaunchCondition((launch_text.configuration(names[0]),), str(wanted[0]), equal))
+            equal = launch_object.name == "LaunchConfigurationEquals"
+            conditions.append(LaunchCondition((symbolic_text.configuration(names[0]),), str(values[0]), equal))
         else:
             return (PERHAPS,)
     return tuple(conditions) if len(conditions) == 1 else (PERHAPS,)

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ros_lint.base.text import Span, file_start
-from ros_lint.collectors import symbolic_text as launch_text
-from ros_lint.collectors.launch.python.substitutions import Within, conditions_of, texts
+from ros_lint.collectors import symbolic_text
+from ros_lint.collectors.launch.python.substitutions import TextEvaluation, conditions_of, texts
 from ros_lint.collectors.python import syntax as python_syntax
 from ros_lint.collectors.python.interpreter.values import (
     Conditions,
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Source
 
-_DEEPEST = 60
-_MOST = 5_000
+_MAX_DEPTH = 60
+_MAX_ACTIONS = 5_000
 
 
 def span_of(node: python_syntax.Node, source: Source) -> Span:
@@ -47,76 +47,78 @@ def span_of(node: python_syntax.Node, source: Source) -> Span:
     return Span(source.text.path, node.lineno, node.col_offset + 1, *end)
 
 
-def place_of(made: LaunchObject) -> Span:
+def place_of(launch_object: LaunchObject) -> Span:
     """Return the place where an object is created."""
-    return span_of(made.node, made.source)
+    return span_of(launch_object.node, launch_object.source)
 
 
 class Walker:
-    """Turns values into actions."""
+    """Converts the values that a launch file launches to actions."""
 
-    def __init__(self, machine: Interpreter, source: Source, rules: Mapping[str, Rule], otherwise: Rule) -> None:
-        """Create a walker. ``rules`` convert objects by the name of their class, ``otherwise`` all others."""
+    def __init__(
+        self, machine: Interpreter, source: Source, builders: Mapping[str, ActionBuilder], otherwise: ActionBuilder
+    ) -> None:
+        """Create a walker. ``builders`` convert objects by the name of their class, ``otherwise`` all others."""
         self.machine = machine
-        self._rules = rules
+        self._builders = builders
         self._otherwise = otherwise
         self._source = source
         self.problems: list[Problem] = []
-        self.blind: list[tuple[str, Span]] = []
+        self.unknown_launches: list[tuple[str, Span]] = []
         """Places where something unknown is launched, with the reasons."""
         self._depth = 0
-        self._open: set[int] = set()
-        self._left = _MOST
+        self._active: set[int] = set()
+        self._remaining = _MAX_ACTIONS
         self._stopped = False
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
         """Return the actions of a value when it is launched."""
         actions: list[LaunchAction] = []
-        if self._depth > _DEEPEST or self._left <= 0:
-            self._stop("there is too much of it" if self._left <= 0 else "it is nested too deeply", at)
+        if self._depth > _MAX_DEPTH or self._remaining <= 0:
+            self._stop("there are too many actions" if self._remaining <= 0 else "the actions are nested too deeply", at)
             return actions
-        self._left -= 1
+        self._remaining -= 1
         self._depth += 1
         try:
             if not isinstance(value, (Union, Guarded)):
-                return self._one(value, conditions, at)
+                return self._convert(value, conditions, at)
             for alternative in alternatives(value, conditions):
-                actions += self._one(alternative.value, alternative.conditions, at)
+                actions += self._convert(alternative.value, alternative.conditions, at)
         finally:
             self._depth -= 1
         return actions
 
-    def _one(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
+    def _convert(self, value: Value, conditions: Conditions, at: Span | None) -> list[LaunchAction]:
         if isinstance(value, Instance) and value.made is not None:
             value = value.made
         if isinstance(value, LaunchObject):
-            if id(value) in self._open:
+            if id(value) in self._active:
                 return []
             value.seen = True
-            self._open.add(id(value))
+            self._active.add(id(value))
             try:
-                return self._made(value, conditions)
+                return self._build(value, conditions)
             finally:
-                self._open.discard(id(value))
+                self._active.discard(id(value))
         if isinstance(value, (list, tuple)):
             return [action for item in value for action in self.actions(item, conditions, at)]
         if isinstance(value, Unknown) and value.reason:
-            self.blind.append((value.reason, at or file_start(self._source.text.path)))
+            self.unknown_launches.append((value.reason, at or file_start(self._source.text.path)))
         return []
 
-    def _made(self, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-        conditions = _merged(conditions, made.conditions)
-        condition = made.get(-1, "condition")
+    def _build(self, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        conditions = _merged(conditions, launch_object.conditions)
+        condition = launch_object.get(-1, "condition")
         if condition is not None:
-            conditions = (*conditions, *conditions_of(condition, Within(self.machine.spend)))
+            conditions = (*conditions, *conditions_of(condition, TextEvaluation(self.machine.spend)))
         if isinstance(condition, Function):  # launch rejects a function as condition, but the package look-ups in it count
-            self.run(condition, [Context()], {}, made)
-        if made.name == "LaunchDescription":
-            return self._description(made, conditions)
-        return self._rules.get(made.name, self._otherwise)(self, made, conditions)
+            self.run(condition, [Context()], {}, launch_object)
+        if launch_object.name == "LaunchDescription":
+            return self._description(launch_object, conditions)
+        return self._builders.get(launch_object.name, self._otherwise)(self, launch_object, conditions)
 
-    def apart(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
-        """Return one action for each target if the conditions of all targets are known, else the action itself."""
+    def split_by_conditions(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
+        """Return one action for each alternative target if all their conditions are known, else the action itself."""
         if action.target is None or len(action.target.texts) == 1:
             return [action]
         targets = self._alternatives(target)
@@ -125,9 +127,9 @@ class Walker:
         packages = self._alternatives(package)
         actions: list[LaunchAction] = []
         for text in targets:
-            conditions = launch_text.conditions_of(text)
+            conditions = symbolic_text.conditions_of(text)
             together = tuple(
-                str(name) for name in packages if launch_text.are_consistent((*conditions, *launch_text.conditions_of(name)))
+                str(name) for name in packages if symbolic_text.are_consistent((*conditions, *symbolic_text.conditions_of(name)))
             )
             actions.append(
                 action._replace(
@@ -139,35 +141,35 @@ class Walker:
         return actions
 
     def _alternatives(self, value: Value) -> tuple[str, ...]:
-        return texts(value, Within(self.machine.spend)) if value is not None else ()
+        return texts(value, TextEvaluation(self.machine.spend)) if value is not None else ()
 
-    def _description(self, made: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    def _description(self, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         actions: list[LaunchAction] = []
         index = 0
         # Functions that are called in the meantime may add entities.
-        at = span_of(made.node, made.source)
-        while index < len(made.entities) and self._left > 0:
-            actions += self.actions(made.entities[index], conditions, at)
+        at = span_of(launch_object.node, launch_object.source)
+        while index < len(launch_object.entities) and self._remaining > 0:
+            actions += self.actions(launch_object.entities[index], conditions, at)
             index += 1
-        if index < len(made.entities):
-            self._stop("there is too much of it", at)
+        if index < len(launch_object.entities):
+            self._stop("there are too many actions", at)
         return actions
 
     def _stop(self, reason: str, at: Span | None) -> None:
         """Note once that the conversion is incomplete."""
         if not self._stopped:
             self._stopped = True
-            self.blind.append((reason, at or file_start(self._source.text.path)))
+            self.unknown_launches.append((reason, at or file_start(self._source.text.path)))
 
-    def value(self, made: LaunchObject, position: int, *names: str) -> LaunchValue | None:
+    def value(self, launch_object: LaunchObject, position: int, *names: str) -> LaunchValue | None:
         """Return an argument as a text, None if it is missing."""
-        argument = made.get(position, *names)
-        return None if argument is None else self.text(argument, made.written(position, *names), made.source)
+        argument = launch_object.get(position, *names)
+        return None if argument is None else self.text(argument, launch_object.written(position, *names), launch_object.source)
 
-    def text(self, given: Value, node: ast.expr, source: Source) -> LaunchValue:
-        """Return a value as a text with the place of its literal."""
-        choices = (str(given),) if isinstance(given, str) else _plain(texts(given, Within(self.machine.spend)))
-        origin = plain(given)
+    def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
+        """Return the texts of a value, with the place of the literal that it comes from."""
+        choices = (str(value),) if isinstance(value, str) else _plain(texts(value, TextEvaluation(self.machine.spend)))
+        origin = plain(value)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
         if isinstance(origin, (list, tuple)) and len(origin) == 1:
@@ -185,15 +187,18 @@ class Walker:
             return LaunchValue(choices, span)
         return LaunchValue(choices, source.text.span(at, at + len(choices[0])), exact=True)
 
-    def each_text(self, given: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
-        """Return the alternatives of a value with their conditions, one value for all if any has no condition."""
-        value = self.text(given, node, source)
-        if len(value.texts) == 1:
-            return [value]
-        pairs = [(text, launch_text.conditions_of(text)) for text in self._alternatives(given)]
+    def each_text(self, value: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
+        """Return the alternatives of a value, each with its conditions.
+
+        A single value with all alternatives is returned if one of them has no conditions.
+        """
+        combined = self.text(value, node, source)
+        if len(combined.texts) == 1:
+            return [combined]
+        pairs = [(text, symbolic_text.conditions_of(text)) for text in self._alternatives(value)]
         if not all(conditions for _, conditions in pairs):
-            return [value]
-        return [value._replace(texts=(str(text),), conditions=conditions) for text, conditions in pairs]
+            return [combined]
+        return [combined._replace(texts=(str(text),), conditions=conditions) for text, conditions in pairs]
 
     def package_span(self, value: LaunchValue | None) -> Span | None:
         """Return the place of the package name of the first install path in a value."""
@@ -210,13 +215,15 @@ class Walker:
         node, source = self.machine.named[package]
         return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
 
-    def run(self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], made: LaunchObject) -> Value:
+    def run(
+        self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], launch_object: LaunchObject
+    ) -> Value:
         """Return the result of a function that launch calls."""
-        frame = Frame(made.source, None, {})
+        frame = Frame(launch_object.source, None, {})
         try:
-            return self.machine.call(plain(function), list(arguments), dict(keywords), made.node, frame)
+            return self.machine.call(plain(function), list(arguments), dict(keywords), launch_object.node, frame)
         except ProgramRaised:
-            return Unknown("a function that raises")
+            return Unknown("the result of a function that raises an exception")
 
 
 def _plain(texts: Iterable[str]) -> tuple[str, ...]:
@@ -228,9 +235,9 @@ def _merged(left: Conditions, right: Conditions) -> Conditions:
 
 
 def _depends(text: str) -> bool:
-    """Return whether a text has conditions, and all of them can be evaluated once arguments have values."""
-    conditions = launch_text.conditions_of(text)
+    """Return whether a text has conditions, all of which can be evaluated once the arguments have values."""
+    conditions = symbolic_text.conditions_of(text)
     return bool(conditions) and not any(UNKNOWN in part for condition in conditions for part in condition.texts)
 
 
-Rule = Callable[[Walker, LaunchObject, Conditions], list[LaunchAction]]
+ActionBuilder = Callable[[Walker, LaunchObject, Conditions], list[LaunchAction]]

@@ -28,7 +28,7 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
 )
 from ros_lint.collectors.python.string_values import callee
-from ros_lint.collectors.symbolic_text import UNKNOWN, asked_for, expression, quoted
+from ros_lint.collectors.symbolic_text import UNKNOWN, expression, package_of_presence, quoted
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition
 def _negated(condition: LaunchCondition) -> str | None:
     """Return a Python expression for the opposite of a condition, None if the condition is unknown."""
     text = condition.texts[0]
-    if len(condition.texts) > 1 or UNKNOWN in text or asked_for(text):
+    if len(condition.texts) > 1 or UNKNOWN in text or package_of_presence(text):
         return None
     if condition.equals is not None:
         return f"{quoted(text)} {'!=' if condition.wanted else '=='} {quoted(condition.equals)}"

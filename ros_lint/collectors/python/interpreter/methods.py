@@ -47,7 +47,7 @@ from ros_lint.collectors.symbolic_text import (
     is_plain,
     is_settled,
     joined,
-    names_places,
+    may_contain_place,
     quoted,
 )
 from ros_lint.facts.launch import LaunchCondition
@@ -184,7 +184,7 @@ def _of_text(
         except (OverflowError, TypeError, ValueError):
             raise ProgramRaised from None
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
-    if known and name in LENGTH_PRESERVING and len(owner) <= LONGEST and waits(owner) and not names_places(owner):
+    if known and name in LENGTH_PRESERVING and len(owner) <= LONGEST and waits(owner) and not may_contain_place(owner):
         later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
         return Unknown("a truth", LaunchCondition((later,), None)) if name in TRUTHS else written(later, node, frame.source)
     if name in TRUTHS or name in NUMBERS:

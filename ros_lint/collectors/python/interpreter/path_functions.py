@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.interpreter.operations import waits
 from ros_lint.collectors.python.interpreter.values import FilePath, Method, Unknown, Value, plain, written
-from ros_lint.collectors.symbolic_text import BRACKETS, UNKNOWN, expression, is_plain, names_places, quoted
+from ros_lint.collectors.symbolic_text import BRACKETS, UNKNOWN, expression, is_plain, may_contain_place, quoted
 
 if TYPE_CHECKING:
     import ast
@@ -33,7 +33,7 @@ def split(path: str) -> tuple[str, str]:
         return posixpath.split(path[: slash + 1])[0], name
     if not waits(name):
         return UNKNOWN, UNKNOWN if "/" in name else name
-    return UNKNOWN, UNKNOWN if names_places(name) else expression(f"{quoted(name)}.split('/')[-1]")
+    return UNKNOWN, UNKNOWN if may_contain_place(name) else expression(f"{quoted(name)}.split('/')[-1]")
 
 
 def split_suffix(path: str) -> tuple[str, str]:

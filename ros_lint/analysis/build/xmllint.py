@@ -1,0 +1,57 @@
+"""Whether the tests of a package run ament_xmllint, which validates its manifest."""
+
+from __future__ import annotations
+
+from ros_lint.analysis.build.commands import FINDS_TESTS
+from ros_lint.facts.cmake import Call
+from ros_lint.workspace.model import Package, Workspace
+
+_LINTER = "ament_cmake_xmllint"
+_EXCLUDED = "AMENT_LINT_AUTO_EXCLUDE"
+
+
+def runs_xmllint(package: Package, workspace: Workspace) -> bool:
+    """Return whether a test of every build certainly runs ament_xmllint on the manifest.
+
+    CMake calls ``ament_xmllint()``, or finds the test dependencies, one of which brings the linter. In a package of
+    type ament_python, a test imports ``ament_xmllint``.
+    """
+    if package.builds_with == "ament_python":
+        return any(use.name.partition(".")[0] == "ament_xmllint" and _is_test(use.span.path) for use in package.uses)
+    if package.builds_with != "ament_cmake":
+        return False
+    if any(_takes_no_paths(call) and _in_every_test_build(call) for call in package.calls("ament_xmllint")):
+        return True
+    if any(_may_exclude(call) for call in package.calls("set", "list", anywhere=True)):
+        return False
+    tests = [declared.name for declared in package.declared if declared.depend.tag == "test_depend" and declared.certain]
+    return any(map(_in_every_test_build, package.calls(*FINDS_TESTS))) and any(_brings_linter(workspace, name) for name in tests)
+
+
+def _is_test(path: str) -> bool:
+    """Return whether pytest collects a file."""
+    return path.rpartition("/")[2].startswith("test_") and path.endswith(".py")
+
+
+def _takes_no_paths(call: Call) -> bool:
+    """Return whether a call of ``ament_xmllint()`` checks the whole package."""
+    return call.texts in ((), ("TESTNAME", *call.texts[1:2]))
+
+
+def _in_every_test_build(call: Call) -> bool:
+    """Return whether a command runs whenever tests are built."""
+    return call.blocks in ((), ("if",) if call.test else ())
+
+
+def _may_exclude(call: Call) -> bool:
+    """Return whether a command may exclude the linter, or mark its package as found already."""
+    named = any(_LINTER in text for text in call.texts)
+    return named or (_EXCLUDED in call.texts and any("$" in text for text in call.texts))
+
+
+def _brings_linter(workspace: Workspace, name: str) -> bool:
+    """Return whether a package is the linter, or a collection of linters such as ament_lint_common.
+
+    Some other packages depend on the linter at run time too, but do not find it for the packages that find them.
+    """
+    return name == _LINTER or (name.endswith("_lint_common") and _LINTER in (workspace.world.depends(name, "x") or ()))

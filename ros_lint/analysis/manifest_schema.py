@@ -1,0 +1,21 @@
+"""The validation of a manifest by the XML schema of its format."""
+
+from __future__ import annotations
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.manifest.schema import named, validate
+from ros_lint.facts.manifest import Manifest
+
+
+def violations(manifest: Manifest) -> tuple[validate.Violation, ...]:
+    """Return what the schema of its format does not allow in a manifest that catkin_pkg accepts."""
+    return validate.violations(_source(manifest), manifest.format) or ()
+
+
+def named_schema(manifest: Manifest) -> named.NamedSchema | None:
+    """Return the schema that a manifest names for ament_xmllint, None if it names none or another address."""
+    return named.named_schema(_source(manifest))
+
+
+def _source(manifest: Manifest) -> Text:
+    return Text(manifest.path, manifest.text, manifest.codec)

@@ -1,0 +1,32 @@
+"""Groups of launch files, as ``GroupAction.get_sub_entities()`` of launch makes them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchCondition, LaunchValue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ros_lint.base.text import Span
+
+
+def group(
+    span: Span,
+    children: Iterable[LaunchAction],
+    configurations: tuple[tuple[str, LaunchValue], ...],
+    conditions: tuple[LaunchCondition, ...],
+    *,
+    scoped: bool,
+    forwarding: bool,
+) -> LaunchAction:
+    """Return a group of actions with its own launch configurations.
+
+    A scoped group that does not forward starts with nothing but these.
+    """
+    if scoped and not forwarding:
+        resets = (LaunchAction("reset_environment", span), LaunchAction("reset", span, arguments=configurations))
+        return LaunchAction("group", span, conditions=conditions, children=(*resets, *children))
+    name = None if scoped else LaunchValue((UNSCOPED,), span)
+    return LaunchAction("group", span, name=name, arguments=configurations, conditions=conditions, children=tuple(children))
