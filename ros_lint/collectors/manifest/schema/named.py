@@ -14,6 +14,7 @@ class NamedSchema(NamedTuple):
     """The published schema of a format of package.xml, named in a manifest."""
 
     format: int
+    """Format of package.xml that the schema describes: 1, 2 or 3."""
     span: Span
     """Span of the number of the format in the address of the schema."""
 
