@@ -31,6 +31,7 @@ class Misplaced(NamedTuple):
     """A need that only dependencies with the wrong tag provide."""
 
     need: Need
+    """The need with all of its uses."""
     uses: tuple[Use, ...]
     """The uses for which nothing provides it, best evidence first; never empty."""
     depend: Depend
