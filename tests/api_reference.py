@@ -181,7 +181,7 @@ def signature(function: Function, name: str) -> str:
     line = f"{name}({', '.join(parameters)}){returns}"
     if len(line) > 110:
         line = f"{name}(\n    " + ",\n    ".join(parameters) + f",\n){returns}"
-    return quotes(line)
+    return short(line)
 
 
 def parameters_of(arguments: ast.arguments) -> Iterator[str]:
@@ -199,9 +199,9 @@ def parameter(argument: ast.arg, default: ast.expr | None) -> str:
     return ast.unparse(argument) + (f" = {ast.unparse(default)}" if default else "")
 
 
-def quotes(code: str) -> str:
-    """Return code with double quotes, as in the sources; `ast.unparse` writes single quotes."""
-    return code.replace("'", '"')
+def short(code: str) -> str:
+    """Return code with double quotes, as in the sources, and without the modules of types."""
+    return re.sub(r"""'([^'"]*)'""", r'"\1"', re.sub(r"\b[a-z_]+\.(?=[A-Z])", "", code))
 
 
 # Which types the page shows.
@@ -353,13 +353,13 @@ def constant_text(node: Assignment) -> str:
     computed = (ast.comprehension, ast.Starred)
     if node.value is None or any(isinstance(inner, computed) for inner in ast.walk(node.value)):
         return ""
-    return f"`{quotes(ast.unparse(node.value))}`"
+    return f"`{short(ast.unparse(node.value))}`"
 
 
 def attribute_text(attribute: Attribute, links: dict[str, str]) -> str:
     if not attribute.type:
         return bullet(f"`{attribute.name}`", attribute.doc)
-    code = f"`{quotes(attribute.type + attribute.default)}`"
+    code = f"`{short(attribute.type + attribute.default)}`"
     targets = [links[name] for name in re.findall(r"\w+", attribute.type) if name in links]
     return bullet(f"`{attribute.name}`: " + (f"[{code}](#{targets[0]})" if targets else code), attribute.doc)
 
@@ -381,6 +381,6 @@ def indented(text: str) -> str:
 
 def markdown(doc: str) -> str:
     """Return a docstring as Markdown: roles and double backquotes become code, other angle brackets are escaped."""
-    text = re.sub(r":\w+:`~?(?:[\w.]*\.)?(\w+)`", r"`\1`", doc)
+    text = re.sub(r":\w+:`(?:~?ros_lint\.(?:\w+\.)*)?([\w.]+)`", r"`\1`", doc)
     text = re.sub(r"``(.+?)``", r"`\1`", text, flags=re.DOTALL)
     return "".join(part if part.startswith("`") else part.replace("<", "\\<") for part in re.split(r"(`[^`]*`)", text))

@@ -1,4 +1,4 @@
-"""A package's CMakeLists.txt evaluated, and what comes of it."""
+"""Helpers for tests of the evaluation of CMakeLists.txt."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from ros_lint.facts.visibility import Facet
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(pkg)\n"
 
 
-def sources(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: object) -> Sources:
+def sources(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **fields: object) -> Sources:
     texts = {"CMakeLists.txt": script, "package.xml": "", **(dict.fromkeys(files, "") if isinstance(files, tuple) else files)}
     parsed = {
         path: parse(Text(f"src/pkg/{path}", text))
         for path, text in texts.items()
         if path.endswith(("CMakeLists.txt", ".cmake", ".cmake.in"))
     }
-    return Sources("pkg", "src/pkg", sorted(texts), parsed, **more)  # type: ignore[arg-type]
+    return Sources("pkg", "src/pkg", sorted(texts), parsed, **fields)  # type: ignore[arg-type]
 
 
-def run(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **more: object) -> BuildScript:
-    return evaluate(sources(HEAD + script, files, **more), "jazzy")
+def run(script: str, files: Mapping[str, str] | tuple[str, ...] = (), **fields: object) -> BuildScript:
+    return evaluate(sources(HEAD + script, files, **fields), "jazzy")
 
 
 def paths(script: BuildScript) -> dict[str, bool]:
-    """Installed paths, and whether they are conditional."""
+    """Return the installed paths, each with whether it is conditional."""
     return {provided.path: provided.conditional for provided in script.products.installs}
 
 

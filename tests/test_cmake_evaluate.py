@@ -1,4 +1,4 @@
-"""What an evaluated CMakeLists.txt says of a package."""
+"""Evaluation of CMakeLists.txt: installed files, problems and what is hidden."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from ros_lint.facts.visibility import ALL_FACETS, Facet
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 
-def test_project() -> None:
+def test_project_sets_name_and_version() -> None:
     script = evaluate(sources('set(name pkg)\nproject("${name}" VERSION 1.2.3 LANGUAGES CXX)\n'))
     assert (script.project.name, script.project.version) == ("pkg", "1.2.3")
     assert script.project.name_span is not None
     assert str(script.project.name_span) == "src/pkg/CMakeLists.txt:1:10"
 
 
-def test_an_unknown_name_is_none() -> None:
+def test_an_unknown_project_name_is_empty() -> None:
     assert run("").project.name == "pkg"
     assert evaluate(sources("find_package(x)\nproject(${x_NAME})\n")).project.name == ""
 
@@ -66,7 +66,7 @@ def test_an_unknown_name_is_none() -> None:
         ("list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake)\ninclude(more)", {"share/pkg/a.launch.py": False}),
     ],
 )  # fmt: skip
-def test_installed_paths(text: str, expected: dict[str, bool]) -> None:
+def test_install_commands_give_the_installed_paths(text: str, expected: dict[str, bool]) -> None:
     files = {
         "launch/a.launch.py": "",
         "scripts/a.py": "",
@@ -77,19 +77,19 @@ def test_installed_paths(text: str, expected: dict[str, bool]) -> None:
     if "scripts" in expected or "install(DIRECTORY" in text:
         files["scripts/CMakeLists.txt"] = ""
     script = run(f"add_executable(node n.cpp)\nadd_library(core SHARED n.cpp)\n{text}\n", files)
-    found = {path: conditional for path, conditional in paths(script).items() if not path.endswith("CMakeLists.txt")}
-    assert found == expected
+    installed = {path: conditional for path, conditional in paths(script).items() if not path.endswith("CMakeLists.txt")}
+    assert installed == expected
     assert not script.opaque
     assert not script.problems
 
 
-def test_programs() -> None:
+def test_directories_keep_the_executable_bit_only_with_use_source_permissions() -> None:
     files = ("scripts/a.py", "scripts/b.py")
     text = "install(DIRECTORY scripts/ DESTINATION lib/pkg {})\n"
-    plain = run(text.format(""), files, executables=frozenset({"scripts/a.py"}))
-    assert [provided.program for provided in plain.products.installs] == [False, False]
-    kept = run(text.format("USE_SOURCE_PERMISSIONS"), files, executables=frozenset({"scripts/a.py"}))
-    assert [provided.program for provided in kept.products.installs] == [True, False]
+    without_permissions = run(text.format(""), files, executables=frozenset({"scripts/a.py"}))
+    assert [provided.program for provided in without_permissions.products.installs] == [False, False]
+    with_permissions = run(text.format("USE_SOURCE_PERMISSIONS"), files, executables=frozenset({"scripts/a.py"}))
+    assert [provided.program for provided in with_permissions.products.installs] == [True, False]
 
 
 @pytest.mark.parametrize(
@@ -108,15 +108,15 @@ def test_programs() -> None:
         ("add_subdirectory(gone)", ["missing-folder"]),
         ("include(gone.cmake)", ["missing-script"]),
         ("include(gone.cmake OPTIONAL)", []),
-        ("install(TARGETS nobody DESTINATION lib)", ["undefined-target"]),
+        ("install(TARGETS unknown DESTINATION lib)", ["undefined-target"]),
         ("rosidl_generate_interfaces(pkg msg/Gone.msg)", ["missing-file"]),
         ("if(TRUE)\n", ["cmake-syntax"]),
         ("endif()\n", ["cmake-syntax"]),
         ("set(a", ["cmake-syntax"]),
     ],
 )
-def test_problems(text: str, kinds: list[str]) -> None:
-    assert [problem.kind for problem in run(text, ("src/a.cpp",), unseen=("out",)).problems] == kinds
+def test_errors_of_commands_are_reported_by_kind(text: str, kinds: list[str]) -> None:
+    assert [problem.kind for problem in run(text, ("src/a.cpp",), unlisted_folders=("out",)).problems] == kinds
 
 
 @pytest.mark.parametrize(
@@ -138,19 +138,19 @@ def test_problems(text: str, kinds: list[str]) -> None:
         ("find_package(b)\nwhile(b_A)\nset(x ${x}y)\nendwhile()", Facet(0)),
     ],
 )
-def test_what_cannot_be_seen(text: str, facets: Facet) -> None:
+def test_unknown_values_hide_the_facet_that_they_may_change(text: str, facets: Facet) -> None:
     assert hidden(run(text)) == facets
 
 
 @pytest.mark.parametrize("text", ["while(TRUE)\nendwhile()", "macro(m)\nm()\nendmacro()\nm()", "include(CMakeLists.txt)"])
-def test_endless_scripts_end(text: str) -> None:
+def test_an_endless_script_stops_at_the_limit(text: str) -> None:
     assert hidden(run(text)) & Facet.EXECUTABLES
 
 
 @pytest.mark.parametrize(
     "loop", ["foreach(i RANGE 900)\n{}endforeach()", "while(n LESS 900)\nmath(EXPR n ${{n}}+1)\n{}endwhile()"]
 )
-def test_loops_each_of_whose_rounds_may_be_the_last(loop: str) -> None:
+def test_a_loop_with_a_possible_break_in_each_round_stops_at_the_limit(loop: str) -> None:
     script = "find_package(b)\nset(n 0)\n" + loop.format("if(b_A${i}${n})\nbreak()\nendif()\n")
     assert hidden(run(script)) & Facet.EXECUTABLES
 
@@ -160,12 +160,12 @@ def test_loops_each_of_whose_rounds_may_be_the_last(loop: str) -> None:
     ["if(b_A{})\nreturn()\nendif()\n", "if(b_A{})\nset(x{} y)\n", "if(TRUE)\nset(x{} y)\n"],
     ids=["leave", "nest", "deep"],
 )
-def test_conditions_upon_conditions(piece: str) -> None:
+def test_many_unknown_conditions_stop_at_the_limit(piece: str) -> None:
     script = "find_package(b)\n" + "".join(piece.format(number, number) for number in range(900))
     assert hidden(run(script + "endif()\n" * (script.count("if(") - script.count("endif()")))) & Facet.EXECUTABLES
 
 
-def test_values_do_not_grow_without_end() -> None:
+def test_a_value_that_doubles_in_each_round_hides_nothing() -> None:
     script = run("set(x aaaaaaaaaa)\nforeach(i RANGE 60)\nset(x ${x}${x})\nendforeach()\n")
     assert not script.opaque
 
@@ -186,17 +186,17 @@ _HUGE = "9" * 5000
         "set(CMAKE_MATCH_COUNT x)\nstring(REGEX MATCH a x a)\nset(CMAKE_MATCH_COUNT 999999999)\nstring(REGEX MATCH a x a)",
     ],
 )
-def test_odd_numbers_and_patterns_do_not_stop_a_script(line: str) -> None:
+def test_invalid_numbers_and_patterns_do_not_stop_a_script(line: str) -> None:
     assert paths(run(f"{line}\ninstall(FILES package.xml DESTINATION share/pkg)")) == {"share/pkg/package.xml": False}
 
 
-def test_no_script() -> None:
+def test_a_package_without_a_script_hides_its_uses() -> None:
     script = evaluate(Sources("pkg", "", (), {}))
     assert hidden(script) & Facet.USES
     assert str(script.opaque[0].span) == "CMakeLists.txt:1:1"
 
 
-def test_what_another_system_has() -> None:
+def test_branches_for_other_systems_are_optional() -> None:
     text = "if(WIN32)\nfind_package(xa REQUIRED)\nelse()\nfind_package(xb REQUIRED)\nendif()\n"
     script = run(f"{text}if(MSVC OR APPLE)\nx_install()\nendif()\n")
     assert mentioned(script)["cmake", "xa"].optional
@@ -204,7 +204,7 @@ def test_what_another_system_has() -> None:
     assert hidden(script) == Facet.USES
 
 
-def test_what_a_download_says_of_itself_is_not_known() -> None:
+def test_the_status_of_a_download_is_unknown() -> None:
     script = run(
         "file(DOWNLOAD https://a.b/c data/c STATUS state LOG said)\nlist(GET state 0 code)\n"
         "if(NOT ${code} EQUAL 0)\nmessage(FATAL_ERROR ${said})\nendif()\n"
@@ -215,12 +215,12 @@ def test_what_a_download_says_of_itself_is_not_known() -> None:
     assert not hidden(script)
 
 
-def test_where_all_that_goes_on_ends_in_an_error_all_is_hidden() -> None:
+def test_an_error_on_each_remaining_path_hides_everything() -> None:
     stopped = run("find_package(x)\nif(NOT x_FOUND)\nreturn()\nendif()\nmessage(FATAL_ERROR no)\nadd_executable(a a.cpp)\n")
     assert hidden(stopped) & Facet.EXECUTABLES
 
 
-def test_a_target_that_nobody_defines_hides_nothing_else() -> None:
+def test_an_undefined_target_hides_nothing_else() -> None:
     script = run("add_executable(a a.cpp)\ninstall(TARGETS a b DESTINATION lib/pkg)\n", ("a.cpp",))
     assert paths(script)["lib/pkg/a"] is False
     assert paths(script)["lib/pkg/b"] is True
@@ -230,21 +230,21 @@ def test_a_target_that_nobody_defines_hides_nothing_else() -> None:
     assert hidden(script) & Facet.EXECUTABLES
 
 
-def test_lists_that_are_empty_install_nothing() -> None:
+def test_empty_lists_install_nothing() -> None:
     script = run("install(TARGETS ${none} DESTINATION lib)\ninstall(DIRECTORY ${none} DESTINATION share/pkg)\n")
     assert paths(script).keys() <= {"share/pkg/package.xml"}
     assert not hidden(script)
     assert not script.problems
 
 
-def test_properties_of_a_target_from_a_branch() -> None:
+def test_properties_set_in_a_branch_apply_to_the_target_of_that_branch() -> None:
     branch = "add_library(a SHARED a.cpp)\nset_target_properties(a PROPERTIES VERSION 1.2)\ninstall(TARGETS a DESTINATION lib)\n"
     script = run(f"find_package(x)\nif(x_FOUND)\n{branch}endif()\n", ("a.cpp",))
     assert paths(script) == {"lib/liba.so": True, "lib/liba.so.1.2": True}
 
 
 @pytest.mark.parametrize("place", ["${WHERE}", '"${WHERE}"', "share/${WHERE}"])
-def test_a_place_that_is_one_of_two_is_not_known(place: str) -> None:
+def test_a_destination_that_differs_between_branches_is_unknown(place: str) -> None:
     either = "set(WHERE a)\nif($ENV{OTHER})\nset(WHERE b)\nendif()\n"
     script = run(f"{either}install(FILES a.h DESTINATION {place})\n", ("a.h",))
     assert not paths(script)
@@ -258,25 +258,25 @@ def test_a_place_that_is_one_of_two_is_not_known(place: str) -> None:
         ('option(SCOPED "" ON)\nif(SCOPED)\n{}endif()\n', {"include/pkg/a.h": False}),
     ],
 )
-def test_what_cmake_sets_is_there_where_a_branch_is_not_taken(branch: str, headers: dict[str, bool]) -> None:
+def test_variables_of_cmake_keep_their_value_if_a_branch_does_not_run(branch: str, headers: dict[str, bool]) -> None:
     scoped = 'set(CMAKE_INSTALL_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}/pkg")\n'
     script = run(branch.format(scoped) + "install(FILES a.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})\n", ("a.h",))
     assert paths(script) == headers
 
 
 @pytest.mark.parametrize(
-    ("before", "libraries"),
+    ("commands", "libraries"),
     [
         ("", {"lib/liba.a": False}),
         ("set(BUILD_SHARED_LIBS ON)\n", {"lib/liba.so": False}),
         ("unheard_of()\n", {"lib/liba.so": True, "lib/liba.a": True}),
     ],
 )
-def test_a_library_of_no_kind_is_what_the_script_says(before: str, libraries: dict[str, bool]) -> None:
-    assert paths(run(f"{before}add_library(a a.cpp)\ninstall(TARGETS a)\n", ("a.cpp",))) == libraries
+def test_build_shared_libs_decides_the_type_of_a_library(commands: str, libraries: dict[str, bool]) -> None:
+    assert paths(run(f"{commands}add_library(a a.cpp)\ninstall(TARGETS a)\n", ("a.cpp",))) == libraries
 
 
-def test_modules_in_c_plus_plus() -> None:
+def test_pybind11_modules_are_python_packages() -> None:
     text = "pybind11_add_module(_core core.cpp)\ninstall(TARGETS _core DESTINATION ${PYTHON_INSTALL_DIR}/pkg)\n"
     script = run(text, ("core.cpp",))
     assert paths(script) == {"lib/python/site-packages/pkg/_core.so": False}
@@ -284,7 +284,7 @@ def test_modules_in_c_plus_plus() -> None:
     assert not hidden(script)
 
 
-def test_modules_for_a_python_that_is_not_known() -> None:
+def test_an_unknown_python_version_still_installs_modules() -> None:
     place = "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages"
     script = run(f"find_package(Python3 REQUIRED)\ninstall(DIRECTORY imp/ DESTINATION {place}/)\n", ("imp/joints.py",))
     assert paths(script) == {"lib/python/site-packages/joints.py": False}
@@ -293,25 +293,25 @@ def test_modules_for_a_python_that_is_not_known() -> None:
     assert hidden(run(f"find_package(Python3 REQUIRED)\n{elsewhere}", ("a.py",)))
 
 
-def test_folders_that_are_not_looked_into_are_installed_all_the_same() -> None:
+def test_unlisted_folders_are_installed() -> None:
     text = HEAD + "install(DIRECTORY share/ DESTINATION share/pkg)\n"
     listed = {"share/build": ["share/build/a.txt", "share/build/b/c.txt"], "gone": []}
-    given = sources(text, ("share/a",), unseen=("share/build", "gone"), look=lambda folder: listed[folder])
-    script = evaluate(given)
+    package = sources(text, ("share/a",), unlisted_folders=("share/build", "gone"), list_unlisted=lambda folder: listed[folder])
+    script = evaluate(package)
     assert paths(script) == {"share/pkg/a": False, "share/pkg/build/a.txt": False, "share/pkg/build/b/c.txt": False}
     assert not hidden(script)
-    script = evaluate(given._replace(look=lambda folder: ()))
+    script = evaluate(package._replace(list_unlisted=lambda folder: ()))
     assert hidden(script) & Facet.SHARE
 
 
-def test_words_of_install_targets_elsewhere() -> None:
+def test_keywords_of_install_targets_are_rejected_in_install_directory() -> None:
     text = "install(DIRECTORY launch ARCHIVE DESTINATION lib LIBRARY DESTINATION lib)\n"
     (problem,) = run(text, ("launch/a.launch.py",)).problems
-    assert problem.message == "install(DIRECTORY) knows no ARCHIVE, that belongs to install(TARGETS)"
+    assert problem.message == "install(DIRECTORY) does not accept 'ARCHIVE', which belongs to install(TARGETS)"
     assert problem.span.column == len("install(DIRECTORY launch ") + 1
 
 
-def test_what_configure_file_makes_is_installed_with_its_folder() -> None:
+def test_configured_files_are_installed_with_their_folder() -> None:
     text = """
     configure_file(a.h.in include/pkg/a.h)
     configure_file(b.h.in ${PROJECT_BINARY_DIR}/include/pkg/b.h COPYONLY)
@@ -324,7 +324,7 @@ def test_what_configure_file_makes_is_installed_with_its_folder() -> None:
     assert hidden(script) & Facet.LIBRARIES
 
 
-def test_many_ways_out_do_not_make_a_script_long() -> None:
+def test_many_possible_returns_count_each_command_once() -> None:
     text = "".join(f"find_package(p{number})\nif(p{number}_FOUND)\nreturn()\nendif()\n" for number in range(50))
     script = run(text + "set(a b)\n" * 2000 + "install(FILES a.txt DESTINATION share/pkg)\n", ("a.txt",))
     assert paths(script)["share/pkg/a.txt"] is True
@@ -341,45 +341,45 @@ def test_many_ways_out_do_not_make_a_script_long() -> None:
         'set(L "${L}${L}${L}")',
     ],
 )
-def test_texts_that_grow_and_grow_become_unknown(line: str) -> None:
+def test_texts_that_double_in_each_round_become_unknown(line: str) -> None:
     script = run(f'set(L "a;a")\nforeach(i RANGE 60)\n{line}\nendforeach()\ninstall(FILES ${{L}} DESTINATION share/pkg)\n')
     assert hidden(script) & Facet.SHARE
 
 
-def test_a_long_list_joined_by_a_long_text_becomes_unknown() -> None:
+def test_a_long_list_joined_with_a_long_text_becomes_unknown() -> None:
     text = 'set(L "a;a")\nforeach(i RANGE 17)\nset(L ${L} ${L})\nendforeach()\nlist(JOIN L "${L}" L)\n'
     script = run(text + "install(FILES ${L} DESTINATION share/pkg)\n")
     assert hidden(script) & Facet.SHARE
 
 
 @pytest.mark.parametrize(
-    ("body", "longer"),
+    ("body", "too_large"),
     [
         ("set(a ${i})\nset(b ${i})", False),
-        ("list(APPEND l ${i}.launch.py)\nlist(LENGTH l n)", True),  # every round takes longer than the one before
+        ("list(APPEND l ${i}.launch.py)\nlist(LENGTH l n)", True),  # each round costs more than the previous one
     ],
 )
-def test_commands_on_long_lists_count_for_what_they_cost(body: str, longer: bool) -> None:
+def test_commands_on_long_lists_cost_more(body: str, too_large: bool) -> None:
     script = run(f"foreach(i RANGE 20000)\n{body}\nendforeach()")
-    assert [opaque.reason for opaque in script.opaque] == ["the script runs longer than can be followed"] * longer
+    assert [opaque.reason for opaque in script.opaque] == ["the script is too large to be evaluated"] * too_large
 
 
 @pytest.mark.parametrize(
-    ("path", "unsure"),
+    ("path", "conditional"),
     [
-        ("${CMAKE_CURRENT_SOURCE_DIR}/lib/${ARCH}/liba.so", False),  # CMake stops where it is not there
+        ("${CMAKE_CURRENT_SOURCE_DIR}/lib/${ARCH}/liba.so", False),  # CMake stops with an error if it does not exist
         ("lib/${ARCH}/liba.so", False),
-        ("lib/$ENV{HOME}/libb.so", True),  # nothing there is called so
+        ("lib/$ENV{HOME}/libb.so", True),  # no file has this name
         ("${CMAKE_CURRENT_SOURCE_DIR}/lib/${Acme_VERSION}/x86/libb.so", True),
         ("${Acme_DIR}/lib/libb.so", False),
         ("${CMAKE_CURRENT_BINARY_DIR}/libb.so", False),
         ("${CMAKE_CURRENT_BINARY_DIR}/libb.so OPTIONAL", True),
     ],
 )
-def test_a_file_in_a_folder_that_is_not_known(path: str, unsure: bool) -> None:
+def test_a_file_in_an_unknown_folder_is_conditional_if_no_file_matches(path: str, conditional: bool) -> None:
     arch = "find_package(Acme REQUIRED)\nset(ARCH x86)\nif(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)\nset(ARCH arm)\nendif()\n"
     script = run(f"{arch}install(FILES {path} DESTINATION lib)", ("lib/x86/liba.so", "lib/arm/liba.so"))
-    assert list(paths(script).values()) == [unsure]
+    assert list(paths(script).values()) == [conditional]
 
 
 @pytest.mark.parametrize(
@@ -393,7 +393,7 @@ def test_a_file_in_a_folder_that_is_not_known(path: str, unsure: bool) -> None:
         ("include(${acme_FILES}/acme-version.cmake)", ALL_FACETS),
     ],
 )
-def test_scripts_of_other_packages_are_made_to_be_called(name: str, hides: Facet) -> None:
+def test_scripts_of_other_packages_hide_only_uses(name: str, hides: Facet) -> None:
     unknown = "if($ENV{X})\nset(UNKNOWN a)\nelse()\nset(UNKNOWN b)\nendif()\n"
     script = run(f"find_package(acme REQUIRED)\n{unknown}{name}\ninstall(FILES package.xml DESTINATION share/pkg)")
     assert hidden(script) == hides
@@ -401,6 +401,6 @@ def test_scripts_of_other_packages_are_made_to_be_called(name: str, hides: Facet
 
 
 @pytest.mark.parametrize("regex", ["(x+)+y", "((x|z)*)*y", "(a|x+)+z"])
-def test_an_expression_that_would_take_for_ever_is_not_tried(regex: str) -> None:
+def test_expressions_of_exponential_time_are_not_evaluated(regex: str) -> None:
     script = run(f'string(REGEX REPLACE "{regex}" "" name "{"x" * 200}")\ninstall(FILES ${{name}} DESTINATION share/pkg)')
     assert hidden(script) == Facet.SHARE

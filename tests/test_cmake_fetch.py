@@ -1,4 +1,4 @@
-"""What FetchContent and ExternalProject bring along, and what lies among the sources."""
+"""Projects of FetchContent and ExternalProject, and projects in the sources."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def uses(package: Package) -> set[str]:
         "ExternalProject_Add(j GIT_REPOSITORY https://github.com/nlohmann/json.git)",
     ],
 )
-def test_a_project_is_known_by_where_it_is_had_from(lines: str) -> None:
+def test_a_fetched_project_is_recognized_by_its_address(lines: str) -> None:
     assert uses(load(lines)) == set()
 
 
@@ -44,11 +44,11 @@ def test_a_project_is_known_by_where_it_is_had_from(lines: str) -> None:
         "FetchContent_Declare(fmt URL https://github.com/fmtlib/fmt)\nFetchContent_MakeAvailable(fmt)",
     ],
 )
-def test_what_is_not_fetched_is_a_need(lines: str) -> None:
+def test_a_project_that_is_not_fetched_is_used(lines: str) -> None:
     assert uses(load(lines)) == {"nlohmann-json-dev"}
 
 
-def test_the_targets_of_a_project_can_have_another_name_than_its_repository() -> None:
+def test_targets_of_a_fetched_project_can_differ_from_its_repository() -> None:
     linked = "\ntarget_link_libraries(r GTest::gtest_main GTest::gmock_main)"
     fetched = "FetchContent_Declare(googletest URL https://github.com/google/googletest/archive/a.zip)\n"
     assert "gtest" in str(uses(load(LINKED + linked, "")))
@@ -63,23 +63,23 @@ def test_the_targets_of_a_project_can_have_another_name_than_its_repository() ->
         ("ExternalProject_Add(all SOURCE_DIR ${CMAKE_CURRENT_SOURCE_DIR})\n", True),
     ],
 )
-def test_a_project_from_elsewhere_takes_no_sources_of_the_package(lines: str, built: bool) -> None:
+def test_an_external_project_does_not_build_sources_of_the_package(lines: str, built: bool) -> None:
     script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\n{lines}add_library(r r.cpp)\nament_package()\n"
     files = {"package.xml": MANIFEST, "CMakeLists.txt": script, "r.cpp": "", "test/t.cpp": "#include <gtest/gtest.h>\n"}
     package = loaded({f"robot/{path}": text for path, text in files.items()}).packages[0]
-    (found,) = (use for use in package.uses if "gtest" in use.package)
-    assert found.certain is built
+    (use,) = (use for use in package.uses if "gtest" in use.package)
+    assert use.certain is built
 
 
-def test_what_lies_among_the_sources_is_no_need() -> None:
-    found = "find_package(nlohmann_json REQUIRED)"
-    beside = "set(nlohmann_json_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../json/cmake)\n"
+def test_a_project_in_the_sources_is_not_used() -> None:
+    search = "find_package(nlohmann_json REQUIRED)"
+    in_sources = "set(nlohmann_json_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../json/cmake)\n"
     installed = "set(nlohmann_json_DIR ${CMAKE_PREFIX_PATH}/share/nlohmann_json/cmake)\n"
-    assert uses(load(beside + "find_package(nlohmann_json REQUIRED)", "#include <nlohmann_json/json.hpp>\n")) == set()
-    assert uses(load(installed + found)) == uses(load(found)) == {"nlohmann-json-dev"}
+    assert uses(load(in_sources + "find_package(nlohmann_json REQUIRED)", "#include <nlohmann_json/json.hpp>\n")) == set()
+    assert uses(load(installed + search)) == uses(load(search)) == {"nlohmann-json-dev"}
 
 
-def test_nobody_knows_where_a_project_lies_that_is_fetched() -> None:
+def test_the_folder_of_a_fetched_project_is_unknown() -> None:
     lines = (
         "FetchContent_Declare(Json GIT_REPOSITORY https://github.com/nlohmann/json.git)\n"
         "FetchContent_GetProperties(Json)\nif(NOT json_POPULATED)\nFetchContent_Populate(Json)\n"
@@ -88,14 +88,14 @@ def test_nobody_knows_where_a_project_lies_that_is_fetched() -> None:
     script = load(lines).script
     assert script is not None
     assert script.problems == ()
-    assert "add_subdirectory() of a folder that is not in sight" in {opaque.reason for opaque in script.opaque}
+    assert "the folder of add_subdirectory() was not found" in {opaque.reason for opaque in script.opaque}
 
 
-def test_what_is_built_while_cmake_configures_is_no_need() -> None:
+def test_a_project_built_by_execute_process_is_not_used() -> None:
     build = "execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/part_msgs -B b)\n"
     lines = "find_package(part_msgs REQUIRED)\ntarget_link_libraries(r part_msgs::part_msgs)"
     files = {"package.xml": MANIFEST, "r.cpp": "#include <part_msgs/msg/part.hpp>\n", "part_msgs/CMakeLists.txt": ""}
-    for before, needs in ((build, set()), ("", {"part_msgs"})):
-        script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\nadd_library(r r.cpp)\n{before}{lines}\nament_package()\n"
+    for command, needs in ((build, set()), ("", {"part_msgs"})):
+        script = f"project(robot)\nfind_package(ament_cmake REQUIRED)\nadd_library(r r.cpp)\n{command}{lines}\nament_package()\n"
         paths = {f"robot/{path}": text for path, text in {**files, "CMakeLists.txt": script}.items()}
         assert uses(loaded(paths).packages[0]) == needs

@@ -1,4 +1,4 @@
-"""file(GLOB), paths and the like against CMake itself."""
+"""Comparison of file(GLOB) and commands for paths with CMake."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ FILES = (
     "launch/a.launch.py", "launch/B.launch.py", "launch/é.launch.py", "a.txt", "b.c.txt", "a b/c.txt", "script",
 )  # fmt: skip
 OUTSIDE = ("config/a.yaml", "config/deep/b.yaml", "other/src/z.cpp", "top.txt", "pack/x.txt")
-"""Files beside the folder of the package, ``package``."""
+"""Files outside of ``package``, the folder of the package."""
 
 
 def _line(choice: random.Random) -> str:
-    some = choice.choice
-    top = some(("", "", "${CMAKE_CURRENT_SOURCE_DIR}/", "${CMAKE_CURRENT_LIST_DIR}/", "./"))
+    pick = choice.choice
+    top = pick(("", "", "${CMAKE_CURRENT_SOURCE_DIR}/", "${CMAKE_CURRENT_LIST_DIR}/", "./"))
     patterns = (
         "src/*.cpp", "src/*", "*", "src/[ab].cpp", "src/?.*pp", "src/*/*.cpp", "*/*.cpp", "launch/*.launch.py", "*.txt",
         "src/sub", "src/[!a]*.cpp", "sr?/sub/*", "nothing/*", "src/[a-b]*", "src/../*.txt", "src/a.cpp", "launch/[A-Z]*",
@@ -51,28 +51,28 @@ def _line(choice: random.Random) -> str:
     )  # fmt: skip
     roll = choice.random()
     if roll < 0.5:
-        mode = some(("GLOB", "GLOB_RECURSE"))
+        mode = pick(("GLOB", "GLOB_RECURSE"))
         options = " ".join(
-            some(("", "", found))
-            for found in (
-                f"LIST_DIRECTORIES {some(('true', 'false', 'Y', 'off'))}",
-                f"RELATIVE {some(('${CMAKE_CURRENT_SOURCE_DIR}', '${CMAKE_CURRENT_SOURCE_DIR}/src'))}",
+            pick(("", "", option))
+            for option in (
+                f"LIST_DIRECTORIES {pick(('true', 'false', 'Y', 'off'))}",
+                f"RELATIVE {pick(('${CMAKE_CURRENT_SOURCE_DIR}', '${CMAKE_CURRENT_SOURCE_DIR}/src'))}",
             )
         )
-        return f'file({mode} V {options} "{top}{some(patterns)}"{some(("", f" {chr(34)}{top}{some(patterns)}{chr(34)}"))})'
+        return f'file({mode} V {options} "{top}{pick(patterns)}"{pick(("", f" {chr(34)}{top}{pick(patterns)}{chr(34)}"))})'
     if roll < 0.85:
-        mode = some(("NAME", "NAME_WE", "EXT", "LAST_EXT", "NAME_WLE", "DIRECTORY", "PATH", "ABSOLUTE"))
-        base = some(("", "", " BASE_DIR /base", " BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/src")) if mode == "ABSOLUTE" else ""
-        return f'get_filename_component(V "{some(paths)}" {mode}{base})'
+        mode = pick(("NAME", "NAME_WE", "EXT", "LAST_EXT", "NAME_WLE", "DIRECTORY", "PATH", "ABSOLUTE"))
+        base = pick(("", "", " BASE_DIR /base", " BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/src")) if mode == "ABSOLUTE" else ""
+        return f'get_filename_component(V "{pick(paths)}" {mode}{base})'
     absolute = (
         "${CMAKE_CURRENT_SOURCE_DIR}/src/a.cpp", "${CMAKE_CURRENT_SOURCE_DIR}/b", "${CMAKE_CURRENT_SOURCE_DIR}",
         "${CMAKE_CURRENT_SOURCE_DIR}/../config", "${CMAKE_CURRENT_SOURCE_DIR}/../package",
     )  # fmt: skip
-    return f'file(RELATIVE_PATH V "{some(absolute)}" "{some(absolute)}")'
+    return f'file(RELATIVE_PATH V "{pick(absolute)}" "{pick(absolute)}")'
 
 
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
-def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
+def test_files_and_paths_equal_those_of_cmake(tmp_path: Path) -> None:
     choice = random.Random(5)
     lines = list(dict.fromkeys(_line(choice) for _ in range(800)))
     tree = tmp_path / "tree"
@@ -97,7 +97,7 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
     for number, line in enumerate(lines):
         run = Run(Sources("p", "package", sorted(FILES), {}, outside=outside), "", {}, lambda *_: None)
         run.policy_version = (3, 20)
-        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.named("CMakeLists.txt")))
+        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.absolute("CMakeLists.txt")))
         value = run.get("V") or ""
         unknown += HOLE in value
         if is_fixed(value) and value.replace(TREE, str(tree)) != real[str(number)]:
@@ -112,10 +112,10 @@ def test_files_and_paths_are_those_of_cmake(tmp_path: Path) -> None:
         (r'get_filename_component(V "/x\\y\\..\\z" ABSOLUTE)', "/x/z"),
         (r'get_filename_component(V "y\\z" ABSOLUTE BASE_DIR "/a\\b")', "/a/b/y/z"),
         (r'set(A "a\;b")' '\nget_filename_component(V "/x/${A}" REALPATH)', "/x/a/;b"),
-        (r'file(REAL_PATH "/x\\y" V)', HOLE),  # a policy of its own
+        (r'file(REAL_PATH "/x\\y" V)', HOLE),  # depends on policy CMP0152
     ],
 )
-def test_a_backslash_parts_folders_where_a_path_is_made_a_whole_one(line: str, expected: str) -> None:
+def test_a_backslash_separates_folders_in_absolute_paths(line: str, expected: str) -> None:
     run = Run(Sources("p", "", (), {}), "", {}, lambda *_: None)
-    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.named("CMakeLists.txt")))
+    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.absolute("CMakeLists.txt")))
     assert run.get("V") == expected

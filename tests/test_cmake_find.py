@@ -1,4 +1,4 @@
-"""Which packages a script names, and what guards that."""
+"""Packages that a script mentions, and the conditions of the mentions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ros_lint.collectors.cmake.evaluate import evaluate
 from tests.cmake_runs import HEAD, mentioned, run, sources
 
 
-def test_mentions_stand_where_the_name_is_written() -> None:
+def test_mentions_are_placed_at_the_written_name() -> None:
     text = (
         HEAD
         + "set(DEPENDS\n  rclcpp\n  std_msgs\n)\nforeach(d IN ITEMS ${DEPENDS})\n  find_package(${d} REQUIRED)\nendforeach()\n"
@@ -58,34 +58,34 @@ def test_mentions_stand_where_the_name_is_written() -> None:
         ("find_package(b)\nif(NOT b_FOUND)\nmessage(FATAL_ERROR)\nendif()\nfind_package(a REQUIRED)", False, False),
     ],
 )  # fmt: skip
-def test_what_guards_a_mention(text: str, optional: bool | None, test: bool) -> None:
+def test_conditions_make_mentions_optional_or_for_tests(text: str, optional: bool | None, test: bool) -> None:
     mention = mentioned(run(text)).get(("cmake", "a"))
     assert (mention and mention.optional) == optional
     assert (mention.test if mention else False) == test
 
 
 @pytest.mark.parametrize("name", ["catkin", "roscpp"])
-def test_what_builds_for_ros_1_alone_is_not_found(name: str) -> None:
-    asked = f"find_package({name} QUIET)\nif({name}_FOUND)\ncatkin_package()\n"
-    script = run(f"{asked}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n")
+def test_packages_of_ros_1_are_not_found(name: str) -> None:
+    search = f"find_package({name} QUIET)\nif({name}_FOUND)\ncatkin_package()\n"
+    script = run(f"{search}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n")
     assert not script.opaque
-    found = mentioned(script)
-    assert ("cmake", "a") not in found
-    assert not found["cmake", "b"].optional
+    mentions = mentioned(script)
+    assert ("cmake", "a") not in mentions
+    assert not mentions["cmake", "b"].optional
 
 
-def test_the_build_tool_that_the_manifest_names_is_found() -> None:
-    asked = "find_package(ament_cmake QUIET)\nif(ament_cmake_FOUND)\n"
-    text = f"{asked}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
-    found = mentioned(run(text, build_depends=("ament_cmake",)))
-    assert not found["cmake", "a"].optional
-    assert ("cmake", "b") not in found
-    found = mentioned(run(text))
-    assert found["cmake", "a"].optional
-    assert found["cmake", "b"].optional
+def test_the_build_tool_in_the_manifest_is_found() -> None:
+    search = "find_package(ament_cmake QUIET)\nif(ament_cmake_FOUND)\n"
+    text = f"{search}find_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+    mentions = mentioned(run(text, build_depends=("ament_cmake",)))
+    assert not mentions["cmake", "a"].optional
+    assert ("cmake", "b") not in mentions
+    mentions = mentioned(run(text))
+    assert mentions["cmake", "a"].optional
+    assert mentions["cmake", "b"].optional
 
 
-def test_targets_and_variables_of_other_packages() -> None:
+def test_targets_and_variables_mention_their_package() -> None:
     script = run(
         "find_package(rclcpp REQUIRED)\nfind_package(OpenCV REQUIRED)\nadd_library(core a.cpp)\n"
         "add_library(pkg::core ALIAS core)\n"
@@ -102,7 +102,7 @@ def test_targets_and_variables_of_other_packages() -> None:
     }  # fmt: skip
 
 
-def test_what_pkg_config_is_told_to_call_its_variables_is_the_name_of_no_package() -> None:
+def test_the_prefix_of_pkg_check_modules_is_not_a_package() -> None:
     script = run(
         "find_package(Eigen3 REQUIRED)\npkg_check_modules(EIGEN3 eigen3)\npkg_check_modules(libcamera REQUIRED libcamera>=0.1)\n"
         "add_library(core a.cpp)\n"
@@ -112,7 +112,7 @@ def test_what_pkg_config_is_told_to_call_its_variables_is_the_name_of_no_package
     assert [mention.name for mention in script.mentions if mention.via == "target"] == ["Eigen3"]
 
 
-def test_what_targets_are_linked_with() -> None:
+def test_linked_targets_of_the_package_are_listed() -> None:
     text = """
     set(DEPS a pkg::b rclcpp::rclcpp)
     add_executable(e e.cpp)

@@ -1,4 +1,4 @@
-"""install() against CMake itself: the same files at the same places, with the same permission to run."""
+"""Comparison of install() with CMake: paths and executable bits of the installed files."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ file(COPY config/a.yaml meshes/x.stl DESTINATION ${CMAKE_CURRENT_SOURCE_DIR}/mad
 file(WRITE before.txt "")
 file(RENAME ${CMAKE_CURRENT_SOURCE_DIR}/before.txt ${CMAKE_CURRENT_SOURCE_DIR}/made/renamed.yaml)
 """
-"""What comes into being in the sources."""
+"""Commands that generate files in the sources."""
 
 
 def _rule(choice: random.Random, number: int) -> str:
@@ -113,7 +113,7 @@ def _rule(choice: random.Random, number: int) -> str:
             words[1] += " missing.txt" if not any("RENAME" in word for word in words) else ""
             words.append("OPTIONAL")
         if choice.random() < 0.1:
-            words.insert(1, words[0])  # which CMake reads like one
+            words.insert(1, words[0])  # CMake accepts the repeated word
         return f"install({' '.join(words)})"
     words = ["DIRECTORY", " ".join(choice.sample(_FOLDERS, choice.randint(1, 2))), destination]
     words.append(
@@ -145,7 +145,7 @@ except ImportError:
 
 
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
-def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
+def test_installed_files_equal_those_of_cmake(tmp_path: Path) -> None:
     choice = random.Random(4)
     rules = [_rule(choice, number) for number in range(600)]
     script = "cmake_minimum_required(VERSION 3.16)\nproject(p NONE)\n" + _MADE + "\n".join(rules) + "\n"
@@ -172,15 +172,15 @@ def test_installed_files_are_those_of_cmake(tmp_path: Path) -> None:
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", script))}
     executables = frozenset(path for path, executable in FILES.items() if executable)
     outside = Surroundings(DiskTree(str(tmp_path / "tree"))).of("p")
-    own = sorted(path for path in FILES if not path.startswith("../"))
-    result = evaluate(Sources("p", "p", own, parsed, executables, outside=outside))
-    found = {provided.path: provided.program for provided in result.products.installs}
+    package_files = sorted(path for path in FILES if not path.startswith("../"))
+    result = evaluate(Sources("p", "p", package_files, parsed, executables, outside=outside))
+    installed = {provided.path: provided.program for provided in result.products.installs}
     assert not result.opaque
     assert not any(provided.conditional for provided in result.products.installs)
-    differing = {path.partition("/")[0] for path in found.keys() ^ real.keys()}
-    differing |= {path.partition("/")[0] for path in found.keys() & real.keys() if found[path] != real[path]}
+    differing = {path.partition("/")[0] for path in installed.keys() ^ real.keys()}
+    differing |= {path.partition("/")[0] for path in installed.keys() & real.keys() if installed[path] != real[path]}
     shown = [
-        (rules[int(rule[1:])], sorted(path for path in found.keys() ^ real.keys() if path.startswith(f"{rule}/")))
+        (rules[int(rule[1:])], sorted(path for path in installed.keys() ^ real.keys() if path.startswith(f"{rule}/")))
         for rule in differing
     ]
     assert not shown, shown[:5]
@@ -207,7 +207,7 @@ install(TARGETS four PUBLIC_HEADER DESTINATION four)
 
 
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
-def test_headers_of_targets_are_those_of_cmake(tmp_path: Path) -> None:
+def test_installed_headers_of_targets_equal_those_of_cmake(tmp_path: Path) -> None:
     script = f"cmake_minimum_required(VERSION 3.23)\nproject(p NONE)\n{_OF_TARGETS}"
     folder = tmp_path / "p"
     for path in _HEADERS:
@@ -230,9 +230,9 @@ def test_headers_of_targets_are_those_of_cmake(tmp_path: Path) -> None:
     assert not result.opaque
 
 
-def test_headers_of_a_set_that_nobody_knows_hide_what_there_is() -> None:
+def test_unknown_headers_of_a_file_set_hide_the_libraries() -> None:
     script = "add_library(one INTERFACE)\ntarget_sources(one INTERFACE FILE_SET HEADERS FILES ${GENERATED})\n"
     script += "install(TARGETS one FILE_SET HEADERS)\n"
     parsed = {"CMakeLists.txt": parse(Text("p/CMakeLists.txt", f"project(p)\nfile(READ a.txt GENERATED)\n{script}"))}
     result = evaluate(Sources("p", "p", ["a.txt"], parsed, frozenset()))
-    assert any("headers of the target one" in opaque.reason for opaque in result.opaque)
+    assert any("headers of the target 'one'" in opaque.reason for opaque in result.opaque)

@@ -1,7 +1,7 @@
-"""The evaluator against CMake itself: where it gives a value, it is CMake's value.
+"""Comparison of the evaluator with CMake: a value that the evaluator knows must be the value of CMake.
 
-Scripts are made at random. CMake runs them with concrete values for the variables U0, U1 and U2, which the evaluator does
-not know; so every way through a script has to agree with what the evaluator says of all of them.
+The scripts are random. CMake runs them with concrete values for the variables U0, U1 and U2, which are unknown to the
+evaluator, so its values must hold on each path through a script.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Sources
 from ros_lint.collectors.cmake.evaluator.state import BudgetError, Frame, Variables
-from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, sure
+from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, strip_mark
 from ros_lint.collectors.cmake.syntax import parse
 from tests.cmake_writer import UNKNOWN, VARIABLES, Script, generate
 
@@ -32,11 +32,11 @@ class Outcome(NamedTuple):
     """None is an unset variable."""
     traces: Counter[str]
     certain: Counter[str]
-    """Those of the traces that were not conditional."""
+    """The traces that are not conditional."""
 
 
 def evaluated(script: Script) -> Outcome:
-    """What the evaluator says."""
+    """Return the outcome of a script by the evaluator."""
     traces: Counter[str] = Counter()
     certain: Counter[str] = Counter()
 
@@ -126,29 +126,29 @@ def _read(block: str) -> Outcome:
     return Outcome(values, traces, traces)
 
 
-def disagreements(mine: Outcome, real: Outcome) -> list[str]:
-    """Where the evaluator says something that CMake does not do."""
-    found = []
-    for name, value in mine.values.items():
+def disagreements(outcome_of_evaluator: Outcome, real: Outcome) -> list[str]:
+    """Return the differences between the outcome of the evaluator and that of CMake."""
+    differences = []
+    for name, value in outcome_of_evaluator.values.items():
         actual = real.values[name]
         if value is None or is_known(value):
-            if value != actual and (value or actual):  # an empty value may also be none
-                found.append(f"{name}: {value!r} is {actual!r}")
+            if value != actual and (value or actual):  # an empty value may also be unset
+                differences.append(f"{name}: {value!r} is {actual!r}")
         elif HOLE not in value and not _may_be(elements(value), elements(actual or "")):
-            found.append(f"{name}: {value!r} cannot be {actual!r}")
+            differences.append(f"{name}: {value!r} cannot be {actual!r}")
     for trace, count in real.traces.items():
-        if mine.traces[trace] == 0 and count:
-            found.append(f"trace {trace} is missing")
-    for trace, count in mine.certain.items():
+        if outcome_of_evaluator.traces[trace] == 0 and count:
+            differences.append(f"trace {trace} is missing")
+    for trace, count in outcome_of_evaluator.certain.items():
         if real.traces[trace] < count:
-            found.append(f"trace {trace} is there {real.traces[trace]} times, not {count}")
-    return found
+            differences.append(f"trace {trace} is there {real.traces[trace]} times, not {count}")
+    return differences
 
 
 def _may_be(marked: list[str], actual: list[str]) -> bool:
-    """Whether a list with elements that may be missing can be the actual one: nothing certain is missing, nothing is new."""
+    """Return whether the actual list has each certain element, and no element that is not in ``marked``."""
     certain = [element for element in marked if element and not element.startswith(MAYBE)]
-    possible = {sure(element)[0] for element in marked} | {""}
+    possible = {strip_mark(element)[0] for element in marked} | {""}
     return not Counter(certain) - Counter(actual) and set(actual) <= possible
 
 
@@ -211,32 +211,32 @@ _SMALL = (
 
 
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
-def test_values_of_small_scripts_are_those_of_cmake(tmp_path: Path) -> None:
+def test_values_of_small_scripts_equal_those_of_cmake(tmp_path: Path) -> None:
     assert CMAKE is not None
     scripts = {number: Script(text, ("", "0", "a")) for number, text in enumerate(_SMALL)}
     real = really_run(CMAKE, scripts, tmp_path)
     assert len(real) == len(scripts)
     wrong = {scripts[number].text: disagreements(evaluated(scripts[number]), outcome) for number, outcome in real.items()}
-    assert not {text: found for text, found in wrong.items() if found}
+    assert not {text: differences for text, differences in wrong.items() if differences}
 
 
 @pytest.mark.skipif(CMAKE is None, reason="cmake is not installed")
-def test_values_are_those_of_cmake(tmp_path: Path) -> None:
+def test_values_of_random_scripts_equal_those_of_cmake(tmp_path: Path) -> None:
     assert CMAKE is not None
     once_wrong = (1001882, 3009064, 5005705, 7504225, 8003661, 9001190, 20009052, 20010304)
     scripts = {seed: generate(seed) for seed in (*range(300), *once_wrong)}
     real = really_run(CMAKE, scripts, tmp_path)
     assert len(real) > 150
     wrong = {}
-    known = total = 0
+    known_count = total = 0
     for seed, outcome in real.items():
         try:
-            mine = evaluated(scripts[seed])
+            outcome_of_evaluator = evaluated(scripts[seed])
         except BudgetError:
             continue
-        if found := disagreements(mine, outcome):
-            wrong[seed] = found
-        total += len(mine.values)
-        known += sum(value is None or is_known(value) for value in mine.values.values())
-    assert not wrong, "\n".join(f"{seed}: {found}\n{scripts[seed].text}" for seed, found in list(wrong.items())[:2])
-    assert known > total * 0.5
+        if differences := disagreements(outcome_of_evaluator, outcome):
+            wrong[seed] = differences
+        total += len(outcome_of_evaluator.values)
+        known_count += sum(value is None or is_known(value) for value in outcome_of_evaluator.values.values())
+    assert not wrong, "\n".join(f"{seed}: {differences}\n{scripts[seed].text}" for seed, differences in list(wrong.items())[:2])
+    assert known_count > total * 0.5

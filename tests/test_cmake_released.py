@@ -1,4 +1,4 @@
-"""Compiled macros against the same macros run step by step."""
+"""Comparison of compiled macros with the interpretation of the same macros."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def _result(script: str) -> BuildScript:
     text = f"cmake_minimum_required(VERSION 3.8)\nproject(pkg)\nset(L a b)\nfind_package(U)\n{script}"
     parsed = {"CMakeLists.txt": parse(Text("CMakeLists.txt", text))}
     depends = ("rclcpp", "std_msgs")
-    found = evaluate(Sources("pkg", "", FILES, parsed, build_depends=depends, test_depends=("ament_lint_auto",)))
-    names = tuple(name for name in found.commands.names if name != "cmake_parse_arguments")
-    return found._replace(commands=found.commands._replace(names=names))
+    result = evaluate(Sources("pkg", "", FILES, parsed, build_depends=depends, test_depends=("ament_lint_auto",)))
+    names = tuple(name for name in result.commands.names if name != "cmake_parse_arguments")
+    return result._replace(commands=result.commands._replace(names=names))
 
 
 def _script(choice: random.Random, names: list[str]) -> str:
@@ -49,7 +49,7 @@ def _script(choice: random.Random, names: list[str]) -> str:
 
 
 @pytest.mark.parametrize("seed", range(300))
-def test_compiled_or_step_by_step(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compiled_macros_have_the_effects_of_interpreted_ones(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     compiled = [name for name in macros() if (macro := released(name)) and macro.steps]
     choice = random.Random(seed)
     script = _script(choice, compiled)

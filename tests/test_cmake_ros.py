@@ -16,7 +16,7 @@ from ros_lint.facts.visibility import Facet
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 
-def test_macros_mention_the_package_that_brings_them() -> None:
+def test_macros_mention_the_package_that_defines_them() -> None:
     script = run("if(BUILD_TESTING)\n  ament_add_gtest(t test/t.cpp)\nendif()\nament_package()\n", ("test/t.cpp",))
     mention = mentioned(script)[("macro", "ament_cmake_gtest")]
     assert (mention.what, mention.test, mention.span.line, mention.span.column) == ("ament_add_gtest()", True, 4, 3)
@@ -24,14 +24,14 @@ def test_macros_mention_the_package_that_brings_them() -> None:
     assert {"ament_add_gtest", "ament_package"} <= set(script.commands.names)
 
 
-def test_the_place_for_install_rules_is_before_ament_package() -> None:
+def test_install_rules_are_inserted_before_ament_package() -> None:
     script = run("\n  ament_package()\n")
     assert str(script.commands.insertion) == "src/pkg/CMakeLists.txt:4:3"
     assert run("if(UNHEARD_OF)\nelse()\nament_package()\nendif()").commands.insertion is not None
     assert run("").commands.insertion is None
 
 
-def test_ament_auto() -> None:
+def test_ament_auto_builds_and_installs_by_convention() -> None:
     script = run(
         "find_package(ament_cmake_auto REQUIRED)\nament_auto_find_build_dependencies()\n"
         "ament_auto_add_library(core SHARED src/core.cpp)\nament_auto_add_executable(talker DIRECTORY src)\n"
@@ -56,13 +56,13 @@ def test_macros_that_build_and_install_nothing_hide_nothing() -> None:
     script = run("ecl_enable_cxx14_compiler()\ninitialize_code_coverage()\nadd_run_tests_target(ENABLE ON)\n")
     assert not script.opaque
     assert {("macro", "ecl_build"), ("macro", "ros_industrial_cmake_boilerplate")} <= mentioned(script).keys()
-    known = "if(ECL_PLATFORM_HAS_POSIX_THREADS)\nadd_library(a a.cpp)\nendif()"
-    detected = run(f"ecl_detect_threads()\necl_detect_filesystem()\n{known}")
+    condition = "if(ECL_PLATFORM_HAS_POSIX_THREADS)\nadd_library(a a.cpp)\nendif()"
+    detected = run(f"ecl_detect_threads()\necl_detect_filesystem()\n{condition}")
     assert [target.name for target in detected.products.targets] == ["a"]
     assert not detected.opaque
 
 
-def test_interfaces() -> None:
+def test_interfaces_are_generated_and_installed() -> None:
     script = run(
         'set(msgs "msg/A.msg" "msg/B.msg")\n'
         'rosidl_generate_interfaces(${PROJECT_NAME} ${msgs} "srv/C.srv" DEPENDENCIES std_msgs)\n',
@@ -75,17 +75,17 @@ def test_interfaces() -> None:
     assert mentioned(script)[("macro", "rosidl_default_generators")].purpose == "interfaces"
 
 
-def test_interfaces_go_by_the_project_that_generates_them() -> None:
-    inner = {
+def test_interfaces_belong_to_the_project_that_generates_them() -> None:
+    subproject = {
         "inner/CMakeLists.txt": "project(inner_msgs)\nrosidl_generate_interfaces(inner_msgs msg/A.msg)\n",
         "inner/msg/A.msg": "",
     }
-    script = run("add_subdirectory(inner)\nrosidl_generate_interfaces(pkg msg/B.msg)\n", {**inner, "msg/B.msg": ""})
+    script = run("add_subdirectory(inner)\nrosidl_generate_interfaces(pkg msg/B.msg)\n", {**subproject, "msg/B.msg": ""})
     assert {path for path in paths(script) if path.endswith(".msg")} == {"share/inner_msgs/msg/A.msg", "share/pkg/msg/B.msg"}
     assert script.products.python_packages == ("inner_msgs", "pkg")
 
 
-def test_definitions_keep_their_last_folder_and_what_is_made_of_them_goes_by_its_kind() -> None:
+def test_definitions_keep_their_folder_and_generated_files_use_their_kind() -> None:
     script = run(
         "rosidl_generate_interfaces(pkg msg/base/A.msg srvs/B.srv msg/deep/C.idl)\n",
         ("msg/base/A.msg", "srvs/B.srv", "msg/deep/C.idl"),
@@ -95,7 +95,7 @@ def test_definitions_keep_their_last_folder_and_what_is_made_of_them_goes_by_its
     }  # fmt: skip
 
 
-def test_headers_of_generate_parameter_library() -> None:
+def test_generate_parameter_library_installs_headers() -> None:
     script = run(
         "generate_parameter_library(gains src/gains.yaml)\ngenerate_parameter_library(limits l.yaml src/check.hpp)\n",
         ("src/check.hpp",),
@@ -106,7 +106,7 @@ def test_headers_of_generate_parameter_library() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "wanted"),
+    ("words", "expected"),
     [
         ("", {"cmake/vendor_package_cmake_prefix.cmake", "environment/vendor_package.sh"}),
         ("GLOBAL_HOOK", {"environment/vendor_package.sh", "environment/vendor_package_cmake_prefix.sh"}),
@@ -114,14 +114,14 @@ def test_headers_of_generate_parameter_library() -> None:
         ("SATISFIED TRUE", set()),
     ],
 )
-def test_what_finds_a_vendored_project_is_installed(words: str, wanted: set[str]) -> None:
+def test_ament_vendor_installs_its_environment_hooks(words: str, expected: set[str]) -> None:
     script = run(f"ament_vendor(other VCS_URL https://example.org/other.git {words})\n")
-    found = {path.removeprefix("share/pkg/") for path in paths(script) if path.endswith((".sh", ".cmake"))}
-    assert found == wanted
-    assert ("share/ament_index/resource_index/vendor_packages/pkg" in paths(script)) == bool(wanted)
+    installed = {path.removeprefix("share/pkg/") for path in paths(script) if path.endswith((".sh", ".cmake"))}
+    assert installed == expected
+    assert ("share/ament_index/resource_index/vendor_packages/pkg" in paths(script)) == bool(expected)
 
 
-def test_python_packages() -> None:
+def test_ament_python_install_package_installs_modules_and_programs() -> None:
     files = ("pkg_py/__init__.py", "pkg_py/sub/__init__.py", "pkg_py/sub/x.py", "setup.cfg")
     texts = {"setup.cfg": "[options.entry_points]\nconsole_scripts =\n    tool = pkg_py.sub.x:main\n"}
     text = "ament_python_install_package(pkg_py SCRIPTS_DESTINATION lib/${PROJECT_NAME})\n"
@@ -141,12 +141,12 @@ def test_plugins_use_the_package_of_their_base_class() -> None:
 
 def helper(name: str, files: Mapping[str, str], script: str) -> Helper:
     parsed = {path: parse(Text(f"src/{name}/{path}", text)) for path, text in {"CMakeLists.txt": script, **files}.items()}
-    found = Sources(name, f"src/{name}", sorted(parsed), parsed)
-    return Helper(found, evaluate(found))
+    package = Sources(name, f"src/{name}", sorted(parsed), parsed)
+    return Helper(package, evaluate(package))
 
 
 @pytest.mark.parametrize("name", ["tools", "@PROJECT_NAME@"])
-def test_macros_of_the_workspace_are_followed(name: str) -> None:
+def test_macros_of_the_workspace_are_evaluated(name: str) -> None:
     tools = helper(
         "tools",
         {
@@ -158,32 +158,32 @@ def test_macros_of_the_workspace_are_followed(name: str) -> None:
         "ament_package(CONFIG_EXTRAS cmake/tools-extras.cmake.in)\n",
     )
     assert tools.script.exports.config_extras == ("cmake/tools-extras.cmake.in",)
-    found = sources(HEAD + "find_package(tools REQUIRED)\ninstall_all(launch)\n", ("launch/a.launch.py",))
-    script = evaluate(found, helpers={"tools": tools})
+    package = sources(HEAD + "find_package(tools REQUIRED)\ninstall_all(launch)\n", ("launch/a.launch.py",))
+    script = evaluate(package, helpers={"tools": tools})
     assert not script.opaque
     assert paths(script) == {"share/pkg/launch/a.launch.py": False}
     assert [(mention.name, mention.via) for mention in script.mentions] == [("tools", "cmake")]
     assert str(script.products.installs[0].span) == "src/pkg/CMakeLists.txt:4:13"
     assert (
-        hidden(evaluate(found))
+        hidden(evaluate(package))
         == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
     )
 
 
-@pytest.mark.parametrize(("point", "unseen"), [("ament_package", Facet.COMPONENTS), ("ament_lint_auto", Facet(0))])
-def test_components_may_be_registered_by_code_that_ament_package_runs(point: str, unseen: Facet) -> None:
+@pytest.mark.parametrize(("point", "facets"), [("ament_package", Facet.COMPONENTS), ("ament_lint_auto", Facet(0))])
+def test_an_extension_of_ament_package_hides_components(point: str, facets: Facet) -> None:
     script = run(f"ament_register_extension({point} tools hook.cmake)\nament_package()\n")
-    assert hidden(script) == unseen
+    assert hidden(script) == facets
 
 
-def test_code_for_others_may_be_made_by_the_build() -> None:
-    made = "configure_file(a.cmake.in a.cmake @ONLY)\n"
-    script = run(f"{made}ament_package(CONFIG_EXTRAS ${{CMAKE_CURRENT_BINARY_DIR}}/a.cmake gone.cmake)\n", ("a.cmake.in",))
+def test_config_extras_may_be_generated() -> None:
+    configure = "configure_file(a.cmake.in a.cmake @ONLY)\n"
+    script = run(f"{configure}ament_package(CONFIG_EXTRAS ${{CMAKE_CURRENT_BINARY_DIR}}/a.cmake gone.cmake)\n", ("a.cmake.in",))
     assert "share/pkg/cmake/a.cmake" in paths(script)
     assert "share/pkg/cmake/gone.cmake" not in paths(script)
 
 
-def test_media_for_rviz_are_installed_with_their_folders() -> None:
+def test_media_of_rviz_are_installed_with_their_folders() -> None:
     script = run("register_rviz_ogre_media_exports(DIRECTORIES ogre/materials)\n", ("ogre/materials/a.material",))
     assert paths(script) == {
         "share/pkg/ogre/materials/a.material": False,
@@ -191,17 +191,19 @@ def test_media_for_rviz_are_installed_with_their_folders() -> None:
     }
 
 
-@pytest.mark.parametrize("kept", ["", "set(DISTRO $ENV{ROS_DISTRO})\n", "if(1)\nset(DISTRO ros-$ENV{ROS_DISTRO})\nendif()\n"])
-def test_code_for_other_distributions_counts_as_possible(kept: str) -> None:
-    asked = "${DISTRO}" if kept else "$ENV{ROS_DISTRO}"
-    text = f"{kept}if({asked} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
-    found = mentioned(run(text))
-    assert found["cmake", "a"].optional
-    assert not found["cmake", "b"].optional
+@pytest.mark.parametrize(
+    "assignment", ["", "set(DISTRO $ENV{ROS_DISTRO})\n", "if(1)\nset(DISTRO ros-$ENV{ROS_DISTRO})\nendif()\n"]
+)
+def test_branches_for_other_distributions_are_optional(assignment: str) -> None:
+    distribution = "${DISTRO}" if assignment else "$ENV{ROS_DISTRO}"
+    text = f"{assignment}if({distribution} MATCHES humble)\nfind_package(a REQUIRED)\nelse()\nfind_package(b REQUIRED)\nendif()\n"
+    mentions = mentioned(run(text))
+    assert mentions["cmake", "a"].optional
+    assert not mentions["cmake", "b"].optional
 
 
 @pytest.mark.parametrize(
-    ("around", "lost"),
+    ("block", "lost"),
     [
         ("macro(add)\n{}\nendmacro()\nadd()", False),
         ("if(WIN32 OR 1)\n{}\nendif()", False),
@@ -216,40 +218,40 @@ def test_code_for_other_distributions_counts_as_possible(kept: str) -> None:
         ("function(add)\n{}\nament_package()\nendfunction()\nadd()\nreturn()", False),
     ],
 )
-def test_components_are_registered_where_ament_package_sees_them(around: str, lost: bool) -> None:
-    """A function's variables are gone when it ends, those in which rclcpp_components notes its components among them."""
-    script = run(around.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
-    assert [component.lost for component in script.products.components] == [lost]
+def test_components_registered_in_a_function_are_lost_to_ament_package(block: str, lost: bool) -> None:
+    """The variables in which rclcpp_components stores its components end with the function that sets them."""
+    script = run(block.format('rclcpp_components_register_nodes(core "ns::Node")') + "\nament_package()\n")
+    assert [component.unregistered for component in script.products.components] == [lost]
     assert any("/rclcpp_components/" in path for path in paths(script)) is not lost
 
 
-def test_the_name_of_components_until_dashing() -> None:
+def test_the_command_for_components_until_dashing() -> None:
     script = run('add_library(c SHARED c.cpp)\nrclcpp_register_node_plugins(c "pkg::A" "pkg::B")\n', ("c.cpp",))
     assert [component.name for component in script.products.components] == ["pkg::A", "pkg::B"]
 
 
-def test_headers_of_ament_auto_package() -> None:
+def test_ament_auto_package_scopes_headers_since_kilted() -> None:
     text = HEAD + "ament_auto_package({})\n"
-    given = sources(text.format(""), ("include/pkg/a.hpp",))
-    assert "include/pkg/a.hpp" in paths(evaluate(given, "jazzy"))
-    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "kilted"))
-    given = sources(text.format("USE_SCOPED_HEADER_INSTALL_DIR"), ("include/pkg/a.hpp",))
-    assert "include/pkg/pkg/a.hpp" in paths(evaluate(given, "humble"))
+    package = sources(text.format(""), ("include/pkg/a.hpp",))
+    assert "include/pkg/a.hpp" in paths(evaluate(package, "jazzy"))
+    assert "include/pkg/pkg/a.hpp" in paths(evaluate(package, "kilted"))
+    package = sources(text.format("USE_SCOPED_HEADER_INSTALL_DIR"), ("include/pkg/a.hpp",))
+    assert "include/pkg/pkg/a.hpp" in paths(evaluate(package, "humble"))
 
 
-def test_version_header() -> None:
+def test_ament_generate_version_header_installs_a_header() -> None:
     text = "ament_generate_version_header(a)\nament_generate_version_header(b HEADER_PATH b.h INSTALL_PATH include)\n"
     assert paths(run(text)) == {"include/pkg/pkg/version.h": False, "include/b.h": False}
 
 
-def test_what_implementations_of_the_middleware_call_hides_nothing() -> None:
+def test_macros_of_middleware_implementations_hide_nothing() -> None:
     text = 'find_package(rmw)\nregister_rmw_implementation("c:a:b" "cpp:c:d")\nconfigure_rmw_library(a)\n'
-    done = run(text)
-    assert not done.opaque
-    assert paths(done) == {"share/ament_index/resource_index/rmw_typesupport/pkg": False}
+    script = run(text)
+    assert not script.opaque
+    assert paths(script) == {"share/ament_index/resource_index/rmw_typesupport/pkg": False}
 
 
-def test_no_command_minds_that_it_is_given_nothing() -> None:
+def test_no_command_fails_without_arguments() -> None:
     for name in sorted({*HANDLERS, *macros()}):
         if not name.startswith(("ros_lint_", "end", "else")):
             for arguments in ("", "${EMPTY}", "${EMPTY} ${EMPTY}", '""', "a", "a ${EMPTY} b"):
@@ -265,6 +267,6 @@ def test_no_command_minds_that_it_is_given_nothing() -> None:
         ("acme_static_library(a)", Facet.USES | Facet.EXECUTABLES | Facet.LIBRARIES),
     ],
 )
-def test_what_ament_auto_installs_where_unknown_commands_run(command: str, hides: Facet) -> None:
+def test_unknown_commands_hide_targets_of_ament_auto_only_if_they_may_build(command: str, hides: Facet) -> None:
     script = run(f"find_package(ament_cmake_auto REQUIRED)\nfind_package(pk REQUIRED)\n{command}\nament_auto_package()")
     assert hidden(script) == hides

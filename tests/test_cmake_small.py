@@ -1,4 +1,4 @@
-"""Small scripts and projects of CMake, one for each command and test that others leave out, against CMake itself."""
+"""Comparison of small scripts and projects with CMake: commands and tests that the random scripts do not contain."""
 
 from __future__ import annotations
 
@@ -343,13 +343,13 @@ endif()
 
 @needs_cmake
 @pytest.mark.parametrize("concrete", [("", "0", "a"), ("ON", "a", "b;c"), ("0", "1", "")])
-def test_scripts_do_what_they_do_for_cmake(concrete: tuple[str, ...], tmp_path: Path) -> None:
+def test_effects_of_small_scripts_equal_those_of_cmake(concrete: tuple[str, ...], tmp_path: Path) -> None:
     assert CMAKE is not None
     scripts = {number: Script(text, concrete) for number, text in enumerate(SCRIPTS.strip().split("\n\n"))}
     real = really_run(CMAKE, scripts, tmp_path)
     assert len(real) == len(scripts)
     wrong = {script.text: disagreements(evaluated(script), real[number]) for number, script in scripts.items()}
-    assert not {text: found for text, found in wrong.items() if found}
+    assert not {text: differences for text, differences in wrong.items() if differences}
 
 
 # Projects in which A, B and C are set.
@@ -490,27 +490,29 @@ def _configured(text: str, folder: Path) -> dict[str, str]:
         (folder / "src" / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / "src" / path).write_text(content)
     command = [CMAKE, "-Wno-dev", "-S", str(folder / "src"), "-B", str(folder / "build")]
-    subprocess.run(command, capture_output=True, check=False)  # without a compiler it can make nothing of the sources
+    subprocess.run(command, capture_output=True, check=False)  # this fails without a compiler, but the values are written
     return dict(line.split("=", 1) for line in (folder / "out").read_text().splitlines())
 
 
 @needs_cmake
 @pytest.mark.parametrize("text", PROJECTS.strip().split("\n\n"))
-def test_projects_have_the_values_that_they_have_for_cmake(text: str, tmp_path: Path) -> None:
+def test_values_of_small_projects_equal_those_of_cmake(text: str, tmp_path: Path) -> None:
     files = {**FILES, "CMakeLists.txt": _project(text)}
     parsed = {path: parse(Text(path, content)) for path, content in files.items() if not path.startswith(("sub", "x"))}
-    mine = Run(Sources("p", "", sorted(files), parsed), "", {}, lambda run, name, args: None)
+    evaluated_run = Run(Sources("p", "", sorted(files), parsed), "", {}, lambda run, name, args: None)
     cmake_flow.run_file(
-        mine, parsed["CMakeLists.txt"].commands, Frame(True, "CMakeLists.txt", mine.paths.named("CMakeLists.txt"))
+        evaluated_run,
+        parsed["CMakeLists.txt"].commands,
+        Frame(True, "CMakeLists.txt", evaluated_run.paths.absolute("CMakeLists.txt")),
     )
-    known = {name: value or "" for name in "ABC" if (value := mine.get(name)) is None or is_known(value)}
+    known_values = {name: value or "" for name in "ABC" if (value := evaluated_run.get(name)) is None or is_known(value)}
     real = _configured(text, tmp_path)
-    assert known == {name: real.get(name, "") for name in known}
-    assert known
+    assert known_values == {name: real.get(name, "") for name in known_values}
+    assert known_values
 
 
 def _tested(script: BuildScript) -> dict[str, bool]:
-    """Return the packages that are found, and whether that is for tests."""
+    """Return the packages that are searched, each with whether only tests need it."""
     return {name: mention.test for (via, name), mention in mentioned(script).items() if via == "cmake"}
 
 
@@ -525,7 +527,7 @@ def _tested(script: BuildScript) -> dict[str, bool]:
         ('option(BUILD_DOCS "" OFF)\n', "BUILD_DOCS", False, True),
     ],
 )
-def test_what_is_done_for_tests(setting: str, option: str, for_tests: bool, conditional: bool) -> None:
+def test_options_that_enable_tests_are_recognized(setting: str, option: str, for_tests: bool, conditional: bool) -> None:
     script = run(f"{setting}if({option})\nfind_package(other REQUIRED)\nendif()\n")
     assert _tested(script) == {"other": for_tests}
     assert mentioned(script)["cmake", "other"].optional is conditional
@@ -560,11 +562,11 @@ find_package(pkg REQUIRED)
 """
 
 
-def test_what_code_for_others_finds() -> None:
-    """A condition that only asks whether something is there already is none; macros ask when they are called."""
+def test_config_extras_export_the_packages_that_they_find() -> None:
+    """A search is unconditional if its condition only tests whether a target or package exists."""
     script = run("ament_package(CONFIG_EXTRAS cmake/x.cmake)\n", {"cmake/x.cmake": EXTRAS})
-    found = {mention.name: (certain, mention.optional) for mention, certain in script.exports.packages}
-    assert found == {
+    packages = {mention.name: (certain, mention.optional) for mention, certain in script.exports.packages}
+    assert packages == {
         "a": (True, False),
         "b": (True, False),
         "c": (True, False),

@@ -41,16 +41,16 @@ def arguments(text: str) -> list[tuple[str, int]]:
         ("$<IF:$<CONFIG:Debug>,a,b>", [("$<IF:$<CONFIG:Debug>,a,b>", UNQUOTED)]),
     ],
 )
-def test_arguments(text: str, expected: list[tuple[str, int]]) -> None:
+def test_arguments_are_classified_by_kind(text: str, expected: list[tuple[str, int]]) -> None:
     assert arguments(text) == expected
 
 
-def test_names_are_compared_in_lower_case() -> None:
+def test_command_names_are_case_insensitive() -> None:
     (command,) = commands("Find_Package (rclcpp)")
     assert (command.name, command.written) == ("find_package", "Find_Package")
 
 
-def test_places() -> None:
+def test_spans_equal_those_of_the_text() -> None:
     source = Text("CMakeLists.txt", '# café\n  set(a\n    "b\n c" d)\r\nf( [[x\ny]] )\n')
     for newline in ("\n", "\r\n"):
         text = Text(source.path, source.text.replace("\r\n", "\n").replace("\n", newline))
@@ -74,30 +74,30 @@ def test_places() -> None:
         ("f(a)\n<<<<<<< HEAD\n", "'<<<<<<<' is not a valid command name", "<<<<<<<"),
         ('f(a)\n"b"', "a command is expected here", '"b"'),
         ("f(a[[b]])", None, ""),
-        ('f("a"[[b]])', "an argument is not separated from the one before it", "[[b]]"),
-        ("f([[a]]b)", "an argument is not separated from the one before it", "b"),
+        ('f("a"[[b]])', "a space is missing between two arguments", "[[b]]"),
+        ("f([[a]]b)", "a space is missing between two arguments", "b"),
         ("f(\na) g(b)", "a command must start on a new line", "g"),
-        ("f(\0)", "'\\x00' cannot stand here", "\0"),
+        ("f(\0)", "'\\x00' is not allowed here", "\0"),
         ("#[[", "a comment is not closed", "#"),
         ('# see a(b)\n"c', "a string is not closed", '"'),
         ("f #[[a]] # b\n(c)", "'(' is missing after 'f'", "f"),
     ],
 )
-def test_syntax_errors(text: str, message: str | None, place: str) -> None:
+def test_syntax_errors_are_reported_at_their_place(text: str, message: str | None, place: str) -> None:
     source = Text("CMakeLists.txt", text)
     parsed = parse(source)
-    found = [(problem.message, source.slice(problem.span)) for problem in parsed.problems]
-    assert found == ([(message, place)] if message else [])
+    problems = [(problem.message, source.slice(problem.span)) for problem in parsed.problems]
+    assert problems == ([(message, place)] if message else [])
     assert [command.name for command in parsed.commands] == (["f"] if text.startswith(("f(a)", "f(\na)")) or not message else [])
 
 
-def test_templates_may_hold_placeholders() -> None:
+def test_templates_may_contain_placeholders() -> None:
     assert parse(Text("a.cmake.in", "@PACKAGE_INIT@\nset(a @b@)\n")).problems == ()
     assert parse(Text("a.in.cmake", "@PACKAGE_INIT@\nset(a @b@)\n")).problems == ()
     assert parse(Text("a.cmake", "@PACKAGE_INIT@\n")).problems
 
 
-def test_what_marks_unknown_pieces_is_not_taken_from_files() -> None:
+def test_marks_of_unknown_values_are_removed_from_files() -> None:
     (command,) = commands("f(\1a \2)")
     assert [value for value, *_ in command.args] == ["\ufffda", "\ufffd"]
 

@@ -4,13 +4,17 @@ import os
 import re
 import subprocess
 import sys
-from importlib.machinery import ModuleSpec
-from importlib.util import module_from_spec
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from ros_lint.base.tree import MemoryTree
+from ros_lint.engine import edits
 from ros_lint.testing import differences, read_cases
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import TargetDistro
+from tests.packages import manifest_text
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -73,11 +77,15 @@ def test_the_documented_plugin_runs_on_a_workspace(plugin: Path) -> None:
     assert "+  <depend>acme_msgs</depend>" in changed
 
 
+def example(page: str, word: str) -> dict[str, Any]:
+    """Return the names that the Python example with a word defines."""
+    blocks = re.findall(r"^```python\n(.*?)^```$", (DOCS / page).read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    namespace: dict[str, Any] = {"__name__": "example"}
+    exec(compile(next(block for block in blocks if word in block), page, "exec"), namespace)
+    return namespace
+
+
 def test_the_first_example_of_the_page_of_the_api(tmp_path: Path) -> None:
-    text = (DOCS / "api.md").read_text("utf-8")
-    body = text.partition("```python\n")[2].partition("```")[0]
-    module = module_from_spec(ModuleSpec("example", None))
-    exec(compile(body, "example", "exec"), module.__dict__)
     cases = tmp_path / "boost-header.md"
     cases.write_text(
         "## A header of Boost is reported\n\npackage robot (ament_cmake): depend boost\n\n`robot/CMakeLists.txt`\n\n```cmake\n"
@@ -86,4 +94,15 @@ def test_the_first_example_of_the_page_of_the_api(tmp_path: Path) -> None:
         "utf-8",
     )
     (case,) = read_cases(cases)
-    assert list(differences(case, module.__dict__["RULE"])) == []
+    assert list(differences(case, example("api.md", "boost")["RULE"])) == []
+
+
+def test_the_examples_about_launch_files() -> None:
+    node = 'Node(package="a", executable="b")'
+    text = f"from launch_ros.actions import Node\ndef generate_launch_description():\n    return [{node}]\n"
+    tree = MemoryTree({"a/package.xml": manifest_text("a"), "a/a.launch.py": text})
+    ((file,),) = [package.launch for package in Loader(tree, ("",), TargetDistro("jazzy", "test")).load().packages]
+    assert example("writing-a-rule.md", "def executables")["executables"](file) == ["b"]
+    fix = example("writing-a-rule.md", "def set_output")["set_output"](file.actions[0])
+    changed = edits.apply([fix], lambda path: edits.text_of(tree, path))
+    assert 'Node(package="a", executable="b", output="screen")' in changed["a/a.launch.py"]

@@ -254,7 +254,9 @@ def test_harmless_peculiarities_are_valid(data: bytes) -> None:
     assert violations(read("package.xml", data), 3) == ()
 
 
-_MODEL = '<?xml-model href="http://download.ros.org/schema/package_format{}.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>'
+_MODEL = (
+    '<?xml-model href="http://download.ros.org/schema/package_format{}.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>'
+)
 
 
 @pytest.mark.parametrize(

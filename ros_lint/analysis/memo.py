@@ -12,23 +12,23 @@ T = TypeVar("T")
 
 
 def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
-    """Cache the result of a pure function of a workspace, because several rules call it."""
+    """Cache the results of a function of a workspace: a decorator for pure functions that several rules call."""
 
     @wraps(function)
-    def remembering(workspace: Workspace) -> T:
+    def cached_function(workspace: Workspace) -> T:
         if function not in workspace.memo:
             workspace.memo[function] = function(workspace)
         memo: T = workspace.memo[function]
         return memo
 
-    return remembering
+    return cached_function
 
 
 def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[Package, Workspace], T]:
-    """Cache the result of a pure function of a package and its workspace, because several rules call it."""
+    """Cache the results of a function of a package and its workspace: a decorator like cached_by_workspace."""
 
     @wraps(function)
-    def remembering(package: Package, workspace: Workspace) -> T:
+    def cached_function(package: Package, workspace: Workspace) -> T:
         key = (function, id(package))
         cached = workspace.memo.get(key)
         if cached is None:
@@ -37,4 +37,4 @@ def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[
         memo: T = cached[1]
         return memo
 
-    return remembering
+    return cached_function

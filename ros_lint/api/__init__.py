@@ -1,4 +1,4 @@
-"""Everything a rule may import: types of rules, findings and the model, and eight namespaces."""
+"""Everything that a rule may import: types of rules, findings and the model, and namespaces of functions."""
 
 from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace

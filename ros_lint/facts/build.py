@@ -51,8 +51,8 @@ class Component(NamedTuple):
     """True if the registration depends on a condition whose value is unknown."""
     span: Span
     """Place of the registration."""
-    lost: bool = False
-    """True if ament_package() does not see the registration: it is in a function or in a subdirectory."""
+    unregistered: bool = False
+    """True if ament_package() does not register the class, because the call is in a function or a subdirectory."""
 
 
 class PluginClass(NamedTuple):
@@ -61,7 +61,7 @@ class PluginClass(NamedTuple):
     name: str
     """Name by which a loader looks the class up."""
     type: str
-    """C++ type of the class, without blanks and without a leading ``::``, as in the facts of sources."""
+    """C++ type of the class, without blanks and without a leading ``::``, like ``Registration.name``."""
     base: str
     """C++ type of the base class, written like ``type``."""
     span: Span

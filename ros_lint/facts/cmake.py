@@ -46,7 +46,7 @@ class Call(NamedTuple):
     path: str
     """Path of the file, relative to the base of the run."""
     args: tuple[tuple[str, int, int, int], ...]
-    """Arguments as :data:`ros_lint.collectors.cmake.syntax.Argument`: text, kind, start and end offset."""
+    """Arguments: text, kind, start and end offset. Rules use :attr:`texts` and :meth:`span`."""
     start: int
     """Offset of the name in the file."""
     end: int
@@ -60,7 +60,7 @@ class Call(NamedTuple):
     blocks: tuple[str, ...]
     """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro"."""
     test: bool
-    """True if an enclosing condition asks whether tests are built."""
+    """True if an enclosing condition depends on whether tests are built."""
 
     @property
     def texts(self) -> tuple[str, ...]:
@@ -91,5 +91,5 @@ def position(offset: int, start: int, line: int, column: int, breaks: tuple[int,
 
     ``breaks`` are the offsets at which further lines of the text begin.
     """
-    passed = bisect_right(breaks, offset)
-    return (line + passed, offset - breaks[passed - 1] + 1) if passed else (line, column + offset - start)
+    lines = bisect_right(breaks, offset)
+    return (line + lines, offset - breaks[lines - 1] + 1) if lines else (line, column + offset - start)

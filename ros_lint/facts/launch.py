@@ -27,7 +27,7 @@ class LaunchValue(NamedTuple):
     span: Span
     """Place of the text."""
     exact: bool = False
-    """True if ``span`` covers exactly the only text, so that a fix can replace it."""
+    """True if ``span`` covers exactly the only text, without its quotes, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
     """Conditions of a parameter or parameter file; it is passed only if all of them hold."""
 
@@ -58,7 +58,7 @@ class LaunchAction(NamedTuple):
     in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler) or ``other``.
     """
     span: Span
-    """Place of the action: the call in Python, else the element."""
+    """Place of the action: in Python the whole call, in XML and YAML the name of the element."""
     package: LaunchValue | None = None
     """Package of a node or component."""
     package_span: Span | None = None
@@ -103,12 +103,12 @@ class LaunchAction(NamedTuple):
 
     @property
     def has_scope(self) -> bool:
-        """True if settings made inside are restored at the end: a group, unless it is unscoped."""
+        """True if settings inside end with the action: a group, unless it is unscoped."""
         return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 
 ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]
-"""Kind of the thing that a launch file names and starts or reads; "package" is a package alone.
+"""Kind of the thing that a launch file names and starts or reads; "package" is a package without anything in it.
 
 For "program", the package is a rosdep key.
 """

@@ -89,7 +89,7 @@ class Depend(NamedTuple):
     condition: str
     """Text of the attribute ``condition`` (REP 149), "" if absent.
 
-    " " stands for an empty attribute, which fails to parse.
+    " " is an empty attribute, which fails to parse.
     """
     versions: tuple[tuple[str, str], ...]
     """Version attributes, such as ("version_gte", "1.2.0")."""

@@ -96,7 +96,7 @@ class MachinePath(NamedTuple):
     span: Span
     """The place of the path."""
     is_written: bool = False
-    """True if the path is an output: a program opens it for writing, or the variable's name says so."""
+    """True if the path is an output: a program opens it for writing, or the name of the variable implies it."""
     relative_to_file: bool = False
     """True if the reader of the path would resolve a relative path from the folder of the file."""
     parameter_default: bool = False

@@ -51,7 +51,10 @@ class Released(NamedTuple):
     repository: str
     """Name of the repository."""
     depends: Mapping[str, tuple[str, ...]]
-    """Sorted names by letter: the letters of KINDS, ``M`` for its groups, ``G`` for groups it depends on."""
+    """Sorted names by the letter of their tag.
+
+    b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc, M membership of a group, G group.
+    """
 
     @property
     def build_type(self) -> str:

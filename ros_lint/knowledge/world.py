@@ -160,7 +160,7 @@ class World:
         return self._installed.get(name)
 
     def depends(self, name: str, kinds: Iterable[str]) -> tuple[str, ...] | None:
-        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters, see Member."""
+        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters as in Released."""
         member = self._members.get(name)
         if member is not None:
             return tuple(sorted({other for kind in kinds for other in member.depends.get(kind, ())}))

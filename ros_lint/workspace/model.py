@@ -82,7 +82,10 @@ class Package(NamedTuple):
     launch: tuple[LaunchFile, ...]
     """Launch files of the package, also those that are not installed."""
     uses: tuple[Use, ...]
-    """Places in the sources, launch files and build script that need another package."""
+    """Places in the sources, launch files and build script that need another package.
+
+    Launch files that name a package that does not exist are not among them: see ``LaunchFile.references``.
+    """
     textual_mentions: Mapping[str, Span]
     """For declared names without a use: a place where a text of the package contains the name."""
     opaque: tuple[Opaque, ...]

@@ -122,7 +122,7 @@ def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
 
 def _lost(script: BuildScript) -> Iterator[Finding]:
     """Yield one finding for all components that are registered in a scope which ends before ament_package()."""
-    seen = {component.name for component in script.products.components if not component.lost}
+    seen = {component.name for component in script.products.components if not component.unregistered}
     lost = {component.name: component for component in script.products.components if component.name not in seen}
     if not lost:
         return

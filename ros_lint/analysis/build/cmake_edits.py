@@ -98,10 +98,10 @@ def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edi
 
 def exports_targets(name: str, workspace: Workspace) -> bool:
     """Return whether a package is known to export CMake targets, in ``<package>_TARGETS``."""
-    own = workspace.by_name.get(name)
-    if own is None:
+    local_packages = workspace.by_name.get(name)
+    if local_packages is None:
         return workspace.world.exports_targets(name)
-    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.commands.names) for package in own)
+    return all(not _EXPORTS_TARGETS.isdisjoint(package.built.commands.names) for package in local_packages)
 
 
 _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})

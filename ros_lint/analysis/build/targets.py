@@ -141,11 +141,11 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
     for provided in package.built.products.installs:
         if provided.target and provided.path.endswith(endings):
             places.setdefault(provided.target, []).append(provided)
-    own = f"lib/{package.name}/"
+    program_folder = f"lib/{package.name}/"
     return {
         name: files[0]
         for name, files in places.items()
-        if all(place.path.startswith(own) and not (place.conditional or place.test) for place in files)
+        if all(place.path.startswith(program_folder) and not (place.conditional or place.test) for place in files)
     }
 
 

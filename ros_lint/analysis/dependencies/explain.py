@@ -33,9 +33,9 @@ def explain(package: Package, workspace: Workspace, name: str, confidences: Mapp
     for depend in [declared.depend for declared in package.tags(name)]:
         condition = f" if {depend.condition}" if depend.condition else ""
         yield f"{depend.span}: <{depend.tag}>{depend.name}</{depend.tag}>{condition}"
-    silent = (_not_undeclared(package, workspace, name, uses), _not_unused(package, workspace, name, uses))
-    unsure = (_unsure_undeclared(package, workspace, name, uses), _unsure_unused(package, workspace, name))
-    for rule, reason, doubt in zip(RULES, silent, unsure, strict=True):
+    reasons = (_not_undeclared(package, workspace, name, uses), _not_unused(package, workspace, name, uses))
+    doubts = (_unsure_undeclared(package, workspace, name, uses), _unsure_unused(package, workspace, name))
+    for rule, reason, doubt in zip(RULES, reasons, doubts, strict=True):
         if rule not in confidences:
             yield f"{rule}: not reported, because {reason}"
         elif confidences[rule] is Confidence.HIGH:
@@ -81,10 +81,10 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
         return f"'{reported}' is reported instead, and provides the same"
     closure = all_declared(package, workspace)
     starts = [declared.name for declared in package.declared]
-    brought = [next((provider for provider in use.providers if provider in closure), "") for use in _of_itself(name, uses)]
-    if all(brought):
-        way = workspace.world.path(starts, brought[0])
-        return f"a declared dependency provides it: {' -> '.join(way or (brought[0],))}; see rule transitive-dependency"
+    provided = [next((provider for provider in use.providers if provider in closure), "") for use in _of_itself(name, uses)]
+    if all(provided):
+        way = workspace.world.path(starts, provided[0])
+        return f"a declared dependency provides it: {' -> '.join(way or (provided[0],))}; see rule transitive-dependency"
     if only_launched(package, uses):
         return "only launch files use it; see rule launch-outside-closure"
     if way := cycle_through(package, workspace, name):
@@ -96,11 +96,11 @@ def _not_undeclared(package: Package, workspace: Workspace, name: str, uses: lis
 def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: list[Use]) -> str:
     if all(use.optional for use in uses):
         return ", because every use is optional"
-    own = _of_itself(name, uses)
-    if not any(use.certain for use in own):
+    direct_uses = _of_itself(name, uses)
+    if not any(use.certain for use in direct_uses):
         return ", because no use is certain"
     unknown = all_declared(package, workspace).unknown
-    if uses_not_explained_by(unknown, own, workspace):
+    if uses_not_explained_by(unknown, direct_uses, workspace):
         return ""
     return f", because the dependencies of {', '.join(unknown)} are unknown and may include it"
 
@@ -134,10 +134,10 @@ def _not_unused(package: Package, workspace: Workspace, name: str, uses: list[Us
 
 
 def _unsure_unused(package: Package, workspace: Workspace, name: str) -> str:
-    carried = needed_transitively(package, workspace, package.tags(name)).get(name)
-    if carried:
-        where = "" if carried.package == package.name else f" for '{carried.package}'"
-        return f", because only this dependency provides '{carried.name}'{where}"
+    lost = needed_transitively(package, workspace, package.tags(name)).get(name)
+    if lost:
+        where = "" if lost.package == package.name else f" for '{lost.package}'"
+        return f", because only this dependency provides '{lost.name}'{where}"
     return ", because it may be used without being named in the sources" if is_traceless_by_name(workspace.world, name) else ""
 
 

@@ -64,16 +64,16 @@ def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -
 def _lost_here(
     package: Package, workspace: Workspace, remaining: Sequence[Declared], removed: Sequence[Declared]
 ) -> LostProvision | None:
-    bring = workspace.world.closure
-    brought = bring([declared.name for declared in removed])
+    closure_of = workspace.world.closure
+    lost_closure = closure_of([declared.name for declared in removed])
     members = [name for group in package.group_depends for name in workspace.world.group_members(group.name)]
     for role, names in dict.fromkeys((use.role, use.providers) for use in undeclared_uses(package, workspace)):
-        name = next((name for name in names if name in brought), None)
+        name = next((name for name in names if name in lost_closure), None)
         if name is None:
             continue
         wider = role | _BUILD if role & _BUILD else role
         starts = [declared.name for declared in remaining if role is _TEST or declared.role & wider]
-        rest = bring([*starts, *members])
+        rest = closure_of([*starts, *members])
         if not any(provider in rest for provider in names):
             return LostProvision(name, package.name)
     return None

@@ -85,9 +85,11 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
             uses_by_package[use.package] = [use]
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
-    bring = workspace.world.closure
+    closure_of = workspace.world.closure
     only_runs = workspace.world.only_runs
-    result = [need for name, uses in uses_by_package.items() for need in _needs(name, uses, declared, closure, bring, only_runs)]
+    result = [
+        need for name, uses in uses_by_package.items() for need in _needs(name, uses, declared, closure, closure_of, only_runs)
+    ]
     result.sort(key=_place)
     return tuple(result)
 
@@ -103,7 +105,7 @@ def _needs(
     uses: list[Use],
     declared: frozenset[str],
     closure: Closure,
-    bring: Callable[[tuple[str, ...]], Closure],
+    closure_of: Callable[[tuple[str, ...]], Closure],
     only_runs: Callable[[str], bool],
 ) -> Iterator[Need]:
     """Yield the needs that some uses of a name result in. ``uses`` is sorted by place.
@@ -117,13 +119,13 @@ def _needs(
     vendors = (
         []
         if name in declared
-        else [provider for provider in declared if provider.endswith(VENDOR) and name in bring((provider,))]
+        else [provider for provider in declared if provider.endswith(VENDOR) and name in closure_of((provider,))]
     )
     if not vendors and answers.keys() == {(name,)}:  # the common case
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
     matches = {
-        names: [provider for provider in names if provider in declared and _is_meant(provider, names[0], bring)]
+        names: [provider for provider in names if provider in declared and _is_meant(provider, names[0], closure_of)]
         for names in answers
     }
     for names, direct in matches.items():
@@ -131,29 +133,29 @@ def _needs(
     for names in {use.providers for use in uses if use.role & Role.BUILD}:
         if matches[names] and all(map(only_runs, matches[names])) and not only_runs(name):
             matches[names] = []
-    lacking = [
+    unprovided = [
         names
         for names, direct in matches.items()
         if not direct
         and not any(provider in closure and not (provider in declared and only_runs(provider)) for provider in names)
     ]
-    brought = [names for names, direct in matches.items() if not direct and names not in lacking]
+    provided = [names for names, direct in matches.items() if not direct and names not in unprovided]
     if names := tuple(dict.fromkeys([provider for direct in matches.values() for provider in direct])):
-        covered_elsewhere = {*lacking, *brought}
+        covered_elsewhere = {*unprovided, *provided}
         yield Need(name, tuple([use for use in uses if use.providers not in covered_elsewhere]), names, True)
-    if lacking:
-        yield Need(name, tuple([use for use in uses if not names or use.providers in lacking]), (), False)
-    elif brought:
-        yield Need(name, tuple([use for use in uses if use.providers in brought]), (), True)
+    if unprovided:
+        yield Need(name, tuple([use for use in uses if not names or use.providers in unprovided]), (), False)
+    elif provided:
+        yield Need(name, tuple([use for use in uses if use.providers in provided]), (), True)
 
 
-def _is_meant(name: str, best: str, bring: Callable[[tuple[str, ...]], Closure]) -> bool:
+def _is_meant(name: str, best: str, closure_of: Callable[[tuple[str, ...]], Closure]) -> bool:
     """Return whether a declared name satisfies the need by itself and not only by its dependencies.
 
     True for a vendor package of a library, which provides it where the system has none, and for a library with its
     parts.
     """
-    return name == best or best not in bring((name,)) or is_vendor(name, best) or is_part(best, name)
+    return name == best or best not in closure_of((name,)) or is_vendor(name, best) or is_part(best, name)
 
 
 def _rank(use: Use) -> int:

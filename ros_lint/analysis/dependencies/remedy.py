@@ -91,20 +91,20 @@ def _availability(workspace: Workspace, name: str) -> str:
     if world.layer(name) in ("workspace", "underlay"):
         return ""
     knowledge = world.knowledge
-    here = knowledge.rosdep_resolves(name, target.distro)
-    if here and target.explicit:
+    resolves = knowledge.rosdep_resolves(name, target.distro)
+    if resolves and target.explicit:
         return ""
     if not knowledge.covered:
         return f" (there are no data about {target.distro})"
-    there = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
-    without = [distro for distro in knowledge.active if distro not in there]
-    if not there:
+    distros = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
+    without = [distro for distro in knowledge.active if distro not in distros]
+    if not distros:
         return " (no distribution has it)"
-    if not here:
-        return f" (not in {target.distro}, only in {', '.join(there)})"
-    if len(without) < len(there):
+    if not resolves:
+        return f" (not in {target.distro}, only in {', '.join(distros)})"
+    if len(without) < len(distros):
         return f" (not in {', '.join(without)})" if without else ""
-    return f" (only in {', '.join(there)})"
+    return f" (only in {', '.join(distros)})"
 
 
 def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:

@@ -96,8 +96,8 @@ def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:
 
     Test dependencies are not counted, unless the package exports the dependency in its public headers.
     """
-    every = workspace.world.knowledge.index.declared_as(name)
-    declared = {kinds: count for kinds, count in every.items() if kinds != "s" or _has(needed, Role.EXPORT)}
+    counts = workspace.world.knowledge.index.declared_as(name)
+    declared = {kinds: count for kinds, count in counts.items() if kinds != "s" or _has(needed, Role.EXPORT)}
     return 2 * sum(count for kinds, count in declared.items() if "t" in kinds) > sum(declared.values())
 
 

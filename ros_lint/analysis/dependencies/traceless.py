@@ -60,9 +60,9 @@ def _stands_for_others(package: Package, world: World, name: str) -> bool:
     released = world.released(name)
     if released is None or released.repository != name or not _offers_nothing(world, released):
         return False
-    brought = released.on("x")
-    members = {member for member in brought if (released_member := world.released(member)) and released_member.repository == name}
-    return 2 * len(members) > len(brought) and any(use.package in members for use in package.uses)
+    runtime = released.on("x")
+    members = {member for member in runtime if (released_member := world.released(member)) and released_member.repository == name}
+    return 2 * len(members) > len(runtime) and any(use.package in members for use in package.uses)
 
 
 def _offers_nothing(world: World, released: Released) -> bool:

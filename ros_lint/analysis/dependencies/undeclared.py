@@ -112,9 +112,9 @@ def _joined(missing: Sequence[Need]) -> list[Need]:
         for number, earlier in enumerate(result):
             before = all(earlier.name in use.providers for use in need.uses)
             if before or all(need.name in use.providers for use in earlier.uses):
-                kept = earlier if before else need
-                uses = sorted((*earlier.uses, *need.uses), key=lambda use: (_rank(use), not _names(use, kept.name)))
-                result[number] = kept._replace(uses=tuple(uses))
+                best = earlier if before else need
+                uses = sorted((*earlier.uses, *need.uses), key=lambda use: (_rank(use), not _names(use, best.name)))
+                result[number] = best._replace(uses=tuple(uses))
                 break
         else:
             result.append(need)

@@ -105,8 +105,8 @@ def _is_no_package(name: str, workspace: Workspace) -> bool:
     if not may_be_package(name) or name == "ament_python" or workspace.world.group_members(name):
         return True
     names = workspace.world.knowledge.names
-    gone = names.end_of_life(name)
-    if gone:
+    old_distros = names.end_of_life(name)
+    if old_distros:
         ported = name in _found(workspace) and not names.successor(name)
-        return not ported and all(distro.startswith("ROS 1 ") for distro in gone)
+        return not ported and all(distro.startswith("ROS 1 ") for distro in old_distros)
     return workspace.world.meant(name) is not None or resembles_ament_package(name, workspace)

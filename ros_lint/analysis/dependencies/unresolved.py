@@ -123,11 +123,11 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
     package, name = dependency.package, dependency.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]
     near += workspace.world.suggest(name, python=dependency.runs_python)
-    lacking = [undeclared_name for undeclared_name in dict.fromkeys(near) if _is_lacking(package, undeclared_name)]
-    same = [undeclared_name for undeclared_name in lacking if _is_same(undeclared_name, name)]
+    undeclared = [undeclared_name for undeclared_name in dict.fromkeys(near) if _is_lacking(package, undeclared_name)]
+    same = [undeclared_name for undeclared_name in undeclared if _is_same(undeclared_name, name)]
     if len(same) == 1 and name not in _mentioned(package):
         return same[0]
-    return lacking[0] if len(lacking) == 1 and not is_used_in_sources(dependency) else ""
+    return undeclared[0] if len(undeclared) == 1 and not is_used_in_sources(dependency) else ""
 
 
 def is_used_in_sources(dependency: UnresolvedDependency) -> bool:

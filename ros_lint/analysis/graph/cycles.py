@@ -53,26 +53,26 @@ def shortest_cycle(arcs: Mapping[str, Collection[str]]) -> tuple[str, ...]:
 
 def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) -> tuple[str, ...]:
     """Return a shortest cycle of less than ``below`` nodes in which ``start`` is the first name, or ()."""
-    came: dict[str, str] = {}
+    predecessor: dict[str, str] = {}
     level = [start]
     for _ in range(below - 1):
         following: list[str] = []
         for name in level:
             for dependency in sorted(arcs[name]):
                 if dependency == start:
-                    return _way(came, start, name)
-                if dependency > start and dependency not in came:
-                    came[dependency] = name
+                    return _way(predecessor, start, name)
+                if dependency > start and dependency not in predecessor:
+                    predecessor[dependency] = name
                     following.append(dependency)
         level = following
     return ()
 
 
-def _way(came: Mapping[str, str], start: str, end: str) -> tuple[str, ...]:
+def _way(predecessor: Mapping[str, str], start: str, end: str) -> tuple[str, ...]:
     """Return the path from ``start`` to ``end``, both included, from the predecessor of each node."""
     path = [end]
     while path[-1] != start:
-        path.append(came[path[-1]])
+        path.append(predecessor[path[-1]])
     return tuple(reversed(path))
 
 
@@ -168,11 +168,11 @@ def _cut_by_greed(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
     """Order the nodes by their degrees (Eades, Lin and Smyth), then drop needless edges of the cut."""
     cut = set(_against(arcs, _greedy_order(arcs, weight)))
     for edge in sorted(cut, key=lambda edge: (-weight(edge), edge)):
-        kept = cut - {edge}
+        smaller = cut - {edge}
         if is_acyclic(
-            {name: frozenset(dependency for dependency in arcs[name] if (name, dependency) not in kept) for name in arcs}
+            {name: frozenset(dependency for dependency in arcs[name] if (name, dependency) not in smaller) for name in arcs}
         ):
-            cut = kept
+            cut = smaller
     return sorted(cut)
 
 

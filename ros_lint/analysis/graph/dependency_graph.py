@@ -206,11 +206,11 @@ def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
 def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]:
     """Return the nodes that can be reached over at least one edge."""
     result: set[str] = set()
-    todo = [start]
-    while todo:
-        fresh = set(arcs[todo.pop()]) - result
-        result |= fresh
-        todo += fresh
+    waiting = [start]
+    while waiting:
+        new = set(arcs[waiting.pop()]) - result
+        result |= new
+        waiting += new
     return frozenset(result)
 
 

@@ -73,13 +73,15 @@ def _redundant(
     graph: Graph, name: str, knot: Mapping[str, str], below: Mapping[str, int], bits: Mapping[str, int]
 ) -> list[tuple[str, ...]]:
     result = []
-    own = knot[name]
+    component = knot[name]
     for dependency in graph.needs[name]:
         target = knot[dependency]
         leading = [
-            third for third in graph.needs[name] if knot[third] not in (own, target) and _leads(knot[third], target, below, bits)
+            third
+            for third in graph.needs[name]
+            if knot[third] not in (component, target) and _leads(knot[third], target, below, bits)
         ]
-        if target != own and leading:
+        if target != component and leading:
             result.append((name, *_shortest(graph, leading, dependency, _on_the_way(knot, target, below, bits))))
     return result
 
@@ -94,17 +96,17 @@ def _on_the_way(knot: Mapping[str, str], end: str, below: Mapping[str, int], bit
 
 def _shortest(graph: Graph, starts: Collection[str], end: str, useful: Callable[[str], bool]) -> tuple[str, ...]:
     """Return a shortest path from one of the starts to the end."""
-    came = dict.fromkeys(starts, "")
+    predecessor = dict.fromkeys(starts, "")
     level = list(starts)
-    while end not in came:
+    while end not in predecessor:
         following = []
         for name in level:
             for dependency in graph.needs[name]:
-                if dependency not in came and useful(dependency):
-                    came[dependency] = name
+                if dependency not in predecessor and useful(dependency):
+                    predecessor[dependency] = name
                     following.append(dependency)
         level = following
     path = [end]
-    while came[path[-1]]:
-        path.append(came[path[-1]])
+    while predecessor[path[-1]]:
+        path.append(predecessor[path[-1]])
     return tuple(reversed(path))

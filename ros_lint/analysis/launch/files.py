@@ -187,8 +187,8 @@ def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
         for launch in package_launch_files(package):
             for reference in launch.file.references:
                 if reference.kind in ("file", "include") and not reference.optional:
-                    wanted = LookUp(reference.package, reference.name, reference.span)
-                    result.setdefault(wanted.package, []).append(wanted)
+                    look_up = LookUp(reference.package, reference.name, reference.span)
+                    result.setdefault(look_up.package, []).append(look_up)
         for look_up in package.lookups:
             if not is_auxiliary(strip_folder(package.path, look_up.span.path)):
                 result.setdefault(look_up.package, []).append(look_up)

@@ -101,10 +101,10 @@ class IncludeResolver:
         if not is_settled(text):
             return None
         if text.startswith(f"{OWN_FOLDER}/"):
-            own = self._places.get(source.path)
-            if own is None:
+            installed = self._places.get(source.path)
+            if installed is None:
                 return None
-            return own.package.name, resolve(parent(own.path), text[len(OWN_FOLDER) + 1 :])
+            return installed.package.name, resolve(parent(installed.path), text[len(OWN_FOLDER) + 1 :])
         place = installed_place(text)
         return (place.package, place.share) if place is not None and place.share else None
 
@@ -127,10 +127,10 @@ class IncludeResolver:
         done = self._takes.get(file.path)
         if done is not None:
             return done
-        own = self._own(file)
-        known, complete = set(own.known), own.complete
+        record = self._own(file)
+        known, complete = set(record.known), record.complete
         seen = {file.path}
-        waiting = list(own.includes)
+        waiting = list(record.includes)
         while waiting:
             inner = waiting.pop()
             if inner.path not in seen:
@@ -139,7 +139,7 @@ class IncludeResolver:
                 known |= own_of_inner.known
                 complete = complete and own_of_inner.complete
                 waiting += own_of_inner.includes
-        takes = self._takes[file.path] = AcceptedArguments(own.required, frozenset(known), complete)
+        takes = self._takes[file.path] = AcceptedArguments(record.required, frozenset(known), complete)
         return takes
 
     def _own(self, file: LaunchFile) -> _Own:
@@ -157,8 +157,8 @@ class IncludeResolver:
                 inner = self.target(action.target, file)
                 complete = complete and inner is not None
                 includes += [inner.file] if inner is not None else []
-        own = self._owns[file.path] = _Own(dict(_required(file.actions)), known, complete, includes)
-        return own
+        record = self._owns[file.path] = _Own(dict(_required(file.actions)), known, complete, includes)
+        return record
 
 
 def configurations_read(file: LaunchFile) -> set[str]:

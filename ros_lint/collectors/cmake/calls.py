@@ -23,29 +23,29 @@ def collect(path: str, parsed: Parsed) -> Iterator[Call]:
     """
     blocks: list[tuple[str, bool]] = []
     enclosing: tuple[str, ...] = ()
-    test = asked = False
+    test = for_tests = False
     for command in parsed.commands:
         name = command.name
         if name in _OPEN:
-            blocks.append((name, name == "if" and _asks_for_tests(command)))
-            enclosing, asked = _place(blocks)
+            blocks.append((name, name == "if" and _depends_on_tests(command)))
+            enclosing, for_tests = _enclosing(blocks)
         elif name[:3] == "end" and blocks and name[3:] in _OPEN:
             blocks.pop()
-            enclosing, asked = _place(blocks)
+            enclosing, for_tests = _enclosing(blocks)
         elif name in ("else", "elseif") and blocks:
-            blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _asks_for_tests(command)))
-            enclosing, asked = _place(blocks)
+            blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _depends_on_tests(command)))
+            enclosing, for_tests = _enclosing(blocks)
         elif name == "return":
-            test = test or asked  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
+            test = test or for_tests  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
         elif name not in _BLOCK_WORDS:
             _, _, args, start, end, line, column, breaks = command
-            yield Call(name, path, args, start, end, line, column, breaks, enclosing, test or asked)
+            yield Call(name, path, args, start, end, line, column, breaks, enclosing, test or for_tests)
 
 
-def _place(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
-    """Return the names of the enclosing blocks, and whether one of them depends on tests being enabled."""
-    return tuple([block for block, _ in blocks]), any(asked for _, asked in blocks)
+def _enclosing(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
+    """Return the names of the enclosing blocks, and whether one of their conditions depends on tests."""
+    return tuple([block for block, _ in blocks]), any(for_tests for _, for_tests in blocks)
 
 
-def _asks_for_tests(command: Command) -> bool:
+def _depends_on_tests(command: Command) -> bool:
     return any("TEST" in text.upper() or "BENCHMARK" in text.upper() for text, *_ in command.args)

@@ -73,8 +73,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
     ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
-    workspace whose CMake code runs in packages that find them: their own BuildScript has ``extras``. Evaluate the helpers
-    first, each after the helpers that it finds, then the other packages.
+    workspace whose CMake code runs in packages that find them (``exports.config_extras`` of their build script). Evaluate
+    the helpers first, each after the helpers that it finds, then the other packages.
 
     - A condition that cannot be decided: both branches are run. Their products are ``conditional``, their mentions ``optional``.
     - An option has its default value. The effects of the other branch are reported as conditional.
@@ -88,55 +88,57 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     path = join(sources.path, _TOP)
     parsed = sources.scripts.get(_TOP)
     if parsed is None:
-        return BuildScript(path, opaque=(Opaque(ALL_FACETS, "there is no CMakeLists.txt to read", file_start(path)),))
-    frame = Frame(True, path, run.paths.named(_TOP))
+        return BuildScript(path, opaque=(Opaque(ALL_FACETS, "CMakeLists.txt cannot be read", file_start(path)),))
+    frame = Frame(True, path, run.paths.absolute(_TOP))
     try:
-        ended = cmake_flow.run_file(run, parsed.commands, frame)
+        exits = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):
         run.frames[:] = [frame]
         run.characters = MOST_CHARACTERS  # _result() evaluates texts once more
-        run.hide(ALL_FACETS, "the script runs longer than can be followed", frame.command and frame.command.place(path))
+        run.hide(ALL_FACETS, "the script is too large to be evaluated", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]
-        if ended & STOP:
+        if exits & STOP:
             run.hide(ALL_FACETS, "the script stops with an error before its end", frame.command and frame.command.place(path))
     return _result(run, path)
 
 
 def _result(run: Run, path: str) -> BuildScript:
-    provides = [*_installed_files(run), *cmake_install_targets.installed_targets(run)]
-    undefined = _undefined(run)
-    taken = _taken(run) if run.packages.optional_finds else {}
-    problems = [*run.results.problems, *_missing(run), *undefined]
-    nowhere = {problem.span for problem in undefined}  # an undefined target is an error of the script, so it hides nothing
-    opaques = [opaque for opaque in run.results.opaques if opaque.span not in nowhere or not opaque.undefined]
+    installs = [*_installed_files(run), *cmake_install_targets.installed_targets(run)]
+    undefined = _undefined_targets(run)
+    used = _used_packages(run) if run.packages.optional_finds else {}
+    problems = [*run.results.problems, *_missing_files(run), *undefined]
+    undefined_places = {
+        problem.span for problem in undefined
+    }  # an undefined target is an error of the script, so it hides nothing
+    opaques = [opaque for opaque in run.results.opaques if opaque.span not in undefined_places or not opaque.undefined]
     for file, parsed in run.paths.sources.scripts.items():
         if parsed.problems and not (is_template(file) or file in run.results.config_templates):
             problems += parsed.problems
             facets = ALL_FACETS if file == _TOP else ALL_FACETS & ~Facet.INTERFACES
-            opaques += [Opaque(facets, "the file cannot be read to its end", problem.span) for problem in parsed.problems]
+            opaques += [Opaque(facets, "a syntax error hides the rest of the file", problem.span) for problem in parsed.problems]
     calls = tuple(sorted([call for call in run.command_names if not call.startswith("ros_lint_")]))
     return BuildScript(
         path,
         run.results.project,
-        _mentions(run, taken),
+        _mentions(run, used),
         BuildProducts(
             targets=cmake_targets.targets(run),
-            installs=tuple(provides),
+            installs=tuple(installs),
             components=tuple(run.results.components),
             python_packages=tuple(sorted(run.results.python_packages)),
             interfaces=tuple(sorted(run.results.interfaces)),
         ),
-        exports=BuildExports(tuple(run.results.config_extras), tuple(_handed_on(run)), tuple(_exported(run))),
+        exports=BuildExports(tuple(run.results.config_extras), tuple(_exported_packages(run)), tuple(_exported_targets(run))),
         commands=CMakeCommands(calls, insertion=run.results.insertion, insertion_after=run.results.insertion_after),
         cmake=CMakeBuild(
             subdirectories=tuple(run.results.subdirectories),
             test_subdirectories=tuple([folder for folder in run.results.test_subdirectories if folder]),
             bundled_projects=tuple(run.results.bundled_projects),
-            unused_optional_finds=tuple(_untaken(run, taken)),
+            unused_optional_finds=tuple(_unused_finds(run, used)),
             commented_interfaces=tuple([name for parsed in run.paths.sources.scripts.values() for name in parsed.set_aside]),
-            errors=tuple(_refused(run)),
-            interpreted_tests=_runs(run),
+            errors=tuple(_errors(run)),
+            interpreted_tests=_interpreted_tests(run),
             runs_tests=any(map(_RUNS_TESTS.search, calls)),
             includes_outside_package=run.results.includes_outside_package,
             makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
@@ -146,11 +148,13 @@ def _result(run: Run, path: str) -> BuildScript:
     )
 
 
-def _exported(run: Run) -> Iterator[ExportedTarget]:
-    for made in run.results.installed_targets:
-        if made.exported_in and is_known(made.exported_in):
+def _exported_targets(run: Run) -> Iterator[ExportedTarget]:
+    for installed in run.results.installed_targets:
+        if installed.exported_in and is_known(installed.exported_in):
             yield ExportedTarget(
-                made.target, made.exported_in, not made.conditional and made.exported_in in run.results.exported_sets
+                installed.target,
+                installed.exported_in,
+                not installed.conditional and installed.exported_in in run.results.exported_sets,
             )
 
 
@@ -163,7 +167,7 @@ _MAKES_NOTHING: Final = frozenset(
 )  # fmt: skip
 
 
-def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
+def _exported_packages(run: Run) -> Iterator[tuple[Mention, bool]]:
     """Yield the packages that CONFIG_EXTRAS and templates search, with whether the search always runs.
 
     Searches in functions and macros are left out, because they run only when the macro is called.
@@ -175,7 +179,7 @@ def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
             if command.name in ("function", "macro"):
                 blocks.append(None)
             elif command.name in ("if", "foreach", "while", "block"):
-                blocks.append(command.name == "if" and _asks_if_there(words))
+                blocks.append(command.name == "if" and _tests_existence(words))
             elif command.name.startswith("end") and blocks:
                 blocks.pop()
             elif command.name in ("else", "elseif") and blocks:
@@ -187,32 +191,32 @@ def _handed_on(run: Run) -> Iterator[tuple[Mention, bool]]:
                     or words[0] in run.packages.find_modules
                 ):
                     continue
-                needed = "REQUIRED" in words or command.name == "find_dependency"
+                required = "REQUIRED" in words or command.name == "find_dependency"
                 path = join(run.paths.sources.path, file)
-                what = f"{command.name}({words[0]}) for those who find this package"
-                yield Mention(words[0], "cmake", _first(path, command), what, not needed), all(blocks)
+                quotation = f"{command.name}({words[0]}) for dependents of this package"
+                yield Mention(words[0], "cmake", _first_argument(path, command), quotation, not required), all(blocks)
 
 
 _PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
 
 
-def _asks_if_there(words: Sequence[str]) -> bool:
+def _tests_existence(words: Sequence[str]) -> bool:
     """Return whether a condition only tests if a target, a package or a policy already exists."""
     return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
 
 
-def _first(path: str, command: Command) -> Span:
+def _first_argument(path: str, command: Command) -> Span:
     _, _, start, end = command.args[0]
     return command.span(path, start, end)
 
 
-def _runs(run: Run) -> tuple[str, ...] | None:
+def _interpreted_tests(run: Run) -> tuple[str, ...] | None:
     """Return the files that an interpreter runs as tests.
 
     None if these are unknown: no known command runs tests, or an unknown command seems to run some.
     """
-    strange = (call for call in run.command_names if _RUNS_TESTS.search(call) and not _is_known(run, call))
-    if run.command_names.isdisjoint(cmake_ros.RUNNERS) or any(strange):
+    unknown = (call for call in run.command_names if _RUNS_TESTS.search(call) and not _is_known(run, call))
+    if run.command_names.isdisjoint(cmake_ros.RUNNERS) or any(unknown):
         return None
     return tuple(run.results.interpreted_tests)
 
@@ -235,7 +239,7 @@ def _installed_files(run: Run) -> list[InstalledFile]:
     return installed_files
 
 
-def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
+def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
     """Return the mentions. Searches without REQUIRED are classified by the result of :func:`_taken`.
 
     Such a search is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
@@ -249,9 +253,7 @@ def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
         if f"{name}_FOUND" in run.tested_variables
         for span in run.packages.optional_finds[name]
     }
-    tests = {
-        span for name in run.packages.optional_finds if taken.get(folded(name)) for span in run.packages.optional_finds[name]
-    }
+    tests = {span for name in run.packages.optional_finds if used.get(folded(name)) for span in run.packages.optional_finds[name]}
     return tuple(
         [
             mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
@@ -262,36 +264,36 @@ def _mentions(run: Run, taken: Mapping[str, bool]) -> tuple[Mention, ...]:
     )
 
 
-def _taken(run: Run) -> dict[str, bool]:
+def _used_packages(run: Run) -> dict[str, bool]:
     """Return the packages whose targets, variables or macros are used, with whether only tests use it.
 
     The keys are folded names (see :func:`folded`).
     """
-    taken: dict[str, bool] = {}
+    used: dict[str, bool] = {}
     for mention in run.results.mentions:
         if mention.via in ("target", "macro"):
             name = folded(mention.name.partition("::")[0])
-            taken[name] = mention.test and taken.get(name, True)
-    return taken
+            used[name] = mention.test and used.get(name, True)
+    return used
 
 
-def _untaken(run: Run, taken: Mapping[str, bool]) -> Iterator[Span]:
+def _unused_finds(run: Run, used: Mapping[str, bool]) -> Iterator[Span]:
     """Yield the places of find_package() calls without REQUIRED whose package is named nowhere else."""
     if not run.packages.optional_finds:
         return
-    known = {macro.package for macro in macros().values()}
-    for name in _unnamed(run, [name for name in run.packages.optional_finds if folded(name) not in taken]):
-        if not name.startswith("ament_") and (name in known or not _WORKS_BY_BEING_FOUND.search(name)):
+    macro_packages = {macro.package for macro in macros().values()}
+    for name in _unmentioned(run, [name for name in run.packages.optional_finds if folded(name) not in used]):
+        if not name.startswith("ament_") and (name in macro_packages or not _USED_WITHOUT_NAME.search(name)):
             yield from run.packages.optional_finds[name]
 
 
-_WORKS_BY_BEING_FOUND: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
+_USED_WITHOUT_NAME: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
 """Names of packages that a script uses without naming them again.
 
 They provide commands, find modules or settings."""
 
 
-def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
+def _unmentioned(run: Run, names: Iterable[str]) -> list[str]:
     """Return the names that occur in no command of the package except find_package()."""
     candidates = list(names)
     if not candidates:
@@ -302,7 +304,7 @@ def _unnamed(run: Run, names: Iterable[str]) -> list[str]:
     return [name for name in candidates if folded(name) not in text]
 
 
-def _missing(run: Run) -> list[Problem]:
+def _missing_files(run: Run) -> list[Problem]:
     problems = []
     for path, span, unsure in run.results.missing_files:
         source = path.rstrip("/")
@@ -314,7 +316,7 @@ def _missing(run: Run) -> list[Problem]:
     return list(dict.fromkeys(problems))
 
 
-def _undefined(run: Run) -> list[Problem]:
+def _undefined_targets(run: Run) -> list[Problem]:
     if run.any_variable_may_be_set or any(
         opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.results.opaques
     ):
@@ -326,7 +328,7 @@ def _undefined(run: Run) -> list[Problem]:
     ]
 
 
-def _refused(run: Run) -> Iterator[Problem]:
+def _errors(run: Run) -> Iterator[Problem]:
     yield from run.results.errors
     if not run.any_variable_may_be_set and not any(
         opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.results.opaques

@@ -67,11 +67,11 @@ VARIABLES: Final[Mapping[str, str]] = {
 """Variables with the same value in every colcon build on Linux.
 
 - GNUInstallDirs: ``lib``, as on Debian and Ubuntu.
-- PYTHON_INSTALL_DIR: really ``lib/pythonX.Y/site-packages``.
-- PYTHON_MODULE_EXTENSION: really ``.cpython-XY-<machine>.so``.
+- PYTHON_INSTALL_DIR: the real value is ``lib/pythonX.Y/site-packages``.
+- PYTHON_MODULE_EXTENSION: the real value is ``.cpython-XY-<machine>.so``.
 - Folders with a mark: see :mod:`ros_lint.collectors.cmake.evaluator.values`."""
 
-SOFT_VARIABLES: Final = frozenset({
+CONFIGURABLE_VARIABLES: Final = frozenset({
     "ANDROID", "APPLE", "BUILD_SHARED_LIBS", "CMAKE_BUILD_TYPE", "CMAKE_CROSSCOMPILING", "CMAKE_C_COMPILER_ID",
     "CMAKE_COMPILER_IS_GNUCC", "CMAKE_COMPILER_IS_GNUCXX", "CMAKE_CXX_COMPILER_ID", "CMAKE_CXX_STANDARD",
     "CMAKE_C_STANDARD", "CMAKE_HOST_APPLE", "CMAKE_HOST_SYSTEM_NAME", "CMAKE_HOST_UNIX", "CMAKE_HOST_WIN32",
@@ -106,24 +106,24 @@ class Macro(NamedTuple):
 @cache
 def macros() -> Mapping[str, Macro]:
     """Return the known released macros by name in lower case."""
-    found: dict[str, Macro] = {}
+    macros_by_name: dict[str, Macro] = {}
     package = ""
-    for match in _PIECE.finditer(_written()):
+    for match in _PIECE.finditer(_source()):
         if match[4]:
-            found[match[4].lower()] = Macro(package, match[0])
+            macros_by_name[match[4].lower()] = Macro(package, match[0])
         else:
             package = match[1]
-    return found
+    return macros_by_name
 
 
 @cache
 def opaque_packages() -> frozenset[str]:
     """Return the OPAQUE packages: their CMake code cannot be evaluated, but all of their macros are known."""
-    return frozenset([match[1] for match in _PIECE.finditer(_written()) if match[2]])
+    return frozenset([match[1] for match in _PIECE.finditer(_source()) if match[2]])
 
 
 @cache
-def _written() -> str:
+def _source() -> str:
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "ros_macros.cmake"), encoding="utf-8") as file:
         return file.read()
 

@@ -16,12 +16,14 @@
 #   ros_lint_headers(scoped)                 include/ is installed, to include/<package> if scoped or since Kilted
 #   ros_lint_unknown(variables...)           variables have values that cannot be known
 #   ros_lint_of_index(variables...)          likewise, because the values are read from the ament index
-#   ros_lint_extras(files...)                CMake code that runs in packages that find this one
+#   ros_lint_needed(files...)                files without which ament stops with an error
+#   ros_lint_package(arguments...)           ament_package(): files for find_package() are installed
+#   ros_lint_package_xml()                   ament_package_xml(): name and version of package.xml
+#   ros_lint_vendor(target)                  ament_vendor(): an external project is built
 #   ros_lint_test_executable(target ...)     a test program; options of the ament test commands are left out
 #   ros_lint_runs(files or folders...)       files or folders that an interpreter runs as tests
 #   ros_lint_hide(facets "reason")           facets of the package are hidden
 #   ros_lint_exported(sets...)               packages that find this one have the targets of these export sets
-#   ros_lint_end()                           end of the package: ament_package()
 # Sources: the documentation and the code of the packages named below.
 
 package(ament_cmake_core OPAQUE)
@@ -82,7 +84,7 @@ endfunction()
 # The extensions of released packages are included in the macros of this file. Other extensions write to the ament index.
 function(ament_register_extension point package file)
   if(point STREQUAL ament_package)
-    ros_lint_hide(COMPONENTS "what ${file} of ${package} registers is not known")
+    ros_lint_hide(COMPONENTS "the components that ${file} of ${package} registers are unknown")
   endif()
 endfunction()
 
@@ -672,7 +674,7 @@ endfunction()
 
 package(pal_module_cmake)
 macro(pal_register_modules)
-  ros_lint_hide(SHARE "what pal_register_modules() installs is not known")
+  ros_lint_hide(SHARE "the files that pal_register_modules() installs are unknown")
 endmacro()
 
 package(ros_industrial_cmake_boilerplate)
@@ -773,32 +775,32 @@ function(externalproject_get_property project)
 endfunction()
 
 function(qt5_wrap_cpp var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt5_wrap_ui var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt5_add_resources var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt_wrap_cpp var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt_wrap_ui var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt6_wrap_cpp var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt_add_resources var)
-  ros_lint_unknown(made)
-  set(${var} ${${var}} ${made} PARENT_SCOPE)
+  ros_lint_unknown(generated)
+  set(${var} ${${var}} ${generated} PARENT_SCOPE)
 endfunction()
 function(qt5_use_modules)
 endfunction()

@@ -104,10 +104,10 @@ _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 def is_template(path: str) -> bool:
     """Return whether a file is a template by its name: CMake configures another file from it."""
-    return path.endswith((".in", ".in.cmake")) or _OTHER.search(path) is not None
+    return path.endswith((".in", ".in.cmake")) or _OTHER_LANGUAGE.search(path) is not None
 
 
-_OTHER = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|txt|xml|yaml|yml)\.cmake\Z")
+_OTHER_LANGUAGE = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|txt|xml|yaml|yml)\.cmake\Z")
 """Names of templates for files of other languages, such as ``config.h.cmake``."""
 
 
@@ -145,18 +145,18 @@ class _Reader:
         add = self.commands.append
         args: list[Argument] = []
         name = ""
-        begin = end = depth = counted = position = 0
-        last = glued = -1
+        begin = end = depth = counted_to = position = 0
+        last = adjoining = -1
         line, column = 1, 0
         template = is_template(self.source.path)
-        strange = "\r" in text or "\1" in text or "\2" in text or "\3" in text
+        has_marks = "\r" in text or "\1" in text or "\2" in text or "\3" in text
         for match in _TOKEN.finditer(text):
             position = match.end()
             group = match.lastindex
-            if glued >= 0:  # a bracket argument or comment ends at this offset
-                if group not in (None, 2, 8) and text[glued] not in " \t\r\n":
-                    raise _SyntaxError("an argument is not separated from the one before it", glued, position)
-                glued = -1
+            if adjoining >= 0:  # a bracket argument or comment ends at this offset
+                if group not in (None, 2, 8) and text[adjoining] not in " \t\r\n":
+                    raise _SyntaxError("a space is missing between two arguments", adjoining, position)
+                adjoining = -1
             if depth:
                 if group == 1:
                     args.append((match[1], PLAIN, match.start(1), position))
@@ -179,7 +179,7 @@ class _Reader:
                     breaks: tuple[int, ...] = ()
                     if text.find("\n", begin, position) >= 0:
                         breaks = tuple([line_end.end() for line_end in _NEW_LINE.finditer(text, begin, position)])
-                    if strange:
+                    if has_marks:
                         args = [(_cleaned(value), kind, start, stop) for value, kind, start, stop in args]
                     add(Command(name.lower(), name, tuple(args), begin, position, line, column, breaks))
                     name = ""
@@ -193,25 +193,25 @@ class _Reader:
                     start = match.start(4) - 1
                     args.append((value, BRACKET, start, position))
                     if text[start - 1] not in " \t\r\n()":
-                        raise _SyntaxError("an argument is not separated from the one before it", start, position)
-                    glued = position
+                        raise _SyntaxError("a space is missing between two arguments", start, position)
+                    adjoining = position
                 elif group == 6:
-                    glued = position
+                    adjoining = position
                 elif group == 8:
                     raise self._wrong(position - 1)
             elif group == 1 or group == 7:  # noqa: PLR1714  (a tuple test is slower, and this runs for every command)
                 name = match[group]
                 end, begin = position, match.start(group)
-                passed = text.count("\n", counted, begin)
+                new_lines = text.count("\n", counted_to, begin)
                 if last >= 0 and text.find("\n", last, begin) < 0:
                     raise _SyntaxError("a command must start on a new line", begin, end)
                 if not _NAME.match(name):
                     if template and _PLACEHOLDER.match(name):
                         continue
                     raise _SyntaxError(f"'{name}' is not a valid command name", begin, end)
-                line += passed
+                line += new_lines
                 column = begin - text.rfind("\n", 0, begin)
-                counted = begin
+                counted_to = begin
                 following = text[end : end + 1]
                 if following != "(" and not self._opens(end):
                     raise _SyntaxError(f"'(' is missing after '{name}'", begin, end)
@@ -233,13 +233,13 @@ class _Reader:
 
     def _wrong(self, at: int) -> _SyntaxError:
         """Return the error for an offset at which no token begins."""
-        what = self.text[at]
+        letter = self.text[at]
         reasons = {
             '"': "a string is not closed",
             "[": "a bracket argument is not closed",
             "#": "a comment is not closed",
         }
-        return _SyntaxError(reasons.get(what, f"{what!r} cannot stand here"), at, at + 1)
+        return _SyntaxError(reasons.get(letter, f"{letter!r} is not allowed here"), at, at + 1)
 
     def _count_lines(self) -> None:
         """Recount the lines of commands in a file with carriage returns, because Text ends lines at these too."""

@@ -36,10 +36,12 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     for number in in_order:
         parts = packages[number]
         try:
-            if "CMakeLists.txt" in parts.commands and parts.found.type != "ros.ament_python":
-                result[number] = with_files(tree, parts.found, parts.commands, _cmake(tree, parts, distro, helpers, surroundings))
-            elif script := _python(tree, parts.found):
-                result[number] = with_files(tree, parts.found, parts.commands, script)
+            if "CMakeLists.txt" in parts.commands and parts.package.type != "ros.ament_python":
+                result[number] = with_files(
+                    tree, parts.package, parts.commands, _cmake(tree, parts, distro, helpers, surroundings)
+                )
+            elif script := _python(tree, parts.package):
+                result[number] = with_files(tree, parts.package, parts.commands, script)
         except Exception as error:  # a bug in ros-lint for one script must not cost the user the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return result
@@ -50,50 +52,52 @@ def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], su
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
     from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
 
-    seen = sources(tree, parts, surroundings)
-    script = cmake.evaluate(seen, distro, helpers)
-    if script.exports.config_extras and parts.found.name not in opaque_packages():
-        helpers[parts.found.name] = Helper(seen, script)
-    folder = parts.found.path
-    written = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
-    return script._replace(commands=script.commands._replace(calls=tuple(chain.from_iterable(written))))
+    inputs = sources(tree, parts, surroundings)
+    script = cmake.evaluate(inputs, distro, helpers)
+    if script.exports.config_extras and parts.package.name not in opaque_packages():
+        helpers[parts.package.name] = Helper(inputs, script)
+    folder = parts.package.path
+    calls = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
+    return script._replace(commands=script.commands._replace(calls=tuple(chain.from_iterable(calls))))
 
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
-    path = join(parts.found.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
+    path = join(parts.package.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
     return BuildScript(path, opaque=(Opaque(ALL_FACETS, reason, file_start(path), unchecked=True),))
 
 
-def _python(tree: Tree, found: DiscoveredPackage) -> BuildScript | None:
-    if not {"setup.py", "setup.cfg"}.intersection(found.files) or found.type not in ("ros.ament_python", "python"):
+def _python(tree: Tree, package: DiscoveredPackage) -> BuildScript | None:
+    if not {"setup.py", "setup.cfg"}.intersection(package.files) or package.type not in ("ros.ament_python", "python"):
         return None
     from ros_lint.collectors.setup_py import evaluate as setup_py  # noqa: PLC0415
 
-    setup, config, project = texts_read = [text_in(tree, found, file) for file in _PYTHON]
-    script = setup_py.evaluate(found.name, found.path, found.files, setup, config, project, Executables(tree, found))
-    slots = setup_layout.collect(setup, found.name) if setup else ()
+    setup, config, project = texts_read = [text_in(tree, package, file) for file in _PYTHON]
+    script = setup_py.evaluate(package.name, package.path, package.files, setup, config, project, Executables(tree, package))
+    slots = setup_layout.collect(setup, package.name) if setup else ()
     texts = setup_texts.collect(setup) if setup else ()
-    unread = [join(found.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in found.files]
-    opaque = [Opaque(ALL_FACETS, "it cannot be read", file_start(path)) for path in unread]
+    unread = [
+        join(package.path, file) for file, text in zip(_PYTHON, texts_read, strict=True) if not text and file in package.files
+    ]
+    opaque = [Opaque(ALL_FACETS, "the file cannot be read", file_start(path)) for path in unread]
     return script._replace(
         python=script.python._replace(
             editable_lists=slots,
             editable_texts=(*script.python.editable_texts, *texts),
-            entry_point_modules=tuple(_modules(tree, found, script)),
+            entry_point_modules=tuple(_modules(tree, package, script)),
         ),
         opaque=(*script.opaque, *opaque),
     )
 
 
-def _modules(tree: Tree, found: DiscoveredPackage, script: BuildScript) -> Iterator[PythonModule]:
+def _modules(tree: Tree, package: DiscoveredPackage, script: BuildScript) -> Iterator[PythonModule]:
     """Yield the modules of the package that its entry points name."""
-    files = frozenset(found.files)
+    files = frozenset(package.files)
     for name in dict.fromkeys(entry.module for entry in script.products.entry_points):
         stem = name.replace(".", "/")
         ends = (f"{stem}.py", f"{stem}/__init__.py")
         path = next((f"{top}{end}" for end in ends for top in ("", "src/") if f"{top}{end}" in files), None)
-        path = path or next((file for file in found.files if file.endswith(tuple(f"/{end}" for end in ends))), None)
-        text = text_in(tree, found, path) if path else None
+        path = path or next((file for file in package.files if file.endswith(tuple(f"/{end}" for end in ends))), None)
+        text = text_in(tree, package, path) if path else None
         if path and text:
             yield python_names.collect(name, path, text)
 
@@ -111,7 +115,7 @@ def _helps(parts: Parts) -> bool:
 
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
     """Yield the indices of packages whose code runs in others, each after its own dependencies."""
-    remaining = {parts.found.name: number for number, parts in enumerate(packages) if _helps(parts)}
+    remaining = {parts.package.name: number for number, parts in enumerate(packages) if _helps(parts)}
     while remaining:
         ready = [name for name, number in remaining.items() if not _needed(packages[number]) & (remaining.keys() - {name})]
         for name in ready or list(remaining):  # a cycle has no correct order

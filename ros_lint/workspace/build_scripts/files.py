@@ -21,64 +21,69 @@ _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _MOST_RESOURCES = 40
 """Maximum number of resources of a folder: a tree of models has thousands, and one reference suffices."""
-_PAGES = (".md", ".rst", ".txt", ".sh", ".bash")
-_TELLS = (*_PAGES, ".py", ".yaml", ".yml")
+_DOCUMENTS = (".md", ".rst", ".txt", ".sh", ".bash")
+_TEXTS_WITH_COMMANDS = (*_DOCUMENTS, ".py", ".yaml", ".yml")
 """Suffixes of texts that may contain ``ros2 run`` commands."""
 
 _Texts = Sequence[tuple[str, bytes]]
 """Files of a package that can refer to resources: paths in the tree and contents."""
 
 
-def with_files(tree: Tree, found: DiscoveredPackage, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
+def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
     """Return a script with facts of related files: plugin descriptions, scripts, resources.
 
     ``commands`` are its CMake files, by path relative to the package.
     """
-    named = {call.texts[1] for call in script.commands.calls if call.name.startswith("pluginlib_export") and len(call.args) > 1}
-    markup = [file for file in found.files if file.endswith(".xml")]
-    candidates = [file for file in markup if file in named or _PLUGIN_FILE.search(file)]
-    described = (plugin_xml.collect(file, text) for file in candidates if (text := text_in(tree, found, file)))
+    exports = (call for call in script.commands.calls if call.name.startswith("pluginlib_export"))
+    exported = {call.texts[1] for call in exports if len(call.args) > 1}
+    markup = [file for file in package.files if file.endswith(".xml")]
+    candidates = [file for file in markup if file in exported or _PLUGIN_FILE.search(file)]
+    described = (plugin_xml.collect(file, text) for file in candidates if (text := text_in(tree, package, file)))
     plugins = tuple([plugin for plugin in described if plugin])
-    started = (f"lib/{found.name}/", "bin/")
-    sources = dict.fromkeys([p.source for p in script.products.installs if p.source and p.path.startswith(started)])
+    program_folders = (f"lib/{package.name}/", "bin/")
+    sources = dict.fromkeys([p.source for p in script.products.installs if p.source and p.path.startswith(program_folders)])
     folders = {file.rpartition("/")[0] for file in sources}
-    if script.of_cmake and not any(p.source.startswith(f"{found.name}/") for p in script.products.installs):
-        folders.add(found.name)  # a Python package that CMake does not install
-    sources.update(dict.fromkeys(_programs(found.files, folders)))
-    executables = Executables(tree, found)
-    texts = {file: text for file in sources if (text := text_in(tree, found, file))}
+    if script.of_cmake and not any(p.source.startswith(f"{package.name}/") for p in script.products.installs):
+        folders.add(package.name)  # a Python package that CMake does not install
+    sources.update(dict.fromkeys(_programs(package.files, folders)))
+    executables = Executables(tree, package)
+    texts = {file: text for file in sources if (text := text_in(tree, package, file))}
     files = [_script_file(file, text, file in executables) for file, text in texts.items()]
     files = [file._replace(helper=_is_helper(file, texts)) for file in files]
-    files = _with_runs(tree, found, script, files)
-    missing = {} if script.hides(Facet.SHARE) else resource_files.uninstalled_resources(found.files, script.products.installed)
-    if not (plugins or files or missing):
+    files = _with_runs(tree, package, script, files)
+    uninstalled: Mapping[str, Sequence[str]] = {}
+    if not script.hides(Facet.SHARE):
+        uninstalled = resource_files.uninstalled_resources(package.files, script.products.installed)
+    if not (plugins or files or uninstalled):
         return script
-    texts_that_name = contents(tree, found.path, filter(resource_files.may_name, found.files)) if missing else ()
-    every = [(path, data) for path, data in texts_that_name if not (b"<launch" in data and is_of_ros_1(from_bytes(data)))]
-    macros = _source_folders(commands) if missing else None
-    naming = [(path, data) for path, data in every if not (macros and macros.search(data))]
-    in_sources = [data for _, data in every if macros and macros.search(data)]
-    pages = [*contents(tree, found.path, (file for file in found.files if file.endswith(".md")))] if missing else []
+    may_refer = contents(tree, package.path, filter(resource_files.may_name, package.files)) if uninstalled else ()
+    texts_of_ros_2 = [(path, data) for path, data in may_refer if not (b"<launch" in data and is_of_ros_1(from_bytes(data)))]
+    macros = _source_folders(commands) if uninstalled else None
+    referring = [(path, data) for path, data in texts_of_ros_2 if not (macros and macros.search(data))]
+    in_sources = [data for _, data in texts_of_ros_2 if macros and macros.search(data)]
+    pages = [*contents(tree, package.path, (file for file in package.files if file.endswith(".md")))] if uninstalled else []
     build_inputs = (
-        *_inputs(commands, missing, [file.path for file in files]),
-        *_read_in_sources(found, missing, [*naming, *pages]),
-        *(f"{folder}/" for folder in missing if any(b'"/%s/' % to_bytes(folder) in data for data in in_sources)),
+        *_inputs(commands, uninstalled, [file.path for file in files]),
+        *_read_in_sources(package, uninstalled, [*referring, *pages]),
+        *(f"{folder}/" for folder in uninstalled if any(b'"/%s/' % to_bytes(folder) in data for data in in_sources)),
     )
     return script._replace(
-        files=BuildFiles(plugins, tuple(files), tuple(_named(tree, found, missing, naming)), build_inputs),
+        files=BuildFiles(
+            plugins, tuple(files), tuple(_referenced_resources(tree, package, uninstalled, referring)), build_inputs
+        ),
     )
 
 
-def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]], programs: Sequence[str]) -> Iterator[str]:
+def _inputs(scripts: Mapping[str, Parsed], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]) -> Iterator[str]:
     """Yield resources, their folders and programs that are arguments of CMake commands except install()."""
-    if not missing and not programs:
+    if not uninstalled and not programs:
         return
     subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
-    entered = [command.args[0][0] for command in subfolders if command.args]
-    built = (parsed for path, parsed in scripts.items() if _may_be_read(path, entered))
-    commands = (command for parsed in built for command in parsed.commands if command.name != "install")
+    subdirectories = [command.args[0][0] for command in subfolders if command.args]
+    scripts_read = (parsed for path, parsed in scripts.items() if _may_be_read(path, subdirectories))
+    commands = (command for parsed in scripts_read for command in parsed.commands if command.name != "install")
     text = "\n".join([argument[0] for command in commands for argument in command.args])
-    for folder, files in missing.items():
+    for folder, files in uninstalled.items():
         if re.search(rf"(?<![\w.-]){re.escape(folder)}(?:/|$)", text, re.MULTILINE):
             yield f"{folder}/"
         yield from (file for file in files if file.rpartition("/")[2] in text)
@@ -88,32 +93,32 @@ def _inputs(scripts: Mapping[str, Parsed], missing: Mapping[str, Sequence[str]],
 def _source_folders(scripts: Mapping[str, Parsed]) -> re.Pattern[bytes] | None:
     """Return a pattern for macros in code whose value is the source folder, None if CMake defines none."""
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name in _DEFINE)
-    found = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}
-    return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(to_bytes, found)))) if found else None
+    macros = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}
+    return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(to_bytes, macros)))) if macros else None
 
 
 _DEFINE = frozenset({"add_compile_definitions", "add_definitions", "target_compile_definitions"})
 _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
-def _read_in_sources(found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts) -> Iterator[str]:
+def _read_in_sources(package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts) -> Iterator[str]:
     """Yield resource folders that a text names in the sources, as in ``/home/me/src/robot/maps/hall``.
 
     Texts in the folder itself do not count: xacro writes the path of its input into the generated model.
     """
-    if not missing:
+    if not uninstalled:
         return
-    top = found.path.rpartition("/")[2] or found.name
-    folders = b"|".join([re.escape(to_bytes(folder)) for folder in missing])
+    top = package.path.rpartition("/")[2] or package.name
+    folders = b"|".join([re.escape(to_bytes(folder)) for folder in uninstalled])
     place = re.compile(rb"(?<=[\w.~}-])(?<!\bshare)/%s/(%s)(?![\w.-])" % (re.escape(to_bytes(top)), folders))
     part = re.compile(rb"(?<=[\"'])(%s)(?=[\"'])" % folders)
     below = b"/%s/" % to_bytes(top)
-    for path, data in naming:
+    for path, data in referring:
         if below in data:  # the pattern takes a hundred times as long
-            named = {from_bytes(hit[1]) for hit in place.finditer(data)}
-            yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(found.path, folder)}/"))
+            named = {from_bytes(match[1]) for match in place.finditer(data)}
+            yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(package.path, folder)}/"))
         if _OF_SOURCES.search(data) and not path.endswith(".md"):
-            yield from (f"{from_bytes(hit[1])}/" for hit in part.finditer(data) if _is_below_sources(data, hit.start()))
+            yield from (f"{from_bytes(match[1])}/" for match in part.finditer(data) if _is_below_sources(data, match.start()))
 
 
 _OF_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"']")
@@ -125,36 +130,36 @@ def _is_below_sources(data: bytes, start: int) -> bool:
     return _BELOW_SOURCES.search(data, max(start - 200, 0), start) is not None
 
 
-def _may_be_read(path: str, entered: Sequence[str]) -> bool:
+def _may_be_read(path: str, subdirectories: Sequence[str]) -> bool:
     """Return whether a CMake file can be part of the build.
 
     A CMakeLists.txt in a folder without add_subdirectory() cannot.
     """
     folder, _, name = path.rpartition("/")
-    inner = folder.rpartition("/")[2]
-    return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(inner) for text in entered)
+    last_folder = folder.rpartition("/")[2]
+    return name != "CMakeLists.txt" or not folder or any("$" in text or text.endswith(last_folder) for text in subdirectories)
 
 
-def _named(
-    tree: Tree, found: DiscoveredPackage, missing: Mapping[str, Sequence[str]], naming: _Texts
+def _referenced_resources(
+    tree: Tree, package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts
 ) -> Iterator[tuple[str, Span]]:
     """Yield the resources that are not installed and that a text refers to, with the first place."""
     remaining: dict[str, tuple[bytes, bytes]] = {}
-    for file in (file for files in missing.values() for file in files[:_MOST_RESOURCES]):
+    for file in (file for files in uninstalled.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = to_bytes(file).rpartition(b"/")
         remaining[file] = folder.rpartition(b"/")[2], name
     if any(map(_is_picture, remaining)):  # most images are there for the documentation
-        for _, page in contents(tree, found.path, (file for file in found.files if file.endswith(".md"))):
+        for _, page in contents(tree, package.path, (file for file in package.files if file.endswith(".md"))):
             remaining = {file: inner for file, inner in remaining.items() if not (_is_picture(file) and inner[1] in page)}
-    for path, data in naming if remaining else ():
+    for path, data in referring if remaining else ():
         folders = {folder for folder in {folder for folder, _ in remaining.values()} if folder in data}
         for resource, (folder, name) in list(remaining.items()) if folders else ():
-            if folder not in folders or name not in data or join(found.path, resource) == path:
+            if folder not in folders or name not in data or join(package.path, resource) == path:
                 continue
-            hits = resource_files.pattern_of(resource).finditer(data)
-            hit = next((match for match in hits if _looks_up(path, data, resource, match)), None)
-            if hit:
-                yield resource, span_in(path, data, *hit.span(1))
+            matches = resource_files.pattern_of(resource).finditer(data)
+            reference = next((match for match in matches if _looks_up(path, data, resource, match)), None)
+            if reference:
+                yield resource, span_in(path, data, *reference.span(1))
                 del remaining[resource]
         if not remaining:
             return
@@ -165,54 +170,56 @@ _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
 """The quoted path component before another one."""
 
 
-def _looks_up(path: str, data: bytes, resource: str, hit: re.Match[bytes]) -> bool:
+def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> bool:
     """Return whether a text that names a resource may look it up where it would be installed."""
-    if _is_remark(path, data, hit.start(1)):
+    if _is_comment_line(path, data, match.start(1)):
         return False
     if b"share" not in data and _WORKING_FOLDER.search(data):
         return False  # it is looked up in the working directory
-    if _is_below_sources(data, hit.start()):
+    if _is_below_sources(data, match.start()):
         return False
     above = to_bytes(parent(parent(resource)).rpartition("/")[2])
-    before = _BEFORE.search(data, max(hit.start() - 80, 0), hit.start()) if above else None
-    return before is None or before[1] == above
+    previous = _BEFORE.search(data, max(match.start() - 80, 0), match.start()) if above else None
+    return previous is None or previous[1] == above
 
 
-def _with_runs(tree: Tree, found: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
+def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
     """Return the scripts with the places that start them, and with started modules that are not installed.
 
     In a CMake package, only the files among the scripts are candidates. In a Python package, modules are
     candidates, too, because entry points make programs of them.
     """
     if script.of_cmake:
-        kept = script.products.installed
-        lost = [file.path for file in files if file.path not in kept and file.shebang and file.main]
-        run = _run(tree, found, lost, _TELLS) if lost else {}
+        installed = script.products.installed
+        uninstalled = [file.path for file in files if file.path not in installed and file.shebang and file.main]
+        run = _run_places(tree, package, uninstalled, _TEXTS_WITH_COMMANDS) if uninstalled else {}
         return [file._replace(run=run.get(file.path)) for file in files] if run else files
     names = {provided.path.rpartition("/")[2] for provided in script.products.installs if not provided.path.startswith("share/")}
-    named = {entry.module.replace(".", "/") for entry in script.products.entry_points}
-    inside = (file for file in found.files if file.startswith(f"{found.name}/") and file.endswith(".py"))
-    modules = [file for file in inside if file.removesuffix(".py") not in named]
-    lost = [f for f in (*modules, *_programs(found.files, ())) if names.isdisjoint(_called(f)) and not is_auxiliary(f)]
-    run = _run(tree, found, lost, _PAGES) if lost else {}
-    texts = {path: text for path in run if (text := text_in(tree, found, path))}
-    executables = Executables(tree, found)
-    started = [
+    entry_modules = {entry.module.replace(".", "/") for entry in script.products.entry_points}
+    inside = (file for file in package.files if file.startswith(f"{package.name}/") and file.endswith(".py"))
+    modules = [file for file in inside if file.removesuffix(".py") not in entry_modules]
+    uninstalled = [
+        f for f in (*modules, *_programs(package.files, ())) if names.isdisjoint(_program_names(f)) and not is_auxiliary(f)
+    ]
+    run = _run_places(tree, package, uninstalled, _DOCUMENTS) if uninstalled else {}
+    texts = {path: text for path in run if (text := text_in(tree, package, path))}
+    executables = Executables(tree, package)
+    programs = [
         _script_file(path, text, path in executables)._replace(
             run=run[path], main="def main(" in text.text or "__main__" in text.text
         )
         for path, text in texts.items()
     ]
-    return [*(file for file in files if file.path not in texts), *started]
+    return [*(file for file in files if file.path not in texts), *programs]
 
 
-def _called(program: str) -> tuple[str, str]:
+def _program_names(program: str) -> tuple[str, str]:
     """Return the names by which a program may be started: with and without suffix."""
     name = program.rpartition("/")[2]
     return name, name.removesuffix(".py")
 
 
-def _run(tree: Tree, found: DiscoveredPackage, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
+def _run_places(tree: Tree, package: DiscoveredPackage, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
     """Return the places with ``ros2 run`` for programs, by path: in scripts and documentation pages.
 
     The suffix is optional because install() can rename a program. The README files of the folders above are
@@ -221,17 +228,17 @@ def _run(tree: Tree, found: DiscoveredPackage, programs: Sequence[str], endings:
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
     words = b"|".join([re.escape(to_bytes(name)) for name in names])
-    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(to_bytes(found.name)), words))
-    above = [join(folder, "README.md") for folder in (*folders_of(found.path), "")] if found.path else []
-    texts = [file for file in found.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
+    command = re.compile(rb"\bros2 run +%s +(%s)(?![\w-]|\.\w)" % (re.escape(to_bytes(package.name)), words))
+    above = [join(folder, "README.md") for folder in (*folders_of(package.path), "")] if package.path else []
+    texts = [file for file in package.files if file.endswith(endings) and not file.startswith("CHANGELOG")]
     places: dict[str, Span] = {}
-    for path, data in (*contents(tree, found.path, texts), *contents(tree, "", above)):
-        for hit in command.finditer(data) if b"ros2 run" in data else ():
-            places.setdefault(names[from_bytes(hit[1])], span_in(path, data, *hit.span(1)))
+    for path, data in (*contents(tree, package.path, texts), *contents(tree, "", above)):
+        for match in command.finditer(data) if b"ros2 run" in data else ():
+            places.setdefault(names[from_bytes(match[1])], span_in(path, data, *match.span(1)))
     return places
 
 
-def _is_remark(file: str, data: bytes, start: int) -> bool:
+def _is_comment_line(file: str, data: bytes, start: int) -> bool:
     """Return whether a place is in a line that is a comment as a whole."""
     mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
     return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
@@ -270,26 +277,26 @@ def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
     return ScriptFile(path, shebang, bool(shebang) and first.endswith("\r\n"), main, executable)
 
 
-def text_in(tree: Tree, found: DiscoveredPackage, file: str) -> Text | None:
+def text_in(tree: Tree, package: DiscoveredPackage, file: str) -> Text | None:
     """Return the text of a file of a package, None if it is missing or unreadable."""
-    return text_of(tree, join(found.path, file)) if file in found.files else None
+    return text_of(tree, join(package.path, file)) if file in package.files else None
 
 
 class Executables(Set[str]):
-    """Files of a package, and around it, with the executable bit. Each look-up asks the file system."""
+    """Files with the executable bit in a package and outside of it. Each look-up reads the file system."""
 
-    def __init__(self, tree: Tree, found: DiscoveredPackage) -> None:
+    def __init__(self, tree: Tree, package: DiscoveredPackage) -> None:
         self._tree = tree
-        self._found = found
+        self._package = package
 
     def __contains__(self, file: object) -> bool:
         try:
-            return self._tree.stamp(resolve(self._found.path, str(file))).executable
+            return self._tree.stamp(resolve(self._package.path, str(file))).executable
         except OSError:
             return False
 
     def __iter__(self) -> Iterator[str]:
-        return (file for file in self._found.files if file in self)
+        return (file for file in self._package.files if file in self)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)

@@ -35,13 +35,13 @@ def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[
     ``files`` are the files of the package, ``sources`` the installed ones; both are relative to it.
     """
     # Few folders have many files, so each folder is examined once.
-    used = {parent(source) for source in sources}
-    occupied = used.union(*[folders_of(folder) for folder in used])
-    found: dict[str, list[str]] = {}
+    source_folders = {parent(source) for source in sources}
+    occupied = source_folders.union(*[folders_of(folder) for folder in source_folders])
+    resources: dict[str, list[str]] = {}
     for file in files:
-        top, _, rest = file.partition("/")
+        top, _, below = file.partition("/")
         top = top.lower()
-        if not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))) or not rest:
+        if not (top in _FOLDERS or (top == "launch" and file.endswith(".launch"))) or not below:
             continue
         if not (_FILES.search(file) or file.endswith(".launch")) or file.endswith("/CMakeLists.txt") or is_auxiliary(file):
             continue
@@ -49,8 +49,8 @@ def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[
             continue
         free = [folder for folder in folders_of(file) if folder not in occupied]
         if free:
-            found.setdefault(free[-1], []).append(file)
-    return found
+            resources.setdefault(free[-1], []).append(file)
+    return resources
 
 
 _MAY_NAME = (
@@ -72,6 +72,6 @@ def pattern_of(file: str) -> re.Pattern[bytes]:
     installation.
     """
     folder, _, name = file.rpartition("/")
-    inner = folder.rpartition("/")[2]
-    words = (re.escape(to_bytes(inner)), re.escape(to_bytes(name)))
+    last_folder = folder.rpartition("/")[2]
+    words = (re.escape(to_bytes(last_folder)), re.escape(to_bytes(name)))
     return re.compile(rb"(?<![\w-])(?<![\w.~-]/)%s[\"'/, \t\r\n)(]{1,24}(%s)(?![\w-])" % words)

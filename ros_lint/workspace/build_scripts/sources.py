@@ -1,7 +1,4 @@
-"""The view of the tree for the evaluation of CMake scripts.
-
-It contains the files of a package, and the files around it that a script names.
-"""
+"""The input for the evaluation of CMake scripts: files of a package, and files outside of it that a script names."""
 
 from __future__ import annotations
 
@@ -27,7 +24,7 @@ Scripts rarely install more, but such a folder may be anything.
 class Parts(NamedTuple):
     """A package with the inputs of the evaluation of its scripts."""
 
-    found: DiscoveredPackage
+    package: DiscoveredPackage
     commands: Mapping[str, Parsed]
     """CMake files by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
@@ -35,10 +32,10 @@ class Parts(NamedTuple):
 
 
 class Surroundings:
-    """A tree as the scripts of its packages see it; :class:`OutsideTree` documents the methods.
+    """The files that scripts of a package can read outside of the package; :class:`OutsideTree` documents the methods.
 
-    Targets of links that lead out of the tree are not visible. For a package that is reached by a link nothing
-    around it is visible, because ``..`` then depends on the path.
+    Targets of links that lead out of the tree are not visible. For a package behind a link, no file outside
+    of it is visible, because ``..`` then depends on the path.
     """
 
     def __init__(self, tree: Tree) -> None:
@@ -55,8 +52,8 @@ class Surroundings:
 
     def kind(self, path: str) -> str:
         folder, _, name = path.rpartition("/")
-        entry = self._listed(folder).get(name)
-        if not path or (entry is not None and entry.kind == "directory" and self._listed(path)):
+        entry = self._entries_of(folder).get(name)
+        if not path or (entry is not None and entry.kind == "directory" and self._entries_of(path)):
             return "directory"
         return "file" if entry is not None and entry.kind == "file" else ""
 
@@ -72,7 +69,7 @@ class Surroundings:
             self._scripts[path] = parse(text) if text is not None else None
         return self._scripts[path]
 
-    def _listed(self, folder: str) -> Mapping[str, Entry]:
+    def _entries_of(self, folder: str) -> Mapping[str, Entry]:
         """Return the entries of a folder by name; empty if it is unreadable or not part of the tree."""
         if folder not in self._entries:
             self._entries[folder] = {}
@@ -83,59 +80,59 @@ class Surroundings:
 
     def _gathered(self, folder: str) -> list[str]:
         """Return the files below a folder as CMake copies and globs them: without following links to folders."""
-        found: list[str] = []
-        todo = [folder]
-        seen = 0
-        while todo:
-            place = todo.pop()
-            entries = self._listed(place).values()
-            seen += len(entries)
-            if seen > _MOST_ENTRIES:
+        files: list[str] = []
+        pending = [folder]
+        count = 0
+        while pending:
+            place = pending.pop()
+            entries = self._entries_of(place).values()
+            count += len(entries)
+            if count > _MOST_ENTRIES:
                 return []
-            found += [join(place, entry.name) for entry in entries if entry.kind == "file"]
-            todo += [join(place, entry.name) for entry in entries if entry.kind == "directory" and not entry.link]
-        return found
+            files += [join(place, entry.name) for entry in entries if entry.kind == "file"]
+            pending += [join(place, entry.name) for entry in entries if entry.kind == "directory" and not entry.link]
+        return files
 
 
 def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
     """Return the inputs for the scripts of a package; ``surroundings`` is shared by all packages of the tree."""
-    found, depends = parts.found, parts.depends
-    built = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
-    version = found.manifest.version if found.manifest else ""
-    executables = Executables(tree, found)
-    unseen = tuple(skipped.path for skipped in found.unvisited)
-    config = text_in(tree, found, "setup.cfg")
+    package, depends = parts.package, parts.depends
+    build_depends = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
+    version = package.manifest.version if package.manifest else ""
+    executables = Executables(tree, package)
+    unlisted_folders = tuple(skipped.path for skipped in package.unvisited)
+    config = text_in(tree, package, "setup.cfg")
     texts = {"setup.cfg": config.text} if config else {}
     return Sources(
-        found.name,
-        found.path,
-        found.files,
-        _Scripts(tree, found, parts.commands),
+        package.name,
+        package.path,
+        package.files,
+        _Scripts(tree, package, parts.commands),
         executables,
         version,
-        built,
+        build_depends,
         depends.get("s", ()),
-        unseen,
+        unlisted_folders,
         texts,
-        partial(_look, found, surroundings),
-        surroundings.of(found.path),
+        partial(_list_unlisted, package, surroundings),
+        surroundings.of(package.path),
     )
 
 
 class _Scripts(Mapping[str, Parsed]):
     """The CMake files of a package. Files without a CMake name are parsed when they are requested."""
 
-    def __init__(self, tree: Tree, found: DiscoveredPackage, parsed: Mapping[str, Parsed]) -> None:
+    def __init__(self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, Parsed]) -> None:
         self._tree = tree
-        self._found = found
+        self._package = package
         self._parsed = dict(parsed)
 
     def __contains__(self, path: object) -> bool:
-        return path in self._parsed or path in self._found.files
+        return path in self._parsed or path in self._package.files
 
     def __getitem__(self, path: str) -> Parsed:
         if path not in self._parsed:
-            text = text_in(self._tree, self._found, path)
+            text = text_in(self._tree, self._package, path)
             if text is None:
                 raise KeyError(path)
             self._parsed[path] = parse(text)
@@ -148,8 +145,8 @@ class _Scripts(Mapping[str, Parsed]):
         return len(self._parsed)
 
 
-def _look(found: DiscoveredPackage, surroundings: Surroundings, folder: str) -> list[str]:
+def _list_unlisted(package: DiscoveredPackage, surroundings: Surroundings, folder: str) -> list[str]:
     """Return the files below a skipped folder of a package; empty if not all are visible."""
-    if any(skipped.path == folder and skipped.link for skipped in found.unvisited):
+    if any(skipped.path == folder and skipped.link for skipped in package.unvisited):
         return []
-    return [strip_folder(found.path, file) for file in surroundings.below(join(found.path, folder))]
+    return [strip_folder(package.path, file) for file in surroundings.below(join(package.path, folder))]

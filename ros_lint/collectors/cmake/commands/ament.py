@@ -16,7 +16,7 @@ from ros_lint.collectors.cmake.evaluator.arguments import sections
 from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import Properties
-from ros_lint.collectors.cmake.evaluator.values import FILE, HOLE, MAYBE, elements, is_known, sure
+from ros_lint.collectors.cmake.evaluator.values import FILE, HOLE, MAYBE, elements, is_known, strip_mark
 from ros_lint.facts.build import Component, InstalledFile
 from ros_lint.facts.sources import Purpose
 from ros_lint.facts.visibility import ALL_FACETS, Facet
@@ -37,9 +37,9 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
     macro = released(name)
     if macro is not None:
         provider = macro.procedure.provider
-        if provider and run.at_home():
+        if provider and run.runs_own_code():
             purpose: Purpose = "interfaces" if name == _GENERATES else ""
-            run.mention(provider, "macro", run.here(), f"{name}()", purpose=purpose)
+            run.add_mention(provider, "macro", run.current_place(), f"{name}()", purpose=purpose)
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command
@@ -52,7 +52,7 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
             hidden = ALL_FACETS
         elif _is_given_data(run, args):
             hidden |= Facet.SHARE
-    run.hide(hidden, f"what {name}() does is not known")
+    run.hide(hidden, f"the effects of {name}() are unknown")
     return None
 
 
@@ -61,7 +61,7 @@ def _is_given_data(run: Run, args: list[str]) -> bool:
 
     The command probably installs such a folder.
     """
-    words = frozenset([plain for arg in args if is_known(plain := sure(arg)[0])])
+    words = frozenset([plain for arg in args if is_known(plain := strip_mark(arg)[0])])
     below = [file for file in run.paths.files if not words.isdisjoint(_folders(file))]
     return bool(below) and not any(file.endswith(SOURCES) for file in below)
 
@@ -75,18 +75,18 @@ def _folders(file: str) -> list[str]:
 def _component(run: Run, args: list[str]) -> None:
     """``ros_lint_component(class...)``: classes that a component container can load."""
     for arg in args:
-        name, certain = sure(arg)
+        name, certain = strip_mark(arg)
         if not is_known(name):
-            run.hide(Facet.COMPONENTS, "the class of a component is not known")
+            run.hide(Facet.COMPONENTS, "the class of a component is unknown")
         elif not run.muted:
-            run.results.components.append(Component(name, run.conditional or run.testing or not certain, run.where(arg)))
+            run.results.components.append(Component(name, run.conditional or run.testing or not certain, run.place_of(arg)))
             run.component_scopes.append(run.scopes[-1])
 
 
 def _exported(run: Run, args: list[str]) -> None:
     """``ros_lint_exported(sets...)``: packages that find this one have the targets of these export sets."""
     if not (run.muted or run.conditional or run.testing):
-        run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(sure, args) if certain]))
+        run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(strip_mark, args) if certain]))
 
 
 def _interfaces(run: Run, args: list[str]) -> None:
@@ -94,65 +94,65 @@ def _interfaces(run: Run, args: list[str]) -> None:
     project = run.get("PROJECT_NAME") or ""
     package = project if is_known(project) else run.paths.sources.name or run.results.project.name
     for arg in args[1:]:
-        plain, certain = sure(arg)
+        plain, certain = strip_mark(arg)
         path = plain.rpartition(":")[2] if ":" in plain else plain
         folder, name = posixpath.split(path)
         stem, dot, suffix = name.rpartition(".")
         kind = posixpath.basename(folder) or suffix
         if not is_known(f"{kind}{stem}") or not dot:
-            run.hide(Facet.INTERFACES, "an interface file is not known")
+            run.hide(Facet.INTERFACES, "the name of an interface file is unknown")
             continue
         if run.muted:
             continue
         run.results.interfaces[f"{suffix if suffix != 'idl' else kind}/{stem}"] = None
-        span = run.where(arg)
+        span = run.place_of(arg)
         source = run.paths.source(plain.replace(":", "/") if ":" in plain else plain)
         conditional = run.conditional or run.testing or not certain
         if source is not None and source not in run.paths.files:
             run.results.missing_files.append((source, span, conditional))
         if args[0] == "install":
-            written = source if source is not None and source not in run.paths.generated else ""
+            source_path = source if source is not None and source not in run.paths.generated else ""
             # rosidl_adapter writes a generated .idl file to the folder of its kind (msg, srv, action)
-            places = [(folder, "idl", written)] if suffix == "idl" else [(kind, suffix, written), (suffix, "idl", "")]
-            for place, end, made in places:
+            places = [(folder, "idl", source_path)] if suffix == "idl" else [(kind, suffix, source_path), (suffix, "idl", "")]
+            for place, end, installed_source in places:
                 run.results.installed.append(
-                    InstalledFile(f"share/{package}/{place}/{stem}.{end}", made, False, conditional, span)
+                    InstalledFile(f"share/{package}/{place}/{stem}.{end}", installed_source, False, conditional, span)
                 )
     if not run.muted and len(args) > 1:
         run.results.python_packages[package] = None
     elif not run.any_variable_may_be_set:
-        run.problem("no-interfaces", f"{_GENERATES}() is called without interface files", run.here(), package)
+        run.add_problem("no-interfaces", f"{_GENERATES}() is called without interface files", run.current_place(), package)
 
 
 def _python(run: Run, args: list[str]) -> None:
     """``ros_lint_python(module folder)``: an importable package or module is installed."""
     if args and not is_known(args[0]):
-        run.hide(Facet.PYTHON, "the name of a Python package is not known")
+        run.hide(Facet.PYTHON, "the name of a Python package is unknown")
         return
     if run.muted or not args:
         return
     name = args[0].replace("/", ".")
     run.results.python_packages[name] = None
-    folder = run.paths.reached(args[1]) if len(args) > 1 else None
-    if folder is None or (is_outside(folder) and not run.paths.below(folder)):
-        if len(args) > 1 and (HOLE in args[1] or run.paths.leads_out(args[1])):
-            run.hide(Facet.PYTHON, "the folder of a Python package is not known")
+    folder = run.paths.source_or_outside(args[1]) if len(args) > 1 else None
+    if folder is None or (is_outside(folder) and not run.paths.files_below(folder)):
+        if len(args) > 1 and (HOLE in args[1] or run.paths.is_outside_source(args[1])):
+            run.hide(Facet.PYTHON, "the folder of a Python package is unknown")
         return
-    span = run.where(args[0])
+    span = run.place_of(args[0])
     base = run.get("PYTHON_INSTALL_DIR") or ""
     skip = len(folder) + 1 if folder else 0
     conditional = run.conditional or run.testing
-    more = unlisted(run, folder, Facet.PYTHON, span) if run.paths.sources.unseen else []
-    files = (*run.paths.below(folder), *more)
+    unlisted_files = unlisted(run, folder, Facet.PYTHON, span) if run.paths.sources.unlisted_folders else []
+    files = (*run.paths.files_below(folder), *unlisted_files)
     run.charge(FILE * len(files))
     for file in files:
         if file.endswith(".py"):
-            inner = posixpath.dirname(file[skip:])
-            if inner:
-                run.results.python_packages[f"{name}.{inner.replace('/', '.')}"] = None
+            subfolder = posixpath.dirname(file[skip:])
+            if subfolder:
+                run.results.python_packages[f"{name}.{subfolder.replace('/', '.')}"] = None
         path = join_path(join_path(base, args[0]), file[skip:])
         if is_known(path) and not file.endswith((".pyc", ".pyo")):
-            run.results.installed.append(InstalledFile(path, run.paths.listed(file), False, conditional, span))
+            run.results.installed.append(InstalledFile(path, run.paths.normalized(file), False, conditional, span))
 
 
 def _scripts(run: Run, args: list[str]) -> None:
@@ -165,7 +165,7 @@ def _scripts(run: Run, args: list[str]) -> None:
         return
     for name in console_scripts(text):
         run.results.installed.append(
-            InstalledFile(join_path(destination, name), "", True, run.conditional or run.testing, run.here())
+            InstalledFile(join_path(destination, name), "", True, run.conditional or run.testing, run.current_place())
         )
 
 
@@ -187,7 +187,7 @@ def _provide(run: Run, args: list[str]) -> None:
     path = run.paths.destination(args[0])
     if path is not None and not run.muted:
         program = "program" in args[1:]
-        run.results.installed.append(InstalledFile(path, "", program, run.conditional or run.testing, run.here()))
+        run.results.installed.append(InstalledFile(path, "", program, run.conditional or run.testing, run.current_place()))
 
 
 def _headers(run: Run, args: list[str]) -> None:
@@ -205,7 +205,7 @@ def _package(run: Run, args: list[str]) -> None:
     if run.muted:
         return
     name = run.get("PROJECT_NAME") or ""
-    span = run.here()
+    span = run.current_place()
     conditional = run.conditional or run.testing
     parts = sections(args, dict.fromkeys(_EXTRAS, -1)) if args else {}
     for word in _EXTRAS:
@@ -213,14 +213,17 @@ def _package(run: Run, args: list[str]) -> None:
         if files:
             _extras(run, name, files, conditional)
     if is_known(name):
-        found = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.paths.files else []
-        found += [(f"share/ament_index/resource_index/packages/{name}", ""), (f"share/{name}/cmake/{name}Config.cmake", "")]
-        run.results.installed += [InstalledFile(path, source, False, conditional, span) for path, source in found]
+        package_files = [(f"share/{name}/package.xml", "package.xml")] if "package.xml" in run.paths.files else []
+        package_files += [
+            (f"share/ament_index/resource_index/packages/{name}", ""),
+            (f"share/{name}/cmake/{name}Config.cmake", ""),
+        ]
+        run.results.installed += [InstalledFile(path, source, False, conditional, span) for path, source in package_files]
     if run.component_scopes and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
         for number, scope in enumerate(run.component_scopes):
-            if not any(scope is seen for seen in run.scopes):
-                run.results.components[number] = run.results.components[number]._replace(lost=True)
-        if all(component.lost for component in run.results.components):
+            if not any(scope is visible for visible in run.scopes):
+                run.results.components[number] = run.results.components[number]._replace(unregistered=True)
+        if all(component.unregistered for component in run.results.components):
             run.results.installed[:] = [
                 provided for provided in run.results.installed if not provided.path.startswith(_COMPONENT_INDEX)
             ]
@@ -238,13 +241,13 @@ _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 def _needed(run: Run, args: list[str]) -> None:
     """``ros_lint_needed(files...)``: files without which ament stops with an error (assert_file_exists)."""
     for arg in args:
-        plain, certain = sure(arg)
-        path, span = run.paths.source(plain), run.where(arg)
+        plain, certain = strip_mark(arg)
+        path, span = run.paths.source(plain), run.place_of(arg)
         # The path is relative to the file with the call, which is the current directory only for a CMakeLists.txt.
         if (
             path
             and path not in run.paths.files
-            and not (run.muted or run.paths.is_unseen(path))
+            and not (run.muted or run.paths.is_unlisted(path))
             and span.path.endswith("CMakeLists.txt")
         ):
             run.results.missing_files.append((path, span, run.conditional or run.testing or not certain))
@@ -253,18 +256,19 @@ def _needed(run: Run, args: list[str]) -> None:
 def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
     _needed(run, files)
     for file in files:
-        plain, certain = sure(file)
+        plain, certain = strip_mark(file)
         path = run.paths.source(plain)
         source = next(
             (candidate for candidate in (path, f"{path}.in") if path is not None and candidate in run.paths.files), None
         )
-        written = posixpath.basename(source or plain)
+        file_name = posixpath.basename(source or plain)
         if source is not None:
             run.results.config_extras.append(source)
-        elif path is not None or not is_known(written):
+        elif path is not None or not is_known(file_name):
             continue
-        installed = f"share/{name}/cmake/{written.removesuffix('.in')}"
-        run.results.installed.append(InstalledFile(installed, source or "", False, conditional or not certain, run.where(file)))
+        install_path = f"share/{name}/cmake/{file_name.removesuffix('.in')}"
+        span = run.place_of(file)
+        run.results.installed.append(InstalledFile(install_path, source or "", False, conditional or not certain, span))
 
 
 def _end(run: Run) -> None:
@@ -283,11 +287,11 @@ def _end(run: Run) -> None:
     ):
         run.results.insertion = frame.command.place(frame.path).start()
         commands = run.paths.sources.scripts["CMakeLists.txt"].commands
-        before = next((earlier for earlier, later in pairwise(commands) if later.start == frame.command.start), None)
-        if before is not None:
-            lines = frame.command.line - before.line - len(before.breaks)
-            if lines > 1 and frame.command.start - before.end in (lines, 2 * lines):  # LF or CRLF
-                run.results.insertion_after = before.span(frame.path, before.end, before.end)
+        previous = next((earlier for earlier, later in pairwise(commands) if later.start == frame.command.start), None)
+        if previous is not None:
+            lines = frame.command.line - previous.line - len(previous.breaks)
+            if lines > 1 and frame.command.start - previous.end in (lines, 2 * lines):  # LF or CRLF
+                run.results.insertion_after = previous.span(frame.path, previous.end, previous.end)
 
 
 def _unknown(run: Run, args: list[str]) -> None:
@@ -297,7 +301,7 @@ def _unknown(run: Run, args: list[str]) -> None:
             run.set(arg, HOLE)
 
 
-def _of_index(run: Run, args: list[str]) -> None:
+def _index_variables(run: Run, args: list[str]) -> None:
     """``ros_lint_of_index(variable)``: the value of a variable is read from the ament index."""
     _unknown(run, args)
     run.index_variables.update(args)
@@ -331,13 +335,13 @@ def _vendor(run: Run, args: list[str]) -> None:
     """``ros_lint_vendor(target ...)``: ament_vendor() builds and installs an external project below opt/."""
     if args:
         run.put(run.targets, args[0], Properties(KIND="other"))
-    run.hide(Facet.USES | Facet.LIBRARIES, "what ament_vendor() builds comes from elsewhere")
+    run.hide(Facet.USES | Facet.LIBRARIES, "ament_vendor() builds an external project")
 
 
 def _tests(run: Run, args: list[str]) -> None:
     """``ros_lint_runs(paths...)`` and ``add_test()``: files or folders that an interpreter runs as tests."""
     for arg in args:
-        path = run.paths.source(sure(arg)[0])
+        path = run.paths.source(strip_mark(arg)[0])
         if path is None and HOLE in arg:
             run.results.interpreted_tests[""] = None
         elif path in run.paths.files or (path and run.paths.is_folder(path)):
@@ -364,7 +368,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "ros_lint_needed": _needed,
     "ros_lint_package": _package,
     "ros_lint_unknown": _unknown,
-    "ros_lint_of_index": _of_index,
+    "ros_lint_of_index": _index_variables,
     "ros_lint_package_xml": _package_xml,
     "ros_lint_test_executable": _test_executable,
     "ros_lint_vendor": _vendor,

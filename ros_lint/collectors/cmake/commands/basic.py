@@ -7,7 +7,7 @@ import re
 from typing import Final
 
 from ros_lint.base.text import Text
-from ros_lint.collectors.cmake.commands.ros2_run import started
+from ros_lint.collectors.cmake.commands.ros2_run import note_started_programs
 from ros_lint.collectors.cmake.evaluator.arguments import parse_keywords
 from ros_lint.collectors.cmake.evaluator.flow import run_file, run_named
 from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Handler, Run
@@ -17,12 +17,12 @@ from ros_lint.collectors.cmake.evaluator.values import (
     HOLE,
     MAYBE,
     SLOW,
+    cached_short,
     certainly_set,
     elements,
     is_fixed,
     is_known,
     join,
-    kept,
     merge,
     natural,
     split,
@@ -48,40 +48,40 @@ def _set(run: Run, args: list[str]) -> None:
             _set_cache(run, name, join(args[1:at]), args[at + 1], args[-1] == "FORCE")
             return
     if args[-1] == "PARENT_SCOPE":
-        run.set_outer(name, join(args[1:-1]) if len(args) > 2 else None)
+        run.set_parent(name, join(args[1:-1]) if len(args) > 2 else None)
         return
     value = join(args[1:])
-    if len(run.scopes) == 1 and (run.testing or name in run.for_tests or name in run.gained):
-        _note_switch(run, name, value)
-        run.note_gained(name, split(value))
+    if len(run.scopes) == 1 and (run.testing or name in run.test_switches or name in run.test_elements):
+        _note_test_switch(run, name, value)
+        run.note_test_elements(name, split(value))
     command = run.frames[-1].command
     if run.distro and run.distro in value and command and any("$ENV{ROS_DISTRO}" in text for text, *_ in command.args):
         run.settable.add(name)  # the user may change ROS_DISTRO, and with it this variable
     run.set(name, value)
-    run.remember(1)
+    run.note_literals(1)
 
 
-def _note_switch(run: Run, name: str, value: str) -> None:
+def _note_test_switch(run: Run, name: str, value: str) -> None:
     """Record a variable that becomes true only if tests are enabled."""
     if is_off(value):
         return
-    before = run.get(name)
+    value_before = run.get(name)
     if not run.testing:
-        run.for_tests.pop(name, None)
-    elif before is None or is_off(before):
-        run.for_tests[name] = value
+        run.test_switches.pop(name, None)
+    elif value_before is None or is_off(value_before):
+        run.test_switches[name] = value
 
 
 def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
-    new = name not in run.cache
+    is_new = name not in run.cache
     if kind in ("PATH", "FILEPATH"):
         value = _path(value)
     if kind != "INTERNAL" and not force:
         run.settable.add(name)
-    if not new and not force and kind != "INTERNAL" and not certainly_set(run.cache[name]):
+    if not is_new and not force and kind != "INTERNAL" and not certainly_set(run.cache[name]):
         run.put(run.cache, name, merge([run.cache[name], value]))
         run.set(name, HOLE)
-    elif new or force or kind == "INTERNAL":
+    elif is_new or force or kind == "INTERNAL":
         run.put(run.cache, name, value)
         if run.policy_version < (3, 21):  # policy CMP0126
             run.set(name, None)
@@ -89,8 +89,8 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
 
 def _path(value: str) -> str:
     """Return a path as the cache stores it, HOLE if its normalization is not modelled."""
-    odd = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
-    return HOLE if odd else value.rstrip("/") or value
+    not_modelled = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
+    return HOLE if not_modelled else value.rstrip("/") or value
 
 
 def _unset(run: Run, args: list[str]) -> None:
@@ -101,7 +101,7 @@ def _unset(run: Run, args: list[str]) -> None:
     elif "CACHE" in args[1:]:
         run.remove(run.cache, args[0])
     elif "PARENT_SCOPE" in args[1:]:
-        run.set_outer(args[0], None)
+        run.set_parent(args[0], None)
     else:
         run.set(args[0], None)
 
@@ -155,25 +155,25 @@ def _continue(_run: Run, _args: list[str]) -> int:
 
 def _minimum(run: Run, args: list[str]) -> None:
     if "VERSION" in args[:-1]:
-        _policies(run, args[args.index("VERSION") + 1])
+        _set_policy_version(run, args[args.index("VERSION") + 1])
 
 
 def _policy(run: Run, args: list[str]) -> None:
     if args[:1] == ["VERSION"] and len(args) > 1:
-        _policies(run, args[1])
+        _set_policy_version(run, args[1])
     elif args[:1] == ["GET"] and len(args) > 2:
         run.set(args[2], HOLE)
 
 
-def _policies(run: Run, wanted: str) -> None:
-    run.policy_version = _version(wanted) or run.policy_version
+def _set_policy_version(run: Run, version: str) -> None:
+    run.policy_version = _version(version) or run.policy_version
 
 
-@kept(256)
-def _version(wanted: str) -> tuple[int, int] | None:
+@cached_short(256)
+def _version(text: str) -> tuple[int, int] | None:
     """Return the version up to which policies have their NEW behaviour, given ``3.5`` or ``3.5...3.20``."""
-    match = re.match(r"([0-9]+)(?:\.([0-9]+))?", wanted.rpartition("...")[2])
-    if match is None or not is_known(wanted):
+    match = re.match(r"([0-9]+)(?:\.([0-9]+))?", text.rpartition("...")[2])
+    if match is None or not is_known(text):
         return None
     major, minor = natural(match[1]), natural(match[2] or "0")
     return None if major is None or minor is None else (major, minor)
@@ -188,15 +188,15 @@ def _project(run: Run, args: list[str]) -> None:
     if run.paths.directory and is_known(name):
         run.results.bundled_projects[name] = None
     if top:
-        project = BuildProject(name, run.where(args[0])) if name and is_known(name) else BuildProject()
+        project = BuildProject(name, run.place_of(args[0])) if name and is_known(name) else BuildProject()
         if is_known(number) and number:
-            run.results.project = project._replace(version=number, version_span=run.where(number))
+            run.results.project = project._replace(version=number, version_span=run.place_of(number))
         else:
-            before = run.results.project
-            run.results.project = project._replace(version=before.version, version_span=before.version_span)
+            previous = run.results.project
+            run.results.project = project._replace(version=previous.version, version_span=previous.version_span)
         run.set("CMAKE_PROJECT_NAME", name)
-        run.places["CMAKE_INSTALL_DOCDIR"] = f"share/doc/{name}"
-    folder, build = run.places["CMAKE_CURRENT_SOURCE_DIR"], run.places["CMAKE_CURRENT_BINARY_DIR"]
+        run.path_variables["CMAKE_INSTALL_DOCDIR"] = f"share/doc/{name}"
+    folder, build = run.path_variables["CMAKE_CURRENT_SOURCE_DIR"], run.path_variables["CMAKE_CURRENT_BINARY_DIR"]
     values: dict[str, str | None] = {
         "PROJECT_NAME": name,
         "PROJECT_SOURCE_DIR": folder,
@@ -217,23 +217,23 @@ def _project(run: Run, args: list[str]) -> None:
 def _parse_arguments(run: Run, args: list[str]) -> None:
     """``cmake_parse_arguments(prefix options one multi args...)`` and its PARSE_ARGV form."""
     if args[:1] == ["PARSE_ARGV"]:
-        prefix, options, ones, multis = (*args[2:6], "", "", "", "")[:4]
-        rest = _rest_of_call(run, args[1])
-        if rest is None:  # the arguments are unknown, so any keyword may be among them
-            run.set_all(dict.fromkeys(parse_keywords(prefix, options, ones, multis, ()), HOLE))
+        prefix, options, singles, multis = (*args[2:6], "", "", "", "")[:4]
+        call_arguments = _rest_of_call(run, args[1])
+        if call_arguments is None:  # the arguments are unknown, so any keyword may be among them
+            run.set_all(dict.fromkeys(parse_keywords(prefix, options, singles, multis, ()), HOLE))
             return
-        arguments = [arg.replace(";", "\\;") for arg in rest]
+        arguments = [arg.replace(";", "\\;") for arg in call_arguments]
     else:
-        prefix, options, ones, multis = (*args[:4], "", "", "", "")[:4]
+        prefix, options, singles, multis = (*args[:4], "", "", "", "")[:4]
         arguments = args[4:]
         if ";" in "".join(arguments):
             arguments = [element for arg in arguments for element in split(arg)]
         elif "" in arguments:
             arguments = [arg for arg in arguments if arg]
-    if not is_known(f"{prefix}{options}{ones}{multis}"):
+    if not is_known(f"{prefix}{options}{singles}{multis}"):
         return
-    run.charge(len(prefix) * sum(names.count(";") for names in (options, ones, multis)))
-    run.set_all(parse_keywords(prefix, options, ones, multis, arguments))
+    run.charge(len(prefix) * sum(names.count(";") for names in (options, singles, multis)))
+    run.set_all(parse_keywords(prefix, options, singles, multis, arguments))
 
 
 def _rest_of_call(run: Run, first: str) -> list[str] | None:
@@ -243,15 +243,15 @@ def _rest_of_call(run: Run, first: str) -> list[str] | None:
         return None
     if end is not None:
         return [run.get(f"ARGV{index}") or "" for index in range(begin, end)] if end <= MOST_STEPS else None
-    firm: list[str] = []
-    while (arg := run.get(f"ARGV{len(firm)}")) and not _NOT_ONE.search(arg):
-        firm.append(arg)
-    if begin > len(firm):
+    certain: list[str] = []
+    while (arg := run.get(f"ARGV{len(certain)}")) and not _NOT_SINGLE.search(arg):
+        certain.append(arg)
+    if begin > len(certain):
         return None
-    return [*firm[begin:], *elements(run.get("ARGV") or HOLE)[len(firm) :]]
+    return [*certain[begin:], *elements(run.get("ARGV") or HOLE)[len(certain) :]]
 
 
-_NOT_ONE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
+_NOT_SINGLE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
 """Characters of values that may be no argument or several arguments, or that a list does not preserve."""
 
 
@@ -267,7 +267,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
         run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-        run.hide(ALL_FACETS, f"what cmake_language({mode}) runs is not known")
+        run.hide(ALL_FACETS, f"the commands that cmake_language({mode}) runs are unknown")
     elif len(args) > 1:
         run.set(args[-1], HOLE)
     return None
@@ -282,7 +282,7 @@ def _folder_sources(run: Run, args: list[str]) -> None:
         run.set(args[1], HOLE)
         return
     skip = len(folder) + 1 if folder else 0
-    files = run.paths.below(folder)
+    files = run.paths.files_below(folder)
     run.charge(SLOW * len(files))
     names = [file[skip:] for file in files if "/" not in file[skip:]]
     sources = [
@@ -299,7 +299,7 @@ def _execute_process(run: Run, args: list[str]) -> None:
     folder = run.paths.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
     if folder and run.paths.is_folder(folder) and not run.muted:
         run.results.bundled_projects[posixpath.basename(folder)] = None
-    started(run, args)
+    note_started_programs(run, args)
     for keyword in ("RESULT_VARIABLE", "OUTPUT_VARIABLE", "ERROR_VARIABLE", "RESULTS_VARIABLE"):
         for index in range(len(args) - 1):
             if args[index] == keyword:

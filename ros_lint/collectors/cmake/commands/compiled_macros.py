@@ -14,11 +14,11 @@ from typing import Final, NamedTuple
 from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator.arguments import parse_keywords
 from ros_lint.collectors.cmake.evaluator.blocks import Body, Definition, If, blocks
-from ros_lint.collectors.cmake.evaluator.definitions import counts
+from ros_lint.collectors.cmake.evaluator.definitions import reads_argument_variables
 from ros_lint.collectors.cmake.evaluator.expansion import Template, expand, template
-from ros_lint.collectors.cmake.evaluator.flow import HANDLERS, call, perhaps, run_named
+from ros_lint.collectors.cmake.evaluator.flow import HANDLERS, call, run_conditionally, run_named
 from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
-from ros_lint.collectors.cmake.evaluator.state import NEXT, STOP, TESTS, USUAL, BudgetError, Exit, Frame, Procedure
+from ros_lint.collectors.cmake.evaluator.state import BY_DEFAULT, IF_TESTING, NEXT, STOP, BudgetError, Exit, Frame, Procedure
 from ros_lint.collectors.cmake.evaluator.values import join, split
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED, Command, parse
@@ -61,7 +61,9 @@ def released(name: str) -> Released | None:
     assert isinstance(node, Definition)
     _, *parameters = [argument[0] for argument in node.command.args]
     is_macro = node.command.name == "macro"
-    procedure = Procedure(name, is_macro, tuple(parameters), node.body, False, "", "", macro.package, counts(node.body))
+    procedure = Procedure(
+        name, is_macro, tuple(parameters), node.body, False, "", "", macro.package, reads_argument_variables(node.body)
+    )
     keywords, body = _split_keywords(node.body)
     steps = tuple(_steps(body, keywords[0] if keywords else "", ())) if is_macro else (None,)
     compiled = None if None in steps else tuple(step for step in steps if step is not None)
@@ -71,9 +73,9 @@ def released(name: str) -> Released | None:
 def _direct(body: Body, parameters: Sequence[str]) -> tuple[str, list[str]] | None:
     if len(body) == 1 and isinstance(only := body[0], Command) and only.name.startswith("ros_lint_"):
         words = [argument[0] for argument in only.args]
-        handed = [f"${{{parameter}}}" for parameter in (*parameters, "ARGN")]
-        first = len(words) - len(handed)
-        if words[first:] == handed and not any("$" in word for word in words[:first]):
+        forwarded = [f"${{{parameter}}}" for parameter in (*parameters, "ARGN")]
+        first = len(words) - len(forwarded)
+        if words[first:] == forwarded and not any("$" in word for word in words[:first]):
             return only.name, words[:first]
     return None
 
@@ -95,11 +97,11 @@ def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step |
             yield node.name, tuple([_argument(text, kind) for text, kind, _, _ in node.args]), conditions
         elif isinstance(node, If) and len(node.branches) <= 2 and node.branches[-1][0] in (None, node.command):
             words = [argument[0] for argument in node.command.args]
-            name, wanted = words[-1], words[0] != "NOT"
-            if len(words) != 2 - wanted or not (name == _TESTS or (prefix and name.startswith(f"{prefix}_"))):
+            name, expected = words[-1], words[0] != "NOT"
+            if len(words) != 2 - expected or not (name == _TESTS or (prefix and name.startswith(f"{prefix}_"))):
                 yield None
-            for (_, inner), value in zip(node.branches, (wanted, not wanted), strict=False):
-                yield from _steps(inner, prefix, (*conditions, (name, value)))
+            for (_, branch_body), value in zip(node.branches, (expected, not expected), strict=False):
+                yield from _steps(branch_body, prefix, (*conditions, (name, value)))
         else:
             yield None
 
@@ -141,56 +143,56 @@ def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], 
     if run.steps > MOST_STEPS:
         raise BudgetError
     for index in range(start, len(steps)):
-        name, wanted, conditions = steps[index]
+        name, arguments, conditions = steps[index]
         tests = False
         if conditions:
-            if not all(_holds(values, *condition) for condition in conditions):
+            if not all(_is_met(values, *condition) for condition in conditions):
                 continue
             tests = not run.testing and (_TESTS, True) in conditions
-        args = _evaluated(run, wanted, values)
+        args = _evaluate(run, arguments, values)
         if tests:
             run.testing = True
         try:
             handler = HANDLERS.get(name)
             if handler is None or name in run.procedures:
-                ended = run_named(run, name, args)
+                exits = run_named(run, name, args)
             else:
                 run.command_names.add(name)
-                ended = handler(run, args) or NEXT
+                exits = handler(run, args) or NEXT
         finally:
             if tests:
                 run.testing = False
-        if ended == NEXT or ended == NEXT | STOP:
+        if exits == NEXT or exits == NEXT | STOP:
             continue
-        if not ended & NEXT:
-            return ended
+        if not exits & NEXT:
+            return exits
         run.steps -= len(steps) - index - 1  # _run_steps() counts the rest again
-        rest, changes = perhaps(run, partial(_run_steps, run, steps, values, index + 1), ended)
-        run.join([{}, changes], 1 if ended & USUAL else None)
-        return (ended & ~(NEXT | USUAL | TESTS)) | rest
+        rest, changes = run_conditionally(run, partial(_run_steps, run, steps, values, index + 1), exits)
+        run.join([{}, changes], 1 if exits & BY_DEFAULT else None)
+        return (exits & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
     return NEXT
 
 
-def _holds(values: dict[str, str | None], name: str, wanted: bool) -> bool:
-    return wanted == (name == _TESTS or values.get(name) not in (None, "", "FALSE"))
+def _is_met(values: dict[str, str | None], name: str, expected: bool) -> bool:
+    return expected == (name == _TESTS or values.get(name) not in (None, "", "FALSE"))
 
 
-def _evaluated(run: Run, wanted: Sequence[str | _Reference], values: dict[str, str | None]) -> list[str]:
-    found: list[str] = []
+def _evaluate(run: Run, arguments: Sequence[str | _Reference], values: dict[str, str | None]) -> list[str]:
+    values_of_arguments: list[str] = []
     value: str | None
-    for arg in wanted:
+    for arg in arguments:
         if isinstance(arg, str):
-            found.append(arg)
+            values_of_arguments.append(arg)
             continue
         name, parts, quoted = arg
         if name:
             value = values[name] if name in values else run.get(name)
         else:
-            value = expand(parts, lambda name, where: values[name] or "" if name in values else run.lookup(name, where))
+            value = expand(parts, lambda name, space: values[name] or "" if name in values else run.lookup(name, space))
         if quoted:
-            found.append(value or "")
+            values_of_arguments.append(value or "")
         elif value and ";" in value:
-            found += split(value)
+            values_of_arguments += split(value)
         elif value:
-            found.append(value)
-    return found
+            values_of_arguments.append(value)
+    return values_of_arguments

@@ -22,19 +22,19 @@ def _declare(run: Run, args: list[str]) -> None:
     Scripts may use the project under names that are derived from its address.
     """
     if args and is_known(args[0]):
-        run.fetched_projects[args[0].lower()] = _called(args)
+        run.fetched_projects[args[0].lower()] = _names_from_address(args)
 
 
-def _called(args: list[str]) -> list[str]:
+def _names_from_address(args: list[str]) -> list[str]:
     """Return the possible names of a project, taken from the address of its repository."""
-    found = (_ADDRESS.search(arg) for arg in args if is_known(arg))
-    places = [(place[1], place[2]) for place in found if place]
-    return [name for owner, own in places for name in (own, f"{owner}_{own}", f"{owner}/{own}")]
+    matches = (_ADDRESS.search(arg) for arg in args if is_known(arg))
+    places = [(place[1], place[2]) for place in matches if place]
+    return [name for owner, repository in places for name in (repository, f"{owner}_{repository}", f"{owner}/{repository}")]
 
 
 def _add(run: Run, args: list[str]) -> None:
     """``externalproject_add(name options...)``, which builds an external project."""
-    _from_elsewhere(run, [*args[:1], *_called(args)], args)
+    _add_external_projects(run, [*args[:1], *_names_from_address(args)], args)
 
 
 def _populate(run: Run, args: list[str]) -> None:
@@ -49,15 +49,15 @@ def _make_available(run: Run, args: list[str]) -> None:
 
 def _fetch(run: Run, projects: list[str], args: list[str]) -> None:
     names = [name for name in projects if is_known(name)]
-    called = [alias for name in names for alias in run.fetched_projects.get(name.lower(), ())]
-    _from_elsewhere(run, [*names, *called], args)
+    aliases = [alias for name in names for alias in run.fetched_projects.get(name.lower(), ())]
+    _add_external_projects(run, [*names, *aliases], args)
     for name in names:
         run.set(f"{name.lower()}_SOURCE_DIR", HOLE)
         run.set(f"{name.lower()}_BINARY_DIR", HOLE)
         run.set(f"{name.lower()}_POPULATED", "TRUE")
 
 
-def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
+def _add_external_projects(run: Run, names: list[str], args: list[str]) -> None:
     """Record external projects.
 
     These install to lib/<package> or share/<package> only if an argument names such a folder.
@@ -68,9 +68,9 @@ def _from_elsewhere(run: Run, names: list[str], args: list[str]) -> None:
     hidden = Facet.USES | Facet.LIBRARIES
     if any(PREFIX in arg or "lib/" in arg or "share/" in arg for arg in args):
         hidden |= Facet.EXECUTABLES | Facet.SHARE
-    # The project has its own sources, unless SOURCE_DIR says that they are in the package.
+    # The project has its own sources, unless SOURCE_DIR is a folder of the package.
     inside = "" if "SOURCE_DIR" in args else _FETCHED
-    run.hide(hidden, "what a project from elsewhere builds and installs is not in sight", inside=inside)
+    run.hide(hidden, "the targets and files of an external project are unknown", inside=inside)
 
 
 COMMANDS: Final[dict[str, Handler]] = {

@@ -10,8 +10,8 @@ from typing import Final
 from ros_lint.base.paths import is_outside, strip_folder
 from ros_lint.base.text import octets, to_bytes
 from ros_lint.collectors.cmake.commands.basic import nothing
-from ros_lint.collectors.cmake.commands.targets import generate
-from ros_lint.collectors.cmake.evaluator.glob import of_paths
+from ros_lint.collectors.cmake.commands.targets import note_generated
+from ros_lint.collectors.cmake.evaluator.glob import path_pattern
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.truth import TRUE_WORDS
 from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, SLOW, TREE, is_fixed, is_known, join
@@ -24,12 +24,12 @@ def _file(run: Run, args: list[str]) -> None:
     elif mode in ("WRITE", "APPEND", "TOUCH", "GENERATE", "CONFIGURE", "TOUCH_NOCREATE"):
         outputs = args[1:2] if mode not in ("GENERATE", "CONFIGURE") else args[args.index("OUTPUT") + 1 :][:1]
         for output in outputs:
-            generate(run, output)
+            note_generated(run, output)
     elif mode == "MAKE_DIRECTORY":
-        for made in args[1:]:
-            generate(run, made, folder=True)
+        for folder in args[1:]:
+            note_generated(run, folder, folder=True)
     elif mode in ("COPY_FILE", "RENAME", "CREATE_LINK") and len(args) > 2:
-        generate(run, args[2])
+        note_generated(run, args[2])
         if mode == "RENAME" and not run.uncertain_conditions:
             run.paths.generated.discard(run.paths.source(args[1]) or "")
     elif mode == "COPY" and "DESTINATION" in args[:-1]:
@@ -37,7 +37,7 @@ def _file(run: Run, args: list[str]) -> None:
         _copy(run, args[1:at], args[at + 1])
     elif mode in ("DOWNLOAD", "UPLOAD"):
         if mode == "DOWNLOAD":
-            generate(run, args[2] if len(args) > 2 else "")
+            note_generated(run, args[2] if len(args) > 2 else "")
         for word, variable in pairwise(args):
             if word in ("STATUS", "LOG"):
                 run.set(variable, HOLE)
@@ -47,7 +47,7 @@ def _file(run: Run, args: list[str]) -> None:
         run.set(args[2], args[1] if _SAME_EVERYWHERE.fullmatch(args[1]) else HOLE)
     elif mode == "REAL_PATH" and len(args) > 2:
         # Whether a backslash separates folders depends on policy CMP0152.
-        run.set(args[2], HOLE if "\\" in args[1] else _absolute(args[1], run.places["CMAKE_CURRENT_SOURCE_DIR"]))
+        run.set(args[2], HOLE if "\\" in args[1] else _absolute(args[1], run.path_variables["CMAKE_CURRENT_SOURCE_DIR"]))
     elif mode in ("READ", "SIZE", "TIMESTAMP", "READ_SYMLINK", "MD5", "SHA1", "SHA256", "STRINGS"):
         run.set(args[2] if len(args) > 2 else "", HOLE)
 
@@ -63,7 +63,8 @@ def _copy(run: Run, copied: list[str], destination: str) -> None:
     """
     for path in copied if destination.startswith("/") else ():
         source = run.paths.source(path)
-        generate(run, f"{destination}/{posixpath.basename(path)}", folder=source is not None and run.paths.is_folder(source))
+        is_folder = source is not None and run.paths.is_folder(source)
+        note_generated(run, f"{destination}/{posixpath.basename(path)}", folder=is_folder)
 
 
 def _glob(run: Run, args: list[str], recurse: bool) -> None:
@@ -84,15 +85,15 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
             index += 1
         elif word not in ("CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS"):
             patterns.append(word)
-    found: list[str] = []
+    paths: list[str] = []
     for pattern in patterns:
         if HOLE in pattern or (pattern.startswith("/") and not pattern.startswith(TREE)):
             run.set(args[0], HOLE)
             return
-        found += _matches(run, pattern, recurse, folders)
+        paths += _matches(run, pattern, recurse, folders)
     if relative is not None:
-        found = [_relative(path, relative) for path in found]
-    run.set(args[0], HOLE if HOLE in found else join(sorted(dict.fromkeys(found), key=to_bytes)))
+        paths = [_relative(path, relative) for path in paths]
+    run.set(args[0], HOLE if HOLE in paths else join(sorted(dict.fromkeys(paths), key=to_bytes)))
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
@@ -100,39 +101,39 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
 
     With ``folders``, matching folders are included.
     """
-    path = pattern if pattern.startswith(TREE) else f"{run.places['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
+    path = pattern if pattern.startswith(TREE) else f"{run.path_variables['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
     parts = path.split("/")
     fixed = next((index for index, part in enumerate(parts) if any(letter in part for letter in "*?[")), len(parts) - 1)
     fixed = min(fixed, len(parts) - 1)
     top = "/".join(parts[:fixed])
-    folder = run.paths.reached(top)
-    if folder is None or (is_outside(folder) and not run.paths.below(folder)):
+    folder = run.paths.source_or_outside(top)
+    if folder is None or (is_outside(folder) and not run.paths.files_below(folder)):
         return [HOLE]
-    whole = of_paths(parts[fixed:], recurse=recurse)
-    files = [strip_folder(folder, file) for file in run.paths.below(folder)]
+    pattern_of_rest = path_pattern(parts[fixed:], recurse=recurse)
+    files = [strip_folder(folder, file) for file in run.paths.files_below(folder)]
     run.charge(SLOW * len(files))
-    found = [file for file in files if whole.fullmatch(octets(file))]
+    names = [file for file in files if pattern_of_rest.fullmatch(octets(file))]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}
         if recurse and len(parts) - fixed > 1:
             return [HOLE]
         # GLOB_RECURSE lists every folder that it enters.
-        found += [name for name in above if recurse or whole.fullmatch(octets(name))]
-    return [f"{top}/{name}" for name in found]
+        names += [name for name in above if recurse or pattern_of_rest.fullmatch(octets(name))]
+    return [f"{top}/{name}" for name in names]
 
 
 def _relative(path: str, base: str) -> str:
-    same = next((root for root in _ROOTS if path.startswith(root) and base.startswith(root)), None)
+    root = next((root for root in _ROOTS if path.startswith(root) and base.startswith(root)), None)
     if not (is_fixed(path) and is_fixed(base)):
         return HOLE
-    if same is None and not (path.startswith("/") and base.startswith("/") and is_known(path) and is_known(base)):
+    if root is None and not (path.startswith("/") and base.startswith("/") and is_known(path) and is_known(base)):
         return HOLE
-    found = posixpath.relpath(path, base)
-    if found == ".":
+    path_to = posixpath.relpath(path, base)
+    if path_to == ".":
         return ""
-    if ATOM in found and found.startswith(".."):
+    if ATOM in path_to and path_to.startswith(".."):
         return HOLE  # the path leaves the analysed tree, whose own name is unknown
-    return f"{found}/" if found.endswith("..") else found
+    return f"{path_to}/" if path_to.endswith("..") else path_to
 
 
 _ROOTS: Final = ("/\1source", "/\1build", "/\1prefix")
@@ -145,10 +146,10 @@ def _absolute(path: str, base: str) -> str:
         path.replace("\\", "/"),
         base.replace("\\", "/"),
     )  # CMake converts these on every system
-    whole = path if path.startswith("/") else posixpath.join(base, path)
-    found = posixpath.normpath(whole)
+    joined = path if path.startswith("/") else posixpath.join(base, path)
+    normalized = posixpath.normpath(joined)
     # The folders above the tree are unknown.
-    return found if whole.split("/")[1][:1] != ATOM or found.split("/")[1] == whole.split("/")[1] else HOLE
+    return normalized if joined.split("/")[1][:1] != ATOM or normalized.split("/")[1] == joined.split("/")[1] else HOLE
 
 
 def _component(run: Run, args: list[str]) -> None:
@@ -158,7 +159,7 @@ def _component(run: Run, args: list[str]) -> None:
     name, path, mode = args[:3]
     if "PROGRAM_ARGS" in args[3:-1]:
         run.set(args[args.index("PROGRAM_ARGS") + 1], HOLE)
-    base = args[args.index("BASE_DIR") + 1] if "BASE_DIR" in args[:-1] else run.places["CMAKE_CURRENT_SOURCE_DIR"]
+    base = args[args.index("BASE_DIR") + 1] if "BASE_DIR" in args[:-1] else run.path_variables["CMAKE_CURRENT_SOURCE_DIR"]
     run.set(name, _part(path, mode, base))
 
 
@@ -197,10 +198,10 @@ def _configure(run: Run, args: list[str]) -> None:
     if len(args) > 1:
         output = args[1]
         if not output.startswith("/") and is_fixed(output):
-            output = f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{output}"
-        path = run.paths.build(output)
+            output = f"{run.path_variables['CMAKE_CURRENT_BINARY_DIR']}/{output}"
+        path = run.paths.build_path(output)
         if path is None:
-            generate(run, output)
+            note_generated(run, output)
         elif not run.muted:
             run.paths.configured[path] = run.paths.configured.get(path, False) or not run.conditional
 

@@ -16,7 +16,7 @@ from ros_lint.collectors.cmake.commands.include_directories import (
     record_include_directories,
 )
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
-from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, OTHER_PACKAGE, TREE, is_known, maybe, split, sure
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, OTHER_PACKAGE, TREE, is_known, mark_maybe, split, strip_mark
 from ros_lint.collectors.cmake.released_macros import VISIBILITY
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED
 from ros_lint.facts.sources import Purpose
@@ -42,11 +42,11 @@ Their component Development finds headers and libraries, which need a dependency
 
 def find_package(run: Run, args: list[str]) -> int | None:
     """``find_package(name [version] [QUIET] [REQUIRED] ...)``."""
-    name, certain = sure(args[0]) if args else ("", True)
+    name, certain = strip_mark(args[0]) if args else ("", True)
     if not is_known(name):
         run.open_world = True
-        if _may_become_package(name):
-            run.hide(Facet.USES, "find_package() of a name that is not known")
+        if _may_be_package_name(name):
+            run.hide(Facet.USES, "the package of find_package() is unknown")
         return None
     if (run.get(f"{name}_DIR") or "").startswith(f"{TREE}/") and not run.muted:
         run.results.bundled_projects[name] = None  # the script sets X_DIR to a folder of the sources
@@ -56,13 +56,14 @@ def find_package(run: Run, args: list[str]) -> int | None:
         if run.packages.find_modules and "CONFIG" not in args and "NO_MODULE" not in args
         else None
     )
-    span = run.where(args[0]) if name else run.here()
-    is_own_search = run.at_home() or (run.is_helped() and span != run.here())  # or the package passes the name to a helper
+    span = run.place_of(args[0]) if name else run.current_place()
+    # A package can also pass the name to a helper.
+    is_own_search = run.runs_own_code() or (run.runs_helper_code() and span != run.current_place())
     if name and module is None and is_own_search and not run.is_bundled(name):
         optional = not certain or ("QUIET" in args and not required)
-        run.mention(name, "cmake", span, optional=optional)
+        run.add_mention(name, "cmake", span, optional=optional)
         if name in _PYTHON and any(arg.startswith("Development") for arg in args):
-            run.mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
+            run.add_mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
         if not required and not run.muted:
             run.packages.optional_finds.setdefault(name, []).append(span)
         if (
@@ -71,20 +72,20 @@ def find_package(run: Run, args: list[str]) -> int | None:
             and certain
             and not (run.muted or run.uncertain_conditions or run.normal(f"{name}_DIR"))
         ):
-            says = f"find_package({name}) looks for this package itself, which is not installed yet; link its targets instead"
-            run.results.errors[Problem("no-package", says, span, subject=name)] = None
-    found(run, name, required=required and certain)
-    if module is not None and all(frame.file != run.paths.named(module) for frame in run.frames):
+            message = f"find_package({name}) searches this package itself, which is not installed yet; link its targets instead"
+            run.results.errors[Problem("no-package", message, span, subject=name)] = None
+    mark_found(run, name, required=required and certain)
+    if module is not None and all(frame.file != run.paths.absolute(module) for frame in run.frames):
         return include_own(run, module)
     return None
 
 
-def _may_become_package(name: str) -> bool:
+def _may_be_package_name(name: str) -> bool:
     """Return whether a partly known name may be that of a ROS package, which has no upper case (REP 144)."""
     return not any(letter.isupper() for letter in name)
 
 
-def found(run: Run, name: str, *, required: bool) -> None:
+def mark_found(run: Run, name: str, *, required: bool) -> None:
     """Mark a package as found. Its variables become unknown.
 
     Its CMake code runs if it is a package of the workspace.
@@ -115,7 +116,7 @@ def found(run: Run, name: str, *, required: bool) -> None:
         if source in helper.sources.scripts:
             include_of_package(run, name, source)
         else:
-            run.hide(Facet.USES, f"the CMake code of {name} is not in sight")
+            run.hide(Facet.USES, f"the CMake code of '{name}' was not found")
 
 
 def _find_all(run: Run, args: list[str]) -> None:
@@ -131,67 +132,69 @@ def _find_all(run: Run, args: list[str]) -> None:
         if name not in packages:
             run.put(packages, name, "1")
         if name in run.helpers or name in _SHARED_LIBRARIES:
-            found(run, name, required=True)
+            mark_found(run, name, required=True)
 
 
 _NO_PACKAGES: Final = VISIBILITY | {"SYSTEM"}
 _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfaces": "interfaces", "plugins": "plugins"}
 
 
-def _uses(run: Run, args: list[str]) -> None:
+def _packages_used(run: Run, args: list[str]) -> None:
     """``ros_lint_uses(for how names...)``: the arguments of a macro are names of packages."""
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
-        name, certain = sure(arg)
+        name, certain = strip_mark(arg)
         if name in _NO_PACKAGES:
             continue
         if name == _FOUND_DECLARED and purpose == "interfaces":
-            _uses(run, [*args[:2], *map(maybe, run.paths.sources.build_depends)])  # maybe, because rosdep keys are not found
+            # Rosdep keys among the dependencies are not found.
+            _packages_used(run, [*args[:2], *map(mark_maybe, run.paths.sources.build_depends)])
         if HOLE in name:
-            if _may_become_package(name):
-                run.hide(Facet.USES, "the name of a package is not known")
+            if _may_be_package_name(name):
+                run.hide(Facet.USES, "the name of a package is unknown")
         elif is_known(name) and not run.is_bundled(name):
             if certain:
-                certainly[name] = run.where(arg)
-            what = f"{args[1]} {name}" if args[1] != "-" else ""
-            run.mention(name, "target", run.where(arg), what, optional=not certain, purpose=purpose)
+                certainly[name] = run.place_of(arg)
+            quotation = f"{args[1]} {name}" if args[1] != "-" else ""
+            run.add_mention(name, "target", run.place_of(arg), quotation, optional=not certain, purpose=purpose)
     if certainly and not (run.muted or run.uncertain_conditions):
-        _doubt(run, args[1].partition(" ")[0], certainly)
+        _note_impossible_packages(run, args[1].partition(" ")[0], certainly)
 
 
-def _doubt(run: Run, command: str, places: Mapping[str, Span]) -> None:
+def _note_impossible_packages(run: Run, command: str, places: Mapping[str, Span]) -> None:
     """Record arguments that a command rejects, because they can never be found as packages."""
     targets = [name for name in places if "::" in name] if command.startswith("ament_") else []
     if targets:
-        are = "is a target" if len(targets) == 1 else "are targets"
-        _refuse(run, command, f"{shorten_list(targets)} {are}", places[targets[0]], targets[0])
-    own = run.paths.sources.name
-    asked = own in places and command == "ament_target_dependencies"
-    if asked and own not in run.packages.certain and run.normal(f"{own}_FOUND") is None:
-        _refuse(run, command, f"'{own}' is this package; link its targets with target_link_libraries()", places[own], own)
+        verb = "is a target" if len(targets) == 1 else "are targets"
+        _add_error(run, command, f"{shorten_list(targets)} {verb}", places[targets[0]], targets[0])
+    own_name = run.paths.sources.name
+    names_itself = own_name in places and command == "ament_target_dependencies"
+    if names_itself and own_name not in run.packages.certain and run.normal(f"{own_name}_FOUND") is None:
+        detail = f"'{own_name}' is this package; link its targets with target_link_libraries()"
+        _add_error(run, command, detail, places[own_name], own_name)
 
 
-def _refuse(run: Run, command: str, what: str, span: Span, name: str) -> None:
-    says = f"{command}() expects packages that are found, but {what}"
-    run.results.errors[Problem("no-package", says, span, subject=name)] = None
+def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> None:
+    message = f"{command}() expects packages that are found, but {detail}"
+    run.results.errors[Problem("no-package", message, span, subject=name)] = None
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
     """``ros_lint_target_uses(how target names...)``: a target uses packages."""
-    _give(run, args[0].partition(" ")[0], args[1:2])
+    _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
     record_header_sources(
         run, args[1] if len(args) > 1 else ALL_TARGETS, [name if HOLE in name else f"{name}::" for name in names]
     )
-    _uses(run, ["-", args[0], *args[2:]])
+    _packages_used(run, ["-", args[0], *args[2:]])
 
 
-def _give(run: Run, command: str, args: list[str]) -> None:
+def _note_modified_target(run: Run, command: str, args: list[str]) -> None:
     """Record that a command modifies a target, if this is certain even without tests."""
-    name, certain = sure(args[0]) if args else ("", False)
+    name, certain = strip_mark(args[0]) if args else ("", False)
     if certain and not (run.muted or run.uncertain_conditions or run.testing) and is_known(name) and "::" not in name:
-        run.results.modified_targets.setdefault((name, command), run.here())
+        run.results.modified_targets.setdefault((name, command), run.current_place())
 
 
 def _pkg_config(run: Run, args: list[str]) -> None:
@@ -207,13 +210,17 @@ def link(run: Run, args: list[str]) -> None:
     for arg in args[1:]:
         if "::" not in arg:
             continue
-        plain, certain = sure(arg)
+        plain, certain = strip_mark(arg)
         for name in [plain] if is_known(plain) and "$" not in plain else _NAMESPACED_TARGET.findall(plain):
-            space, _, inner = name.partition("::")
-            if name in run.targets or space in (run.results.project.name, run.paths.sources.name) or _brings(run, space, inner):
+            space, _, target_name = name.partition("::")
+            if (
+                name in run.targets
+                or space in (run.results.project.name, run.paths.sources.name)
+                or _is_target_of(run, space, target_name)
+            ):
                 continue
-            run.mention(name, "target", run.where(arg), optional=not certain)
-    if not run.at_home():
+            run.add_mention(name, "target", run.place_of(arg), optional=not certain)
+    if not run.runs_own_code():
         return
     frame = run.frames[-1]
     command = frame.command
@@ -225,10 +232,10 @@ def link(run: Run, args: list[str]) -> None:
         for match in PACKAGE_VARIABLE.finditer(text):
             if match[1] in run.paths.sources.name or match[1] == "PROJECT_NAME":
                 continue
-            package = run.packages.named(match[1])
+            package = run.packages.with_prefix(match[1])
             if package and run.packages.prefixes[package]:  # False for pkg-config, where the script chooses the prefix
-                place = command.span(frame.path, start, end) if frame.own else run.here()
-                run.mention(package, "target", place, match[0])
+                place = command.span(frame.path, start, end) if frame.own else run.current_place()
+                run.add_mention(package, "target", place, match[0])
 
 
 def _target_include_directories(run: Run, args: list[str]) -> None:
@@ -243,7 +250,7 @@ def _all_include_directories(run: Run, args: list[str]) -> None:
 
 def _include_directories(run: Run, args: list[str]) -> None:
     link(run, args)
-    run.results.includes_outside_package = run.results.includes_outside_package or any(map(run.paths.leads_out, args))
+    run.results.includes_outside_package = run.results.includes_outside_package or any(map(run.paths.is_outside_source, args))
 
 
 def _link_all(run: Run, args: list[str]) -> None:
@@ -252,9 +259,9 @@ def _link_all(run: Run, args: list[str]) -> None:
     link(run, args)
 
 
-def _brings(run: Run, space: str, inner: str) -> bool:
-    """Return whether a target ``space::inner`` is of a bundled project, or of a found package ``inner``."""
-    return run.is_bundled(space) or (space not in run.packages.prefixes and inner in run.packages.prefixes)
+def _is_target_of(run: Run, space: str, target_name: str) -> bool:
+    """Return whether a target ``space::target_name`` is of a bundled project, or of a found package ``target_name``."""
+    return run.is_bundled(space) or (space not in run.packages.prefixes and target_name in run.packages.prefixes)
 
 
 _LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFACE_LIBRARIES", "debug", "optimized", "general"}
@@ -264,10 +271,10 @@ def _link_libraries(run: Run, args: list[str]) -> None:
     """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
     link(run, args)
     record_header_sources(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
-    _give(run, "target_link_libraries", args)
+    _note_modified_target(run, "target_link_libraries", args)
     if run.muted or not args or run.uncertain_conditions or (run.testing and "TEST" not in run.targets.get(args[0], ())):
         return
-    span = run.here()
+    span = run.current_place()
     links = run.results.links.setdefault(args[0], {})
     for arg in args[1:]:
         links.setdefault(arg, span)
@@ -291,7 +298,7 @@ COMMANDS: Final[dict[str, Handler]] = {
     "include_directories": _all_include_directories,
     "link_libraries": _link_all,
     "ros_lint_find": _find_all,
-    "ros_lint_uses": _uses,
+    "ros_lint_uses": _packages_used,
     "ros_lint_target_uses": _target_uses,
     "ros_lint_hide": _hide,
 }

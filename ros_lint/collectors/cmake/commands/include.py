@@ -27,9 +27,9 @@ def _include(run: Run, args: list[str]) -> int | None:
             _module(run, name)
         return None
     if not is_fixed(name):
-        if _is_registered(run):
+        if _is_from_index(run):
             return _skip(run, "a file that another package has registered")
-        run.hide(ALL_FACETS, "include() of a file whose name is not known")
+        run.hide(ALL_FACETS, "the file of include() is unknown")
         run.open_world = True
         return None
     return _include_file(run, name, optional)
@@ -44,7 +44,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
     if not name.startswith("/"):
         candidates[:0] = [f"{folder}/{name}.cmake" for folder in folders.split(";") if is_fixed(folder)]
     for candidate in candidates:
-        path = run.paths.reached(candidate)
+        path = run.paths.source_or_outside(candidate)
         parsed = run.paths.script(path) if path is not None else None
         if path is not None and parsed is not None:
             return _run_script(run, path, parsed)
@@ -54,17 +54,17 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         # A module of CMake or of a found package defines commands, but does not build anything itself.
         run.open_world = True
         if not folders or HOLE not in folders:
-            run.hide(Facet.USES, f"include() of the module {name}, which is not in sight")
+            run.hide(Facet.USES, f"the module '{name}' of include() was not found")
         return None
     if name.startswith(f"/{ATOM}") and not name.startswith((TREE, BINARY, PREFIX)):
         return _skip(run, f"{posixpath.basename(name)} of another package")
     path = run.paths.source(name)
     if path is not None and not name.startswith(BINARY) and path not in run.paths.files:
-        run.problem("missing-script", f"include({path}): the file does not exist", run.where(name), path)
+        run.add_problem("missing-script", f"include({path}): the file does not exist", run.place_of(name), path)
         return None
     run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-    shown = run.paths.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
-    run.hide(ALL_FACETS, f"include() of {shown} cannot be followed")
+    readable_name = run.paths.relative(name) or name.replace(BINARY, "the build folder").replace("\1", "")
+    run.hide(ALL_FACETS, f"include() of {readable_name} cannot be evaluated")
     return None
 
 
@@ -79,32 +79,32 @@ def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
     if outside:
         run.outside_scripts.append(parsed)
         if parsed.problems:
-            run.hide(ALL_FACETS, f"{path} cannot be read to its end")
-    frame = Frame(not outside, run.paths.place(path), run.paths.named(path), provider=OUTSIDE if outside else "")
+            run.hide(ALL_FACETS, f"a syntax error hides the rest of '{path}'")
+    frame = Frame(not outside, run.paths.tree_path(path), run.paths.absolute(path), provider=OUTSIDE if outside else "")
     return run_file(run, parsed.commands, frame)
 
 
 def _include_installed(run: Run, name: str) -> int | None:
-    package, _, installed = name[len(OTHER_PACKAGE) :].partition("/")
+    package, _, install_path = name[len(OTHER_PACKAGE) :].partition("/")
     helper = run.helpers.get(package)
     if helper is not None:
-        source = next((file.source for file in helper.script.products.installs if file.path == installed), None)
+        source = next((file.source for file in helper.script.products.installs if file.path == install_path), None)
         if source is not None and source in helper.sources.scripts:
             return include_of_package(run, package, source)
-    return _skip(run, f"{installed} of {package}")
+    return _skip(run, f"{install_path} of {package}")
 
 
-def _skip(run: Run, what: str) -> int:
+def _skip(run: Run, file: str) -> int:
     """Skip a file of another package.
 
     Like a module, it probably defines commands and installs nothing itself.
     """
     run.open_world = True
-    run.hide(Facet.USES, f"include() of {what} cannot be followed")
+    run.hide(Facet.USES, f"include() of {file} cannot be evaluated")
     return NEXT
 
 
-def _is_registered(run: Run) -> bool:
+def _is_from_index(run: Run) -> bool:
     """Return whether the path of an include() begins with a value from the ament index."""
     command = run.frames[-1].command
     match = _BEGINS.match(command.args[0][0]) if command is not None and command.args else None
@@ -117,9 +117,9 @@ _BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
 def include_of_package(run: Run, package: str, source: str) -> int | None:
     """Run a script of another package of the workspace in the current scope."""
     helper = run.helpers[package]
-    installed = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
-    installed = next((file.path for file in helper.script.products.installs if file.source == source), installed)
-    frame = Frame(False, join_path(helper.sources.path, source), f"{OTHER_PACKAGE}{package}/{installed}", provider=package)
+    install_path = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
+    install_path = next((file.path for file in helper.script.products.installs if file.source == source), install_path)
+    frame = Frame(False, join_path(helper.sources.path, source), f"{OTHER_PACKAGE}{package}/{install_path}", provider=package)
     commands = helper.sources.scripts[source].commands
     if source.endswith(".in"):
         commands = tuple([_configured(command, helper.script.project.name or package) for command in commands])
@@ -153,34 +153,34 @@ def _module(run: Run, name: str) -> None:
 
 def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     name = args[0] if args else ""
-    path = run.paths.reached(name) if is_fixed(name) else None
+    path = run.paths.source_or_outside(name) if is_fixed(name) else None
     script = join_path(path or "", _TOP)
     parsed = run.paths.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
         run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-        run.hide(ALL_FACETS, "add_subdirectory() of a folder that is not in sight")
+        run.hide(ALL_FACETS, "the folder of add_subdirectory() was not found")
         return None
     if not (run.uncertain_conditions or run.muted or is_outside(path)):
         run.results.subdirectories[path] = None
     if run.testing and not is_outside(path):
         run.results.test_subdirectories[path] = None
-    last = posixpath.basename(run.paths.place(path))
+    last = posixpath.basename(run.paths.tree_path(path))
     if path and (parsed is None or run.paths.is_folder(f"{path}/include/{last}")):
         run.results.bundled_projects[last] = None  # a library in its own folder, or a submodule that is not checked out
     if parsed is None:
         if run.paths.is_folder(path):
             run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-            run.hide(ALL_FACETS, f"add_subdirectory() of {path}, which has no CMakeLists.txt in sight", inside=path)
+            run.hide(ALL_FACETS, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
         else:
-            run.problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.where(name), path)
+            run.add_problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.place_of(name), path)
         return None
     run.paths.enter_directory(path, _built_in(run, path, args[1:]))
     run.scopes.append(Variables())
-    kept = run.policy_version
+    policy_version = run.policy_version
     try:
         return _run_script(run, script, parsed)
     finally:
-        run.policy_version = kept
+        run.policy_version = policy_version
         run.scopes.pop()
         run.paths.leave_directory()
 
@@ -194,10 +194,10 @@ def _built_in(run: Run, path: str, args: list[str]) -> str:
     Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
     """
     argument = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
-    below = argument or relative(run.paths.place(run.paths.directory), run.paths.place(path))
+    below = argument or relative(run.paths.tree_path(run.paths.directory), run.paths.tree_path(path))
     if not is_fixed(below) or (is_outside(below) and not argument):
         return HOLE
-    return below if below.startswith("/") else posixpath.normpath(f"{run.places['CMAKE_CURRENT_BINARY_DIR']}/{below}")
+    return below if below.startswith("/") else posixpath.normpath(f"{run.path_variables['CMAKE_CURRENT_BINARY_DIR']}/{below}")
 
 
 COMMANDS: Final[dict[str, Handler]] = {"include": _include, "add_subdirectory": _add_subdirectory}

@@ -29,7 +29,7 @@ ALL_TARGETS: Final = ""
 
 _ANYTHING: Final = HOLE
 _NAME = re.compile(r"(?<![\w./+\1-])[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*(?![\w./+:-])")
-_OF_OURS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
+_NO_ROS_HEADERS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
 """Folders without headers of other ROS packages."""
 
 
@@ -38,17 +38,17 @@ def record_header_sources(run: Run, target: str, args: Iterable[str]) -> None:
 
     A package ends with ``::``.
     """
-    have = run.results.headers.setdefault(target, {})
-    known = True
+    header_sources = run.results.headers.setdefault(target, {})
+    is_complete = True
     for arg in args:
         if _PLAIN.match(arg):  # by far the most frequent case
-            have[arg] = None
+            header_sources[arg] = None
             continue
-        known = known and HOLE not in arg
+        is_complete = is_complete and HOLE not in arg
         for element in elements(arg):
-            have.update(dict.fromkeys(_names(run, element.lstrip(MAYBE))))
-    if not known:
-        have.update(dict.fromkeys(_written(run)))
+            header_sources.update(dict.fromkeys(_names(run, element.lstrip(MAYBE))))
+    if not is_complete:
+        header_sources.update(dict.fromkeys(_packages_of_variables(run)))
 
 
 _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
@@ -57,8 +57,8 @@ _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 def record_include_directories(run: Run, target: str, args: Iterable[str]) -> None:
     """Record the include directories of a target."""
     folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
-    here = run.places["CMAKE_CURRENT_SOURCE_DIR"]
-    record_header_sources(run, target, [f"{here}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
+    directory = run.path_variables["CMAKE_CURRENT_SOURCE_DIR"]
+    record_header_sources(run, target, [f"{directory}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
 
 
 _NO_FOLDERS: Final = VISIBILITY | {"BEFORE", "AFTER", "SYSTEM"}
@@ -71,28 +71,28 @@ def _names(run: Run, arg: str) -> tuple[str, ...]:
     if "$<" in arg:
         return (_ANYTHING,) if "TARGET_PROPERTY" in arg else tuple(_NAME.findall(arg))
     if arg.startswith("/") or ATOM in arg:
-        return () if arg.startswith(_OF_OURS) and not run.paths.leads_out(arg) else (_ANYTHING,)
-    return (_ANYTHING,) if run.paths.leads_out(arg) else (arg,)
+        return () if arg.startswith(_NO_ROS_HEADERS) and not run.paths.is_outside_source(arg) else (_ANYTHING,)
+    return (_ANYTHING,) if run.paths.is_outside_source(arg) else (arg,)
 
 
-def _written(run: Run) -> list[str]:
+def _packages_of_variables(run: Run) -> list[str]:
     """Return the packages whose variables the current command names.
 
     The result has _ANYTHING if another part of an argument is unknown.
     """
     command = run.frames[-1].command
-    found: list[str] = []
+    names: list[str] = []
     for text, kind, _, _ in command.args if command is not None else ():
-        if kind in (UNQUOTED, QUOTED) and HOLE in run.evaluated(text):
-            found += [_package(run, match) for match in PACKAGE_VARIABLE.finditer(text)]
-            if HOLE in run.evaluated(PACKAGE_VARIABLE.sub("", text)):
-                found.append(_ANYTHING)
-    return found or [_ANYTHING]
+        if kind in (UNQUOTED, QUOTED) and HOLE in run.evaluate(text):
+            names += [_package(run, match) for match in PACKAGE_VARIABLE.finditer(text)]
+            if HOLE in run.evaluate(PACKAGE_VARIABLE.sub("", text)):
+                names.append(_ANYTHING)
+    return names or [_ANYTHING]
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
     """Return the package of a variable, _ANYTHING if no found package sets it or the script itself does."""
-    name = run.packages.named(variable[1]) if run.normal(variable[0][2:-1]) is None else ""
+    name = run.packages.with_prefix(variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING
 
 
@@ -101,7 +101,7 @@ def _headers_of(run: Run, args: list[str]) -> None:
     record_header_sources(run, args[0], args[1:])
 
 
-def _options(run: Run, args: list[str]) -> None:
+def _compiler_options(run: Run, args: list[str]) -> None:
     """Record include directories in compiler options (-I, -isystem)."""
     if any(_FOLDER_OPTION.search(arg) for arg in args):
         record_header_sources(run, ALL_TARGETS, [f"/{ATOM}"])
@@ -122,35 +122,35 @@ def are_in_flags(run: Run) -> bool:
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
-def reached(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
+def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
     """Return the names of packages (and libraries) whose headers a target may include.
 
     None if these may be any.
     """
-    found: dict[str, None] = {}
-    waiting = [name, ALL_TARGETS]
-    seen: set[str] = set()
+    packages: dict[str, None] = {}
+    pending = [name, ALL_TARGETS]
+    visited: set[str] = set()
     interfaces = f"{run.paths.sources.name}__"  # prefix of the targets of generated interfaces
-    while waiting:
-        current = waiting.pop()
-        if current in seen:
+    while pending:
+        current = pending.pop()
+        if current in visited:
             continue
-        seen.add(current)
+        visited.add(current)
         target = targets.get(current)
         if target is not None:
             if target["KIND"] == "imported" or not _PROPERTIES.isdisjoint(target):
                 return None
             if target["KIND"] == "alias":
-                waiting.append(target["ALIASED"])
+                pending.append(target["ALIASED"])
         elif current not in (name, ALL_TARGETS) and not current.startswith(interfaces):
             owners = _owners(run, current)
             if not owners:
                 return None
-            found.update(dict.fromkeys(owners))
-        waiting += run.results.headers.get(current, ())
-        if _ANYTHING in waiting:
+            packages.update(dict.fromkeys(owners))
+        pending += run.results.headers.get(current, ())
+        if _ANYTHING in pending:
             return None
-    return tuple(sorted(found))
+    return tuple(sorted(packages))
 
 
 def _owners(run: Run, name: str) -> tuple[str, ...]:
@@ -158,20 +158,20 @@ def _owners(run: Run, name: str) -> tuple[str, ...]:
 
     For example, ``BT::behaviortree_cpp`` is a target of behaviortree_cpp.
     """
-    space, sign, inner = name.partition("::")
-    if not sign or not inner:
+    space, sign, target_name = name.partition("::")
+    if not sign or not target_name:
         return (space,)
     if space in run.packages.prefixes:
         return (space,)
-    if inner in run.packages.prefixes:
-        return (space, inner)
+    if target_name in run.packages.prefixes:
+        return (space, target_name)
     letters = folded(space)
     return (space,) if any(folded(prefix).startswith(letters) for prefix in run.packages.prefixes) else ()
 
 
 COMMANDS: Final[Mapping[str, Handler]] = {
     "ros_lint_headers_of": _headers_of,
-    "add_compile_options": _options,
-    "add_definitions": _options,
-    "target_compile_options": _options,
+    "add_compile_options": _compiler_options,
+    "add_definitions": _compiler_options,
+    "target_compile_options": _compiler_options,
 }

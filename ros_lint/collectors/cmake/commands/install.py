@@ -9,12 +9,12 @@ from typing import Final
 
 from ros_lint.base.paths import join as join_path
 from ros_lint.base.wildcards import LONGEST, spaced
-from ros_lint.collectors.cmake.commands.install_destinations import ANYWHERE, hide, place_of
+from ros_lint.collectors.cmake.commands.install_destinations import ANYWHERE, destination_of, hide
 from ros_lint.collectors.cmake.commands.install_directory import install_directories
 from ros_lint.collectors.cmake.commands.install_targets import install_targets
 from ros_lint.collectors.cmake.evaluator.arguments import sections, with_one_destination
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
-from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, is_fixed, is_known, sure
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, is_fixed, is_known, strip_mark
 from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS
 from ros_lint.facts.build import InstalledFile
 
@@ -36,8 +36,9 @@ def _install(run: Run, args: list[str]) -> None:
     args = with_one_destination(args)
     if args[1:2] and (args[1] == "DESTINATION" or (mode == "TARGETS" and args[1] in INSTALL_ARTIFACTS)):
         return  # the list was empty, which CMake allows
-    if mode in ("FILES", "PROGRAMS", "DIRECTORY") and (strange := next((arg for arg in args if arg in _OF_TARGETS), "")):
-        run.problem("cmake-syntax", f"install({mode}) knows no {strange}, that belongs to install(TARGETS)", run.where(strange))
+    if mode in ("FILES", "PROGRAMS", "DIRECTORY") and (artifact := next((arg for arg in args if arg in _OF_TARGETS), "")):
+        message = f"install({mode}) does not accept '{artifact}', which belongs to install(TARGETS)"
+        run.add_problem("cmake-syntax", message, run.place_of(artifact))
         args = [arg for arg in args if arg not in _OF_TARGETS]
     if mode == "TARGETS":
         install_targets(run, args[1:])
@@ -46,24 +47,24 @@ def _install(run: Run, args: list[str]) -> None:
     elif mode == "DIRECTORY":
         install_directories(run, args[1:])
     elif mode == "SCRIPT" or (mode == "CODE" and any(not is_fixed(arg) or _WRITES.search(arg) for arg in args[1:])):
-        run.hide(ANYWHERE, f"install({mode}) runs code during the installation")
+        run.hide(ANYWHERE, f"install({mode}) runs code during installation")
     elif mode == "CODE":
         pass  # such as compiling Python modules
     elif mode not in ("EXPORT", "EXPORT_ANDROID_MK", "IMPORTED_RUNTIME_ARTIFACTS", "RUNTIME_DEPENDENCY_SET"):
-        run.hide(ANYWHERE, "install() of something unknown")
+        run.hide(ANYWHERE, "the form of install() is unknown")
 
 
 def _install_files(run: Run, args: list[str], program: bool) -> None:
     parts = sections(args, _FILE_WORDS)
-    destination = place_of(run, parts)
+    destination = destination_of(run, parts)
     rename = parts.get("RENAME", [""])[0] if parts.get("RENAME") else ""
     if "PERMISSIONS" in parts:
         program = any(word.endswith("_EXECUTE") for word in parts["PERMISSIONS"])
     for value in parts[""]:
-        plain, certain = sure(value)
+        plain, certain = strip_mark(value)
         name = rename or posixpath.basename(plain)
         if destination is None or "$<" in name or not is_fixed(name):
-            hide(run, destination, "install() of files whose names or place are not known")
+            hide(run, destination, "the files or the destination of install() are unknown")
             continue
         _install_file(run, value, join_path(destination, name), program, certain, "OPTIONAL" in parts)
 
@@ -71,18 +72,19 @@ def _install_files(run: Run, args: list[str], program: bool) -> None:
 def _install_file(run: Run, value: str, path: str, program: bool, certain: bool, optional: bool) -> None:
     if run.muted:
         return
-    plain = sure(value)[0]
-    span = run.where(value)
+    plain = strip_mark(value)[0]
+    span = run.place_of(value)
     source = run.paths.source(plain)
     conditional = run.conditional or run.testing or not certain
     if source is None:
-        source = run.paths.beside(plain)
-        conditional = conditional or (source is None and (optional or not _may_lie(run, plain)))
-    elif run.paths.is_unseen(source):
+        source = run.paths.outside(plain)
+        conditional = conditional or (source is None and (optional or not _may_exist(run, plain)))
+    elif run.paths.is_unlisted(source):
         source = None
     if source is not None and not run.paths.is_file(source):
         if run.paths.is_folder(source) and source:
-            run.problem("file-is-directory", f"install(FILES) cannot install '{source}', because it is a directory", span, source)
+            message = f"install(FILES) cannot install '{source}', because it is a directory"
+            run.add_problem("file-is-directory", message, span, source)
             return
         if optional:
             return
@@ -94,12 +96,12 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
     run.results.installed.append(InstalledFile(path, source or "", program, conditional, span, test=run.testing))
 
 
-def _may_lie(run: Run, value: str) -> bool:
+def _may_exist(run: Run, value: str) -> bool:
     """Return whether a partly known path may be that of an existing file.
 
     True for a path outside of the package.
     """
-    home = f"{run.paths.named('')}/"
+    home = f"{run.paths.absolute('')}/"
     if value.startswith(home):
         inside = value[len(home) :]
     elif value[:1] in ("/", "$", HOLE):

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 from ros_lint.collectors.cmake.evaluator.run import Run
-from ros_lint.collectors.cmake.evaluator.values import sure
+from ros_lint.collectors.cmake.evaluator.values import strip_mark
 from ros_lint.facts.visibility import Facet
 
 ANYWHERE: Final = Facet.EXECUTABLES | Facet.SHARE | Facet.LIBRARIES | Facet.PYTHON
@@ -40,13 +40,13 @@ def hide(run: Run, destination: str | None, reason: str) -> None:
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 
-def place_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
+def destination_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
     """Return the destination in sections of arguments (see ``sections()``).
 
     None if it is unknown or outside of the prefix.
     """
-    found = parts.get("DESTINATION")
-    if found:
-        return run.paths.destination(sure(found[0])[0]) if len(found) == 1 else None
+    destinations = parts.get("DESTINATION")
+    if destinations:
+        return run.paths.destination(strip_mark(destinations[0])[0]) if len(destinations) == 1 else None
     kind = parts.get("TYPE")
     return _TYPES.get(kind[0]) if kind else None

@@ -9,11 +9,11 @@ from typing import Final, NamedTuple
 from ros_lint.base.paths import is_outside
 from ros_lint.base.paths import join as join_path
 from ros_lint.base.text import Span, octets
-from ros_lint.collectors.cmake.commands.install_destinations import facet_of, hide, place_of
+from ros_lint.collectors.cmake.commands.install_destinations import destination_of, facet_of, hide
 from ros_lint.collectors.cmake.evaluator.arguments import sections
-from ros_lint.collectors.cmake.evaluator.glob import of_ends
+from ros_lint.collectors.cmake.evaluator.glob import end_pattern
 from ros_lint.collectors.cmake.evaluator.run import Run
-from ros_lint.collectors.cmake.evaluator.values import ATOM, FILE, HOLE, is_known, sure
+from ros_lint.collectors.cmake.evaluator.values import ATOM, FILE, HOLE, is_known, strip_mark
 from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet
 
@@ -45,10 +45,10 @@ def install_directories(run: Run, args: list[str]) -> None:
     """Run ``install(DIRECTORY args...)``."""
     at = min([args.index(word) for word in ("PATTERN", "REGEX") if word in args], default=len(args))
     parts = sections(args[:at], _WORDS)
-    destination = place_of(run, parts)
+    destination = destination_of(run, parts)
     patterns = _patterns(args[at:]) if at < len(args) else []
     if patterns is None:
-        hide(run, destination, "install(DIRECTORY) with a pattern that is not known")
+        hide(run, destination, "a pattern of install(DIRECTORY) is unknown")
         return
     permissions = parts.get("FILE_PERMISSIONS")
     executable: bool | None = None if "USE_SOURCE_PERMISSIONS" in parts else False
@@ -56,15 +56,15 @@ def install_directories(run: Run, args: list[str]) -> None:
         executable = any(word.endswith("_EXECUTE") for word in permissions)
     rule = _Rule(patterns, "FILES_MATCHING" in parts or "FILES_MATCHING" in args[at:], executable, "OPTIONAL" in parts)
     for value in parts[""]:
-        plain = sure(value)[0]
-        source = run.paths.reached(plain)
+        plain = strip_mark(value)[0]
+        source = run.paths.source_or_outside(plain)
         name = posixpath.basename(plain)  # the folder keeps its name, even if it is outside of the package
         if destination is None or HOLE in plain or (source is not None and ATOM in name):
-            known = destination is not None and name not in ("", ".", "..") and is_known(name)
-            place = join_path(destination or "", name) if known else destination
-            hide(run, place, "install(DIRECTORY) of a folder or to a place that is not known")
-        elif source is None or (is_outside(source) and not (run.paths.below(source) or run.paths.is_file(source))):
-            hide(run, destination, "install(DIRECTORY) of a folder that is not in the sources")
+            is_known_place = destination is not None and name not in ("", ".", "..") and is_known(name)
+            place = join_path(destination or "", name) if is_known_place else destination
+            hide(run, place, "the folder or the destination of install(DIRECTORY) is unknown")
+        elif source is None or (is_outside(source) and not (run.paths.files_below(source) or run.paths.is_file(source))):
+            hide(run, destination, "install(DIRECTORY) installs a folder that is not in the sources")
             _install_configured(run, value, destination, rule)
         elif not run.muted:
             target = posixpath.normpath(join_path(destination, name))
@@ -72,44 +72,47 @@ def install_directories(run: Run, args: list[str]) -> None:
 
 
 def _install_directory(run: Run, value: str, source: str, target: str, rule: _Rule) -> None:
-    plain, certain = sure(value)
-    span = run.where(value)
+    plain, certain = strip_mark(value)
+    span = run.place_of(value)
     conditional = run.conditional or run.testing or not certain
     if run.paths.is_file(source):
-        run.problem("directory-is-file", f"install(DIRECTORY) cannot install '{source}', because it is a file", span, source)
+        run.add_problem("directory-is-file", f"install(DIRECTORY) cannot install '{source}', because it is a file", span, source)
         return
-    more = unlisted(run, source, facet_of(run, target), span) if run.paths.sources.unseen else []
-    own = run.paths.below(source)
-    made, filled = _made(run, source)
+    unlisted_files = unlisted(run, source, facet_of(run, target), span) if run.paths.sources.unlisted_folders else []
+    listed_files = run.paths.files_below(source)
+    generated, is_filled = _generated_below(run, source)
     top = plain.rstrip("/") if plain.startswith("/") else f"/{join_path(run.paths.directory, plain)}".rstrip("/")
-    if filled:
-        hide(run, target, "install(DIRECTORY) of a folder that the build fills")
-    elif not (own or made) and source and not run.paths.is_unseen(source):
+    if is_filled:
+        hide(run, target, "install(DIRECTORY) installs a folder that the build fills")
+    elif not (listed_files or generated) and source and not run.paths.is_unlisted(source):
         # CMake treats a path that does not exist as a file, and ignores it if patterns exclude that file.
-        if not rule.optional and _chosen(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
+        if not rule.optional and _selection(posixpath.basename(top), posixpath.dirname(top), rule)[0]:
             run.results.missing_files.append((f"{source}/", span, conditional))
         return
     skip = len(source) + 1 if source else 0
     start = f"{target}/" if target else ""
-    chosen = bool(rule.patterns or rule.only)
-    files = (*own, *more, *made) if more or made else own
+    has_patterns = bool(rule.patterns or rule.only)
+    files = (*listed_files, *unlisted_files, *generated) if unlisted_files or generated else listed_files
     run.charge(FILE * len(files))
     for file in files:
         program = file in run.paths.sources.executables if rule.executable is None else rule.executable
-        if chosen:
-            wanted, executable = _chosen(file[skip:], top, rule)
-            if not wanted:
+        if has_patterns:
+            is_selected, executable = _selection(file[skip:], top, rule)
+            if not is_selected:
                 continue
             program = program if executable is None else executable
         path = f"{start}{file[skip:]}"
-        run.results.installed.append(InstalledFile(path, run.paths.listed(file), program, conditional, span, test=run.testing))
+        run.results.installed.append(
+            InstalledFile(path, run.paths.normalized(file), program, conditional, span, test=run.testing)
+        )
 
 
-def _made(run: Run, folder: str) -> tuple[list[str], bool]:
+def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
     """Return the files that the build generates below a folder, and whether it generates unknown ones."""
     below = f"{folder}/" if folder else ""
-    new = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
-    return [path for path in new if path[-1] != "/"], any(path[-1] == "/" and not run.paths.below(path[:-1]) for path in new)
+    generated = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
+    folders = [path[:-1] for path in generated if path[-1] == "/"]
+    return [path for path in generated if path[-1] != "/"], any(not run.paths.files_below(path) for path in folders)
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
@@ -117,17 +120,17 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 
     The build may write more there.
     """
-    plain, certain = sure(value)
-    folder = run.paths.build(plain)
+    plain, certain = strip_mark(value)
+    folder = run.paths.build_path(plain)
     if folder is None or run.muted:
         return
-    span = run.where(value)
+    span = run.place_of(value)
     target = destination if plain.endswith("/") or not folder else join_path(destination, posixpath.basename(folder))
     for path, always in run.paths.configured.items():
-        inner = path if not folder else path[len(folder) + 1 :] if path.startswith(f"{folder}/") else ""
-        if inner and _chosen(inner, plain.rstrip("/"), rule)[0]:
+        path_inside = path if not folder else path[len(folder) + 1 :] if path.startswith(f"{folder}/") else ""
+        if path_inside and _selection(path_inside, plain.rstrip("/"), rule)[0]:
             conditional = run.conditional or run.testing or not certain or not always
-            run.results.installed.append(InstalledFile(join_path(target, inner), "", False, conditional, span))
+            run.results.installed.append(InstalledFile(join_path(target, path_inside), "", False, conditional, span))
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
@@ -135,18 +138,18 @@ def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
 
     They are files of nested packages, or of folders with a COLCON_IGNORE.
     """
-    found: list[str] = []
-    for folder in run.paths.sources.unseen:
+    unlisted_files: list[str] = []
+    for folder in run.paths.sources.unlisted_folders:
         inside = source == folder or source.startswith(f"{folder}/")
         if inside or not source or folder.startswith(f"{source}/"):
-            files = run.paths.sources.look(folder)
+            files = run.paths.sources.list_unlisted(folder)
             if not files:
-                run.hide(facet, "install(DIRECTORY) of a folder whose files are not listed", span)
-            found += [file for file in files if not source or file.startswith(f"{source}/")]
-    return found
+                run.hide(facet, "install(DIRECTORY) installs a folder whose files are not listed", span)
+            unlisted_files += [file for file in files if not source or file.startswith(f"{source}/")]
+    return unlisted_files
 
 
-def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
+def _selection(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
     """Return whether the patterns include a file below a folder, and whether they make it executable.
 
     The second value is None if no pattern with PERMISSIONS matches. ``top`` is the path of the folder as written in the script,
@@ -168,7 +171,7 @@ def _chosen(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
 
 
 def _patterns(args: list[str]) -> list[_Pattern] | None:
-    found: list[_Pattern] = []
+    patterns: list[_Pattern] = []
     index = 0
     while index < len(args):
         word = args[index]
@@ -179,7 +182,7 @@ def _patterns(args: list[str]) -> list[_Pattern] | None:
         if not is_known(text):
             return None
         index += 1
-        regex = _regex(text) if word == "REGEX" else of_ends(text)
+        regex = _regex(text) if word == "REGEX" else end_pattern(text)
         if regex is None:
             return None
         excluded, executable = False, None
@@ -189,8 +192,8 @@ def _patterns(args: list[str]) -> list[_Pattern] | None:
                 executable = False
             executable = executable or (True if args[index].endswith("_EXECUTE") else executable)
             index += 1
-        found.append(_Pattern(regex, excluded, executable))
-    return found
+        patterns.append(_Pattern(regex, excluded, executable))
+    return patterns
 
 
 def _regex(text: str) -> re.Pattern[str] | None:

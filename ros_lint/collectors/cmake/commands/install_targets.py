@@ -10,7 +10,7 @@ from ros_lint.collectors.cmake.commands.target_headers import DESTINATION, FILE_
 from ros_lint.collectors.cmake.commands.targets import output_name, real_target
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.state import InstalledTarget, Properties
-from ros_lint.collectors.cmake.evaluator.values import is_known, sure
+from ros_lint.collectors.cmake.evaluator.values import is_known, strip_mark
 from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS, VARIABLES
 from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet, Opaque
@@ -22,43 +22,43 @@ def install_targets(run: Run, args: list[str]) -> None:
     destinations: dict[str, str] = {}
     exported_in = ""
     artifact = ""
-    room = -1
+    remaining = -1
     keyword = ""
     for arg in args:
         if arg in INSTALL_ARTIFACTS:
             artifact, keyword = arg, arg
         elif arg in INSTALL_TARGETS_WORDS:
-            keyword, room = arg, INSTALL_TARGETS_WORDS[arg]
+            keyword, remaining = arg, INSTALL_TARGETS_WORDS[arg]
         elif arg == "TARGETS":
             keyword = ""  # CMake allows the word to be repeated
         elif not keyword:
             names.append(arg)
-        elif keyword == "FILE_SET" and room:
+        elif keyword == "FILE_SET" and remaining:
             artifact = f"{FILE_SET}{arg}"
             destinations[artifact] = DESTINATION
-            room -= 1
-        elif keyword == "DESTINATION" and room:
+            remaining -= 1
+        elif keyword == "DESTINATION" and remaining:
             destinations[artifact] = arg
-            room -= 1
+            remaining -= 1
         elif keyword == "EXPORT" and not exported_in:
-            exported_in = sure(arg)[0]
+            exported_in = strip_mark(arg)[0]
             if not is_known(exported_in):
-                run.hide(Facet.LIBRARIES, "the set that targets are exported in is not known")
-    everywhere = destinations.get("")
-    runtime = run.paths.destination(sure(destinations.get("RUNTIME") or everywhere or "bin")[0])
-    library = run.paths.destination(sure(destinations.get("LIBRARY") or everywhere or "lib")[0])
-    archive = run.paths.destination(sure(destinations.get("ARCHIVE") or everywhere or "lib")[0])
+                run.hide(Facet.LIBRARIES, "the export set of install(TARGETS) is unknown")
+    default = destinations.get("")
+    runtime = run.paths.destination(strip_mark(destinations.get("RUNTIME") or default or "bin")[0])
+    library = run.paths.destination(strip_mark(destinations.get("LIBRARY") or default or "lib")[0])
+    archive = run.paths.destination(strip_mark(destinations.get("ARCHIVE") or default or "lib")[0])
     of_headers = [artifact for artifact in destinations if artifact.startswith(FILE_SET) or artifact.endswith("_HEADER")]
-    headers = tuple([(artifact, run.paths.destination(sure(destinations[artifact])[0])) for artifact in of_headers])
+    headers = tuple([(artifact, run.paths.destination(strip_mark(destinations[artifact])[0])) for artifact in of_headers])
     for name in names:
-        plain, certain = sure(name)
+        plain, certain = strip_mark(name)
         if not is_known(plain):
-            run.hide(Facet.EXECUTABLES | Facet.LIBRARIES, "install() of targets whose names are not known")
+            run.hide(Facet.EXECUTABLES | Facet.LIBRARIES, "a target of install(TARGETS) is unknown")
         elif not run.muted:
             conditional = run.conditional or run.testing or not certain
-            span = run.where(name)
-            made = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers)
-            run.results.installed_targets.append(made)
+            span = run.place_of(name)
+            target = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers)
+            run.results.installed_targets.append(target)
 
 
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
@@ -72,7 +72,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
         if target is None:
             if not run.open_world or "::" not in name:
                 run.results.undefined_targets.append((name, span, conditional))
-            reason = f"what the target {name} is, is not known"
+            reason = f"no definition of the target '{name}' was found"
             run.results.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
             if installed.executables is not None:  # if the target exists, it is most likely a program
                 yield InstalledFile(join_path(installed.executables, name), "", True, True, span, name)
@@ -88,17 +88,17 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
 def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[InstalledFile]:
     """Yield the files of an installed target that builds files."""
     name, span, kind = installed.target, installed.span, target["KIND"]
-    where = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
+    destination = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
     file = output_name(target)
-    if where is None or file is None:
+    if destination is None or file is None:
         facet = Facet.EXECUTABLES if kind == "executable" else Facet.LIBRARIES | Facet.PYTHON
-        run.results.opaques.setdefault(Opaque(facet, f"where the target {name} is installed is not known", span))
+        run.results.opaques.setdefault(Opaque(facet, f"the installed file of the target '{name}' is unknown", span))
         return
-    path = join_path(where, file)
+    path = join_path(destination, file)
     yield InstalledFile(path, "", kind == "executable", unsure, span, name)
     if path.startswith(_PYTHON) and not file.startswith("lib"):
         run.results.python_packages[path[len(_PYTHON) :].partition(".")[0].replace("/", ".")] = None
     if kind == "shared":
         for number in {target.get("VERSION", ""), target.get("SOVERSION", "")} - {""}:
             if is_known(number):
-                yield InstalledFile(join_path(where, f"{file}.{number}"), "", False, unsure, span, name)
+                yield InstalledFile(join_path(destination, f"{file}.{number}"), "", False, unsure, span, name)

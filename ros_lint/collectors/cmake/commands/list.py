@@ -7,20 +7,20 @@ from typing import Final
 
 from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.commands.string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
-from ros_lint.collectors.cmake.evaluator.regex import RegexError, anywhere, forget, is_in, translated
+from ros_lint.collectors.cmake.evaluator.regex import RegexError, forget, independent_of_folder, is_in, translated
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.values import (
     HOLE,
     LONGEST,
     MAYBE,
-    effort,
     elements,
-    flat,
-    glued,
+    embeddable,
     is_fixed,
     is_known,
     join,
-    sure,
+    join_with,
+    split_cost,
+    strip_mark,
 )
 
 
@@ -29,9 +29,9 @@ def _list(run: Run, args: list[str]) -> None:
         return
     mode, name, rest = args[0], args[1], args[2:]
     for text in rest:
-        run.notice(text)
+        run.note_brackets(text)
     value = run.get(name) or ""
-    run.charge(effort(value))
+    run.charge(split_cost(value))
     change = _CHANGES.get(mode)
     if change is not None:
         change(run, name, rest)
@@ -42,12 +42,12 @@ def _list(run: Run, args: list[str]) -> None:
     if not rest or HOLE in rest[-1]:
         return
     try:
-        found = read(elements(value), rest[:-1]) if is_fixed(value) else HOLE
+        result = read(elements(value), rest[:-1]) if is_fixed(value) else HOLE
     except (ValueError, IndexError):
-        found = HOLE  # CMake reports an error
+        result = HOLE  # CMake reports an error
     if mode == "JOIN" and not is_fixed(value):
-        found = HOLE
-    run.set(rest[-1], found)
+        result = HOLE
+    run.set(rest[-1], result)
 
 
 # --- changes -------------------------------------------------------------------------------------------------------
@@ -56,30 +56,30 @@ def _list(run: Run, args: list[str]) -> None:
 def _append(run: Run, name: str, args: list[str]) -> None:
     if not args:
         return
-    old = run.get(name)
+    value = run.get(name)
     if run.testing and len(run.scopes) == 1:
-        run.note_gained(name, args)
-    run.set(name, join([old, *args]) if old else join(args))
-    run.remember(2)
+        run.note_test_elements(name, args)
+    run.set(name, join([value, *args]) if value else join(args))
+    run.note_literals(2)
 
 
 def _prepend(run: Run, name: str, args: list[str]) -> None:
     if args:
-        old = run.get(name)
-        run.set(name, join([*args, old]) if old else join(args))
+        value = run.get(name)
+        run.set(name, join([*args, value]) if value else join(args))
 
 
 def _remove_item(run: Run, name: str, args: list[str]) -> None:
     value = run.get(name)
-    if not value or not args:  # CMake then does not split the list, so its escapes are kept
+    if not value or not args:  # CMake then does not split the list, so it keeps its escapes
         return
     if not all(is_known(arg) for arg in args) and not all(is_fixed(arg) for arg in args):
         run.set(name, HOLE)
         return
     removed = {*args, *(MAYBE + arg for arg in args)}
     remaining = join(element for element in elements(value) if element not in removed)
-    unsure = all(arg.startswith(MAYBE) for arg in args) and join(elements(value)) != value
-    run.set(name, HOLE if unsure else remaining)
+    uncertain = all(arg.startswith(MAYBE) for arg in args) and join(elements(value)) != value
+    run.set(name, HOLE if uncertain else remaining)
 
 
 def _remove_duplicates(run: Run, name: str, _args: list[str]) -> None:
@@ -107,7 +107,7 @@ def _sort(run: Run, name: str, args: list[str]) -> None:
         return
 
     def key(item: str) -> bytes:
-        text = sure(item)[0]
+        text = strip_mark(item)[0]
         if kind == "FILE_BASENAME":
             text = text.rpartition("/")[2]
         return to_bytes(ascii_lower(text) if options.get("CASE") == "INSENSITIVE" else text)
@@ -128,20 +128,20 @@ def _filter(run: Run, name: str, args: list[str]) -> None:
         run.set(name, HOLE)
         return
     forget(run)
-    wanted = args[0] == "INCLUDE"
-    kept: list[str] = []
+    included = args[0] == "INCLUDE"
+    remaining: list[str] = []
     for item in elements(value):
-        plain = sure(item)[0]
+        plain = strip_mark(item)[0]
         if HOLE in plain:
-            kept.append(item)
+            remaining.append(item)
             continue
-        answer = anywhere(lambda text: "1" if is_in(pattern, text) else "", plain)
+        answer = independent_of_folder(lambda text: "1" if is_in(pattern, text) else "", plain)
         if answer == HOLE:
             run.set(name, HOLE)
             return
-        if bool(answer) == wanted:
-            kept.append(item)
-    run.set(name, join(kept))
+        if bool(answer) == included:
+            remaining.append(item)
+    run.set(name, join(remaining))
 
 
 def _insert(run: Run, name: str, args: list[str]) -> None:
@@ -230,21 +230,21 @@ def _transform(run: Run, name: str, args: list[str]) -> None:
 
 def _action(mode: str, args: list[str]) -> Callable[[str], str]:
     if mode == "APPEND":
-        return lambda text: text + flat(args[0])
+        return lambda text: text + embeddable(args[0])
     if mode == "PREPEND":
-        return lambda text: flat(args[0]) + text
+        return lambda text: embeddable(args[0]) + text
     if mode == "REPLACE":
-        return lambda text: anywhere(lambda piece: replace_all(args[0], args[1], piece), text)
+        return lambda text: independent_of_folder(lambda piece: replace_all(args[0], args[1], piece), text)
     functions = {"TOUPPER": ascii_upper, "TOLOWER": ascii_lower, "STRIP": strip, "GENEX_STRIP": genex_strip}
     return functions.get(mode, lambda _: HOLE)
 
 
 def _transformed(item: str, action: Callable[[str], str]) -> str:
-    plain, certain = sure(item)
-    changed = HOLE if HOLE in plain else action(plain)
+    plain, certain = strip_mark(item)
+    value = HOLE if HOLE in plain else action(plain)
     if certain:
-        return changed
-    return MAYBE + changed if ";" not in changed else HOLE
+        return value
+    return MAYBE + value if ";" not in value else HOLE
 
 
 def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
@@ -310,7 +310,7 @@ def _index(text: str, length: int) -> int:
 
 
 def _join(items: list[str], args: list[str]) -> str:
-    return glued(args[0], items)
+    return join_with(args[0], items)
 
 
 def _sublist(items: list[str], args: list[str]) -> str:

@@ -51,8 +51,8 @@ def evaluate(text: str) -> int:
             raise _MathError(text)
         tokens.append(match[1] or match[2])
         at = match.end()
-    value, rest = _expression(tokens, 0, 1)
-    if rest != len(tokens):
+    value, end = _expression(tokens, 0, 1)
+    if end != len(tokens):
         raise _MathError(text)
     return value
 

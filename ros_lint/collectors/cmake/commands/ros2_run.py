@@ -12,11 +12,12 @@ if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.run import Run
 
 
-def started(run: Run, args: Sequence[str], *, optional: bool = False) -> None:
+def note_started_programs(run: Run, args: Sequence[str], *, optional: bool = False) -> None:
     """Record the packages that arguments of a command name in ``ros2 run`` or ``ros2 launch``.
 
     ``optional`` is True for a custom target that is not built by default.
     """
     for command, verb, package in zip(args, args[1:], args[2:], strict=False):
         if command == "ros2" and verb in ("run", "launch") and is_known(package):
-            run.mention(package, "package", run.where(package), f"ros2 {verb} {package}", optional=optional, purpose="tool")
+            quotation = f"ros2 {verb} {package}"
+            run.add_mention(package, "package", run.place_of(package), quotation, optional=optional, purpose="tool")

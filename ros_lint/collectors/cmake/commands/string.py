@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Final
 
 from ros_lint.base.text import to_bytes
-from ros_lint.collectors.cmake.evaluator.regex import RegexError, anywhere, clear, every, find, forget, store
+from ros_lint.collectors.cmake.evaluator.regex import RegexError, all_matches, clear, find, forget, independent_of_folder, store
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.values import (
     ATOM,
@@ -17,12 +17,12 @@ from ros_lint.collectors.cmake.evaluator.values import (
     PREFIX,
     SLOW,
     TREE,
-    glued,
+    embeddable,
     is_fixed,
     is_known,
     join,
+    join_with,
 )
-from ros_lint.collectors.cmake.evaluator.values import flat as flat_value
 
 _UPPER: Final = {number: number - 32 for number in range(ord("a"), ord("z") + 1)}
 _LOWER: Final = {number: number + 32 for number in range(ord("A"), ord("Z") + 1)}
@@ -71,17 +71,17 @@ def _assign(run: Run, name: str, value: str, *texts: str) -> None:
     An unknown part of it may have one bracket of a pair.
     """
     if HOLE in value and any("[" in text or "]" in text for text in texts):
-        run.unpaired = True
+        run.has_unpaired_brackets = True
     if HOLE not in name:
         run.set(name, value if len(value) <= LONGEST else HOLE)
 
 
-def _extend(run: Run, name: str, text: str, after: bool) -> None:
+def _extend(run: Run, name: str, text: str, append: bool) -> None:
     if HOLE in name:
         return
-    old = run.get(name) or ""
-    text = flat_value(text)
-    _assign(run, name, flat_value(old) + text if after else text + flat_value(old))
+    value = run.get(name) or ""
+    text = embeddable(text)
+    _assign(run, name, embeddable(value) + text if append else text + embeddable(value))
 
 
 def ascii_upper(text: str) -> str:
@@ -103,9 +103,9 @@ def _known(function: Callable[..., str]) -> Callable[..., str]:
     return guarded
 
 
-def _find(text: str, wanted: str, reverse: str = "") -> str:
-    whole, part = to_bytes(text), to_bytes(wanted)
-    return str(whole.rfind(part) if reverse == "REVERSE" else whole.find(part))
+def _find(text: str, part: str, reverse: str = "") -> str:
+    encoded, encoded_part = to_bytes(text), to_bytes(part)
+    return str(encoded.rfind(encoded_part) if reverse == "REVERSE" else encoded.find(encoded_part))
 
 
 def _replace(old: str, new: str, *inputs: str) -> str:
@@ -113,8 +113,8 @@ def _replace(old: str, new: str, *inputs: str) -> str:
     if not old or not is_fixed(old) or not is_fixed(text) or text.count(old) * len(new) > LONGEST:
         return HOLE
     if ATOM not in text or old in (TREE, BINARY, PREFIX) or old.startswith((f"{TREE}/", f"{BINARY}/", f"{PREFIX}/")):
-        return text.replace(old, flat_value(new))
-    return anywhere(lambda piece: piece.replace(old, new), text) if is_fixed(new) and ATOM not in new else HOLE
+        return text.replace(old, embeddable(new))
+    return independent_of_folder(lambda piece: piece.replace(old, new), text) if is_fixed(new) and ATOM not in new else HOLE
 
 
 def _length(text: str) -> str:
@@ -122,12 +122,12 @@ def _length(text: str) -> str:
 
 
 def _substring(text: str, begin: str, length: str) -> str:
-    whole = to_bytes(text)
+    encoded = to_bytes(text)
     start, count = int(begin), int(length)
-    if not 0 <= start <= len(whole) or count < -1:
+    if not 0 <= start <= len(encoded) or count < -1:
         return HOLE
     try:
-        return whole[start : len(whole) if count < 0 else start + count].decode()
+        return encoded[start : len(encoded) if count < 0 else start + count].decode()
     except UnicodeDecodeError:
         return HOLE  # part of a multi-byte character
 
@@ -139,7 +139,7 @@ def strip(text: str) -> str:
 
 def genex_strip(text: str) -> str:
     """Return a text without its generator expressions and without empty list elements."""
-    found: list[str] = []
+    letters: list[str] = []
     index = 0
     while index < len(text):
         if text.startswith("$<", index):
@@ -157,9 +157,9 @@ def genex_strip(text: str) -> str:
                 return HOLE
             index = end
         else:
-            found.append(text[index])
+            letters.append(text[index])
             index += 1
-    return ";".join(filter(None, "".join(found).split(";")))
+    return ";".join(filter(None, "".join(letters).split(";")))
 
 
 def _repeat(text: str, count: str) -> str:
@@ -170,13 +170,13 @@ def _repeat(text: str, count: str) -> str:
 
 
 def _join(glue: str, *inputs: str) -> str:
-    return glued(glue, inputs)
+    return join_with(glue, inputs)
 
 
 def _concat(*inputs: str) -> str:
     if len(inputs) < 2:
         return "".join(inputs)
-    return "".join(map(flat_value, inputs)) if sum(map(len, inputs)) <= LONGEST else HOLE
+    return "".join(map(embeddable, inputs)) if sum(map(len, inputs)) <= LONGEST else HOLE
 
 
 def _compare(how: str, left: str, right: str) -> str:
@@ -202,8 +202,8 @@ def _hex(text: str) -> str:
 
 
 def _identifier(text: str) -> str:
-    found = re.sub(rb"[^A-Za-z0-9_]", b"_", to_bytes(text)).decode()
-    return f"_{found}" if found[:1].isdigit() else found
+    identifier = re.sub(rb"[^A-Za-z0-9_]", b"_", to_bytes(text)).decode()
+    return f"_{identifier}" if identifier[:1].isdigit() else identifier
 
 
 def _hash(name: str) -> Callable[..., str]:
@@ -264,10 +264,10 @@ def _regex_match(run: Run, regex: str, text: str) -> str:
     if not (is_known(regex) and is_known(text)):
         forget(run)
         return HOLE
-    found = find(run, regex, text)
-    if found is None:
+    matches = find(run, regex, text)
+    if matches is None:
         return HOLE
-    return (run.get("CMAKE_MATCH_0") or "") if found else ""
+    return (run.get("CMAKE_MATCH_0") or "") if matches else ""
 
 
 def _regex_all(run: Run, regex: str, text: str) -> str:
@@ -275,7 +275,7 @@ def _regex_all(run: Run, regex: str, text: str) -> str:
         forget(run)
         return HOLE
     try:
-        matches = every(regex, text)[:-1]
+        matches = all_matches(regex, text)[:-1]
     except RegexError:
         forget(run)
         return HOLE
@@ -291,10 +291,10 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
         forget(run)
         return HOLE
     try:
-        value = anywhere(lambda piece, template: replace_all(regex, template, piece), text, new)
+        value = independent_of_folder(lambda piece, template: replace_all(regex, template, piece), text, new)
         if is_known(text):
             clear(run)
-            for _, _, groups in every(regex, text)[:-1]:
+            for _, _, groups in all_matches(regex, text)[:-1]:
                 clear(run)
                 store(run, groups)
     except RegexError:
@@ -311,16 +311,16 @@ def replace_all(regex: str, template: str, text: str) -> str:
     Raises RegexError if the expression or the template cannot be evaluated.
     """
     parts = _replacement(template)
-    found: list[str] = []
+    pieces: list[str] = []
     size = 0
-    for before, _, groups in every(regex, text):
-        found.append(before)
+    for unmatched, _, groups in all_matches(regex, text):
+        pieces.append(unmatched)
         if groups:
             size += len(template) + sum(map(len, groups))
             if size > LONGEST:
                 return HOLE
-            found += [part if isinstance(part, str) else (groups[part] if part < len(groups) else "") for part in parts]
-    return "".join(found)
+            pieces += [part if isinstance(part, str) else (groups[part] if part < len(groups) else "") for part in parts]
+    return "".join(pieces)
 
 
 def _replacement(template: str) -> list[str | int]:

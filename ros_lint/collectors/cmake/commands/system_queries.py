@@ -22,22 +22,22 @@ def _first(run: Run, args: list[str]) -> None:
         _unknown(run, args[0])
 
 
-def _found(run: Run, args: list[str]) -> None:
+def _first_in_cache(run: Run, args: list[str]) -> None:
     """Run a command whose first argument is the output variable, in the cache.
 
     The value survives the end of a function.
     """
     if args:
-        _keep(run, args[0])
+        _unknown_in_cache(run, args[0])
 
 
-def _checked(run: Run, args: list[str]) -> None:
+def _last_in_cache(run: Run, args: list[str]) -> None:
     """Run a command whose last argument is the output variable, in the cache."""
     if args:
-        _keep(run, args[-1])
+        _unknown_in_cache(run, args[-1])
 
 
-def _keep(run: Run, name: str) -> None:
+def _unknown_in_cache(run: Run, name: str) -> None:
     if HOLE in name:
         return
     run.put(run.cache, name, HOLE)
@@ -93,7 +93,7 @@ COMMANDS: Final[dict[str, Handler]] = {
         (
             "find_file", "find_library", "find_path", "find_program", "site_name", "test_big_endian", "try_compile", "try_run",
         ),
-        _found,
+        _first_in_cache,
     ),
     **dict.fromkeys(
         (
@@ -102,6 +102,6 @@ COMMANDS: Final[dict[str, Handler]] = {
             "check_include_file", "check_include_file_cxx", "check_include_files", "check_library_exists",
             "check_symbol_exists", "check_type_size",
         ),
-        _checked,
+        _last_in_cache,
     ),
 }  # fmt: skip

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from ros_lint.base.text import Span
-from ros_lint.collectors.cmake.commands.include_directories import are_in_flags, reached
-from ros_lint.collectors.cmake.commands.ros2_run import started
+from ros_lint.collectors.cmake.commands.include_directories import are_in_flags, visible_headers
+from ros_lint.collectors.cmake.commands.ros2_run import note_started_programs
 from ros_lint.collectors.cmake.commands.target_headers import file_sets
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import Properties
 from ros_lint.collectors.cmake.evaluator.truth import is_off
-from ros_lint.collectors.cmake.evaluator.values import HOLE, elements, is_fixed, is_known, join, sure
+from ros_lint.collectors.cmake.evaluator.values import HOLE, elements, is_fixed, is_known, join, strip_mark
 from ros_lint.facts.cmake import BuildTarget
 from ros_lint.facts.visibility import Facet
 
@@ -44,7 +44,7 @@ def _add_library(run: Run, args: list[str]) -> None:
 def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> None:
     if not args or not is_known(args[0]):
         if not run.testing:
-            run.hide(Facet.LIBRARIES, "the name of a target is not known")
+            run.hide(Facet.LIBRARIES, "the name of a target is unknown")
         elif args:  # for example, a name with the RMW implementation in it
             name = "".join([letter for letter in args[0] if letter.isprintable()])
             _build(run, name, Properties(KIND=kind), args, keywords)
@@ -70,27 +70,27 @@ def _build(run: Run, name: str, target: Properties, args: list[str], keywords: t
         target["CONDITIONAL"] = "1"
     if run.testing:
         target["TEST"] = "1"
-    run.results.targets.append((name, target, run.where(args[0])))
+    run.results.targets.append((name, target, run.place_of(args[0])))
     _add_sources(run, target, [arg for arg in args[1:] if arg not in keywords])
 
 
 def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
     if not sources:
         return
-    have = elements(target.get("SOURCES", ""))
+    sources_so_far = elements(target.get("SOURCES", ""))
     for source in sources:
-        plain, certain = sure(source)
+        plain, certain = strip_mark(source)
         path = run.paths.source(plain)
         if path in run.paths.files:
-            have.append(path if certain else source[0] + path)
+            sources_so_far.append(path if certain else source[0] + path)
         elif path is not None and "$<" not in plain:
             path = next((f"{path}{suffix}" for suffix in SOURCES if f"{path}{suffix}" in run.paths.files), path)
-            have.append(path if certain else source[0] + path)
+            sources_so_far.append(path if certain else source[0] + path)
             if certain and path not in run.paths.files:
-                run.results.missing_files.append((path, run.where(source), bool(run.muted or run.uncertain_conditions)))
+                run.results.missing_files.append((path, run.place_of(source), bool(run.muted or run.uncertain_conditions)))
         elif HOLE in plain:
-            have.append(HOLE)
-    run.put(target, "SOURCES", join(have))
+            sources_so_far.append(HOLE)
+    run.put(target, "SOURCES", join(sources_so_far))
 
 
 def _target_sources(run: Run, args: list[str]) -> None:
@@ -133,11 +133,11 @@ def _set_property(run: Run, args: list[str]) -> None:
                 run.put(run.cache, entry, join(values))
         return
     for holder in holders:
-        old = holder.get(name, "")
+        value = holder.get(name, "")
         if "APPEND" in modes:
-            run.put(holder, name, join([*([old] if old else []), *values]))
+            run.put(holder, name, join([*([value] if value else []), *values]))
         elif modes:
-            run.put(holder, name, old + join(values))
+            run.put(holder, name, value + join(values))
         else:
             run.put(holder, name, join(values))
 
@@ -161,20 +161,20 @@ def _get_target_property(run: Run, args: list[str]) -> None:
         run.set(args[0], _property(run, args[1], args[2], f"{args[0]}-NOTFOUND"))
 
 
-def _property(run: Run, name: str, wanted: str, missing: str) -> str:
+def _property(run: Run, name: str, property_name: str, default: str) -> str:
     target = run.targets.get(name)
-    if target is None or not is_fixed(wanted):
+    if target is None or not is_fixed(property_name):
         return HOLE
     if target["KIND"] == "alias":
-        return _property(run, target["ALIASED"], wanted, missing) if target["ALIASED"] in run.targets else HOLE
-    if wanted in ("NAME", "OUTPUT_NAME") or (wanted in target and wanted != "SOURCES"):
-        return target.get(wanted, missing)
+        return _property(run, target["ALIASED"], property_name, default) if target["ALIASED"] in run.targets else HOLE
+    if property_name in ("NAME", "OUTPUT_NAME") or (property_name in target and property_name != "SOURCES"):
+        return target.get(property_name, default)
     return HOLE
 
 
 def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> None:
     """Run add_custom_command(), whose outputs may be used as sources."""
-    started(run, args, optional=optional)
+    note_started_programs(run, args, optional=optional)
     outputs = False
     for arg in args:
         if arg in ("OUTPUT", "BYPRODUCTS"):
@@ -182,10 +182,10 @@ def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> Non
         elif arg.isupper() and len(arg) > 4 and "/" not in arg:
             outputs = False
         elif outputs:
-            generate(run, arg)
+            note_generated(run, arg)
 
 
-def generate(run: Run, path: str, *, folder: bool = False) -> None:
+def note_generated(run: Run, path: str, *, folder: bool = False) -> None:
     """Record that the build generates a file, or a folder with unknown files."""
     place = run.paths.source(path)
     if place is not None:
@@ -207,30 +207,30 @@ def output_name(target: Properties) -> str | None:
     name = target.get(f"{specific}_OUTPUT_NAME", target.get("OUTPUT_NAME", target["NAME"]))
     prefix = target.get("PREFIX", "" if kind == "executable" else "lib")
     suffix = target.get("SUFFIX", {"executable": "", "static": ".a"}.get(kind, ".so"))
-    whole = f"{prefix}{name}{suffix}"
-    return whole if is_known(whole) and "$<" not in whole else None
+    file_name = f"{prefix}{name}{suffix}"
+    return file_name if is_known(file_name) and "$<" not in file_name else None
 
 
 def targets(run: Run) -> tuple[BuildTarget, ...]:
     """Return the targets that the package builds, in the order of their definition."""
-    found = []
-    anywhere = are_in_flags(run)
+    result = []
+    any_headers = are_in_flags(run)
     for name, target, span in run.results.targets:
         kind = target["KIND"]
         if kind == "imported":
             continue
-        listed = elements(target["SOURCES"])
-        named = [sure(path) for path in listed if HOLE not in path]
-        sources = tuple(dict.fromkeys([path for path, _ in named]))
-        firm = frozenset() if "CONDITIONAL" in target else {path for path, certain in named if certain}
-        optional = tuple([path for path in sources if path not in firm])
+        elements_of_sources = elements(target["SOURCES"])
+        paths = [strip_mark(path) for path in elements_of_sources if HOLE not in path]
+        sources = tuple(dict.fromkeys([path for path, _ in paths]))
+        always = frozenset() if "CONDITIONAL" in target else {path for path, certain in paths if certain}
+        optional = tuple([path for path in sources if path not in always])
         links = _links(run, name) if name in run.results.links else ()
-        whole = len(named) == len(listed)
-        headers = None if anywhere or not sources or "TEST" in target else reached(run, name, run.targets)
-        found.append(
-            BuildTarget(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, whole, headers)
+        all_known = len(paths) == len(elements_of_sources)
+        headers = None if any_headers or not sources or "TEST" in target else visible_headers(run, name, run.targets)
+        result.append(
+            BuildTarget(name, _KINDS.get(kind, "library"), sources, "TEST" in target, span, links, optional, all_known, headers)
         )
-    return tuple(dict.fromkeys(found)) if len(found) > 1 else tuple(found)
+    return tuple(dict.fromkeys(result)) if len(result) > 1 else tuple(result)
 
 
 _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "executable", "interface": "interface"}
@@ -238,12 +238,12 @@ _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "e
 
 def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
     """Return the targets of the package that a target is linked with. An alias is replaced by its target."""
-    found: dict[str, Span] = {}
+    links: dict[str, Span] = {}
     for library, span in run.results.links[name].items():
         target = real_target(run, library)
         if target is not None and target.get("KIND") != "imported" and "NAME" in target:
-            found.setdefault(target["NAME"], span)
-    return tuple(found.items())
+            links.setdefault(target["NAME"], span)
+    return tuple(links.items())
 
 
 def real_target(run: Run, name: str) -> Properties | None:

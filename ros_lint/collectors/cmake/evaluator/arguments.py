@@ -11,9 +11,9 @@ _FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
 
 
 @lru_cache(maxsize=512)
-def _keywords(prefix: str, options: str, ones: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
+def _keywords(prefix: str, options: str, single_names: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
     """Return the kind of each keyword, and the variables that are set for a call without arguments."""
-    flags, singles, lists = split(options), split(ones), split(multis)
+    flags, singles, lists = split(options), split(single_names), split(multis)
     kinds = {**dict.fromkeys(lists, _LIST), **dict.fromkeys(singles, _SINGLE), **dict.fromkeys(flags, _FLAG)}
     initial: dict[str, str | None] = {f"{prefix}_{name}": "FALSE" for name in flags}
     unset = (*singles, *lists, "UNPARSED_ARGUMENTS", "KEYWORDS_MISSING_VALUES")
@@ -21,14 +21,14 @@ def _keywords(prefix: str, options: str, ones: str, multis: str) -> tuple[dict[s
     return kinds, initial
 
 
-def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequence[str]) -> dict[str, str | None]:
+def parse_keywords(prefix: str, options: str, singles: str, multis: str, args: Sequence[str]) -> dict[str, str | None]:
     """Return the variables that cmake_parse_arguments() sets; the value None unsets a variable."""
-    kinds, initial = _keywords(prefix, options, ones, multis)
+    kinds, initial = _keywords(prefix, options, singles, multis)
     values = initial.copy()
     arguments: dict[str, list[str]] = {}
     unparsed: list[str] = []
     state = ""
-    taking = 0
+    expected = 0
     if args and args[-1][:1] == MAYBE and kinds.get(args[-1][1:]) == _FLAG:  # a last flag ends no list of values
         values[f"{prefix}_{args[-1][1:]}"] = HOLE
         args = args[:-1]
@@ -36,29 +36,29 @@ def parse_keywords(prefix: str, options: str, ones: str, multis: str, args: Sequ
         kind = kinds.get(arg)
         if kind == _FLAG:
             values[f"{prefix}_{arg}"] = "TRUE"
-            taking = 0
+            expected = 0
         elif kind is not None:
-            state, taking = arg, kind
+            state, expected = arg, kind
             arguments.setdefault(arg, [])
-        elif taking == _SINGLE:
+        elif expected == _SINGLE:
             values[f"{prefix}_{state}"] = arg
-            taking = _MAYBE if arg in (HOLE, UNPAIRED_HOLE) or arg.startswith(MAYBE) else 0
-        elif taking == _LIST:
+            expected = _MAYBE if arg in (HOLE, UNPAIRED_HOLE) or arg.startswith(MAYBE) else 0
+        elif expected == _LIST:
             arguments[state].append(arg)
-        elif taking == _MAYBE and arg.startswith(MAYBE):
+        elif expected == _MAYBE and arg.startswith(MAYBE):
             values[f"{prefix}_{state}"] = HOLE
         else:
-            taking = 0
+            expected = 0
             unparsed.append(arg)
         if arg[:1] == MAYBE and arg[1:] in kinds:
             return dict.fromkeys(values, HOLE)
     if arguments:
         lists = [name for name in arguments if kinds[name] == _LIST]
         values.update({f"{prefix}_{name}": join(arguments[name]) for name in lists})
-        missing = [name for name in lists if not arguments[name]]
-        missing += [name for name in arguments if kinds[name] == _SINGLE and values[f"{prefix}_{name}"] is None]
-        if missing:
-            values[f"{prefix}_KEYWORDS_MISSING_VALUES"] = join(missing)
+        without_values = [name for name in lists if not arguments[name]]
+        without_values += [name for name in arguments if kinds[name] == _SINGLE and values[f"{prefix}_{name}"] is None]
+        if without_values:
+            values[f"{prefix}_KEYWORDS_MISSING_VALUES"] = join(without_values)
     if unparsed:
         values[f"{prefix}_UNPARSED_ARGUMENTS"] = join(unparsed)
     return values
@@ -69,20 +69,20 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
 
     ``keywords`` has the number of arguments of each keyword, -1 for any number. Excess arguments are under "".
     """
-    found: dict[str, list[str]] = {"": []}
-    current, room = found[""], -1
+    arguments: dict[str, list[str]] = {"": []}
+    current, remaining = arguments[""], -1
     for arg in args:
-        wanted = keywords.get(arg)
-        if wanted is not None:
-            current, room = found.setdefault(arg, []), wanted
-            if not room:
-                current, room = found[""], -1
+        count = keywords.get(arg)
+        if count is not None:
+            current, remaining = arguments.setdefault(arg, []), count
+            if not remaining:
+                current, remaining = arguments[""], -1
         else:
-            if not room:
-                current, room = found[""], -1
+            if not remaining:
+                current, remaining = arguments[""], -1
             current.append(arg)
-            room -= room > 0
-    return found
+            remaining -= remaining > 0
+    return arguments
 
 
 def with_one_destination(args: list[str]) -> list[str]:

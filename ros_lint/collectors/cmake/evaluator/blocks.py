@@ -99,30 +99,30 @@ def blocks(commands: Sequence[Command]) -> Body:
     """Return commands nested in their blocks. Raises UnbalancedError."""
     nodes: list[Node] = []
     stack: list[_Open] = []
-    outer: list[list[Node]] = []
+    outer_nodes: list[list[Node]] = []
     for command in commands:
         name = command.name
         if name in _STARTS:
             stack.append(_Open(command))
-            outer.append(nodes)
+            outer_nodes.append(nodes)
             nodes = stack[-1].nodes
         elif name in _BRANCHES:
             if not stack or stack[-1].command.name != "if" or stack[-1].condition is None:
-                raise UnbalancedError(f"{name}() stands in no if()", command, tuple(outer[0] if outer else nodes))
+                raise UnbalancedError(f"{name}() is not in an if()", command, tuple(outer_nodes[0] if outer_nodes else nodes))
             stack[-1].next_branch(command if name == "elseif" else None)
             nodes = stack[-1].nodes
         elif name in _ENDS:
             if not stack or stack[-1].command.name != _ENDS[name]:
-                message = f"{name}() closes no {_ENDS[name]}()"
-                raise UnbalancedError(message, command, tuple(outer[0] if outer else nodes))
-            closed = stack.pop().close()
-            nodes = outer.pop()
-            nodes.append(closed)
+                message = f"{name}() does not close a {_ENDS[name]}()"
+                raise UnbalancedError(message, command, tuple(outer_nodes[0] if outer_nodes else nodes))
+            block = stack.pop().close()
+            nodes = outer_nodes.pop()
+            nodes.append(block)
         else:
             nodes.append(command)
     if stack:
-        culprit = stack[-1].command
-        raise UnbalancedError(f"{culprit.name}() is never closed", culprit, tuple(outer[0]))
+        unclosed = stack[-1].command
+        raise UnbalancedError(f"{unclosed.name}() is not closed", unclosed, tuple(outer_nodes[0]))
     return tuple(nodes)
 
 

@@ -11,15 +11,15 @@ from ros_lint.collectors.cmake.evaluator.conditions import condition
 from ros_lint.collectors.cmake.evaluator.flow import run_body
 from ros_lint.collectors.cmake.evaluator.regex import forget
 from ros_lint.collectors.cmake.evaluator.run import Run
-from ros_lint.collectors.cmake.evaluator.state import NEXT, STOP, TESTS, USUAL, Changes, Exit
+from ros_lint.collectors.cmake.evaluator.state import BY_DEFAULT, IF_TESTING, NEXT, STOP, Changes, Exit
 from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIKELY, Truth
 
 
-class _Way(NamedTuple):
+class _Branch(NamedTuple):
     """A branch that may run."""
 
     body: Body
-    usual: bool
+    by_default: bool
     """True if the branch runs with default options."""
     testing: bool
 
@@ -27,36 +27,36 @@ class _Way(NamedTuple):
 def _run_if(run: Run, node: If) -> Exit:
     if len(node.branches) == 1:
         return _run_single(run, node)
-    ways: list[_Way] = []
-    open_end = True  # whether all conditions so far may be false with default options
+    branches: list[_Branch] = []
+    is_default = True  # whether all conditions so far are false with default options
     testing = run.testing
-    certain = True
+    may_skip_all = True
     for command, body in node.branches:
         if command is None:
             truth = Truth(TRUE, False, False)
         else:
             run.frames[-1].command = command
             truth = condition(run, command)
-            if ways and any(text == "MATCHES" for text, *_ in command.args):
+            if branches and any(text == "MATCHES" for text, *_ in command.args):
                 forget(run)  # it is unknown whether this condition is evaluated
         if truth.value == FALSE:
             testing = testing or truth.test_if_false
             continue
         if truth.value == TRUE:
-            ways.append(_Way(body, open_end, testing or truth.test_if_true))
-            certain = False
+            branches.append(_Branch(body, is_default, testing or truth.test_if_true))
+            may_skip_all = False
             break
-        ways.append(_Way(body, truth.value == LIKELY and open_end, testing or truth.test_if_true))
-        open_end = open_end and truth.value == UNLIKELY
+        branches.append(_Branch(body, truth.value == LIKELY and is_default, testing or truth.test_if_true))
+        is_default = is_default and truth.value == UNLIKELY
         testing = testing or truth.test_if_false
-    if certain:
-        ways.append(_Way((), open_end, testing))
-    if len(ways) == 1:
-        return _run_way(run, ways[0])
-    if len(ways) == 2 and ways[0].usual and not ways[1].body:
+    if may_skip_all:
+        branches.append(_Branch((), is_default, testing))
+    if len(branches) == 1:
+        return _run_branch(run, branches[0])
+    if len(branches) == 2 and branches[0].by_default and not branches[1].body:
         # The other branch is empty, so the default branch need not be joined with it.
-        return _run_way(run, ways[0]) | NEXT
-    return _run_ways(run, ways)
+        return _run_branch(run, branches[0]) | NEXT
+    return _run_branches(run, branches)
 
 
 def _run_single(run: Run, node: If) -> Exit:
@@ -68,54 +68,55 @@ def _run_single(run: Run, node: If) -> Exit:
     if truth.value == FALSE:
         return NEXT
     testing = run.testing
-    way = _Way(body, truth.value >= LIKELY, testing or truth.test_if_true)
+    branch = _Branch(body, truth.value >= LIKELY, testing or truth.test_if_true)
     if truth.value == TRUE:
-        return _run_way(run, way)
+        return _run_branch(run, branch)
     if truth.value == LIKELY:
         # There is no other branch, so the default branch need not be joined.
-        return _run_way(run, way) | NEXT
-    return _run_ways(run, [way, _Way((), truth.value == UNLIKELY, testing or truth.test_if_false)])
+        return _run_branch(run, branch) | NEXT
+    return _run_branches(run, [branch, _Branch((), truth.value == UNLIKELY, testing or truth.test_if_false)])
 
 
-def _run_way(run: Run, way: _Way) -> Exit:
-    if way.testing == run.testing:
-        return run_body(run, way.body)
+def _run_branch(run: Run, branch: _Branch) -> Exit:
+    if branch.testing == run.testing:
+        return run_body(run, branch.body)
     run.testing = True
     try:
-        return run_body(run, way.body)
+        return run_body(run, branch.body)
     finally:
         run.testing = False
 
 
-def _run_ways(run: Run, ways: Sequence[_Way]) -> Exit:
-    ended: Exit = 0
-    alive: list[tuple[Changes, bool]] = []
-    onward: list[tuple[_Way, Exit]] = []
-    some_usual = any(way.usual for way in ways)
-    for way in ways:
-        run.uncertain_conditions += not way.usual
-        run.non_default_conditions += some_usual and not way.usual
+def _run_branches(run: Run, branches: Sequence[_Branch]) -> Exit:
+    exits: Exit = 0
+    completed: list[tuple[Changes, bool]] = []
+    continuing: list[tuple[_Branch, Exit]] = []
+    some_by_default = any(branch.by_default for branch in branches)
+    for branch in branches:
+        run.uncertain_conditions += not branch.by_default
+        run.non_default_conditions += some_by_default and not branch.by_default
         try:
-            outcome, changes = run.branch(partial(_run_way, run, way))
+            outcome, changes = run.branch(partial(_run_branch, run, branch))
         finally:
-            run.uncertain_conditions -= not way.usual
-            run.non_default_conditions -= some_usual and not way.usual
+            run.uncertain_conditions -= not branch.by_default
+            run.non_default_conditions -= some_by_default and not branch.by_default
         if outcome == STOP:
             continue
         if outcome & NEXT:
-            onward.append((way, outcome))
-        ended |= outcome & ~STOP
-        alive.append((changes, way.usual))
-    if not alive:
+            continuing.append((branch, outcome))
+        exits |= outcome & ~STOP
+        completed.append((changes, branch.by_default))
+    if not completed:
         return STOP
-    default = next((index for index, (_, usual) in enumerate(alive) if usual), None)
-    run.join([changes for changes, _ in alive], default)
-    if ended != NEXT and onward:
+    default = next((index for index, (_, usual) in enumerate(completed) if usual), None)
+    run.join([changes for changes, _ in completed], default)
+    if exits != NEXT and continuing:
         # The default branch usually continues if no command in it can leave, or if leaving is the exception there.
-        ended &= ~USUAL
-        ended |= USUAL if any(way.usual and (outcome & ~STOP == NEXT or outcome & USUAL) for way, outcome in onward) else 0
-        ended |= TESTS if all(way.testing for way, _ in onward) and not run.testing else 0
-    return ended
+        exits &= ~BY_DEFAULT
+        if any(branch.by_default and (outcome & ~STOP == NEXT or outcome & BY_DEFAULT) for branch, outcome in continuing):
+            exits |= BY_DEFAULT
+        exits |= IF_TESTING if all(branch.testing for branch, _ in continuing) and not run.testing else 0
+    return exits
 
 
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {If: _run_if}

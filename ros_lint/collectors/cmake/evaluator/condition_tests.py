@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
-from ros_lint.collectors.cmake.evaluator.values import HOLE, TREE, certainly_set, effort, elements, is_fixed, is_known
+from ros_lint.collectors.cmake.evaluator.values import HOLE, TREE, certainly_set, elements, is_fixed, is_known, split_cost
 
 if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.run import Run
@@ -45,14 +45,14 @@ def _command(run: Run, token: Token) -> Truth:
 
 
 def _exists(run: Run, token: Token) -> Truth:
-    path = run.paths.reached(token.text) if token.text.startswith(TREE) else None
+    path = run.paths.source_or_outside(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
     return Truth(TRUE if run.paths.is_file(path) or run.paths.is_folder(path) else UNLIKELY)
 
 
 def _is_directory(run: Run, token: Token) -> Truth:
-    path = run.paths.reached(token.text) if token.text.startswith(TREE) else None
+    path = run.paths.source_or_outside(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
     return Truth(TRUE if run.paths.is_folder(path) else UNLIKELY)
@@ -203,18 +203,18 @@ def _matches(run: Run, left: Token, right: Token) -> int:
     if not (is_known(texts[0]) and is_known(right.text)):
         forget(run)
         return UNKNOWN
-    found = [find(run, right.text, text) for text in texts]
-    if None in found or found[0] != found[-1]:
+    matches = [find(run, right.text, text) for text in texts]
+    if None in matches or matches[0] != matches[-1]:
         forget(run)
         return UNKNOWN
-    return TRUE if found[0] else FALSE
+    return TRUE if matches[0] else FALSE
 
 
 def _in_list(run: Run, left: Token, right: Token) -> int:
     value = run.get(right.text)
     if value is None:
         return UNLIKELY if run.may_be_set(right.text) else FALSE
-    run.charge(effort(value))
+    run.charge(split_cost(value))
     return _agreed(_is_element(element, value) for element in _operands(run, left))
 
 

@@ -24,17 +24,17 @@ from ros_lint.collectors.cmake.evaluator.truth import (
     either,
     is_off,
     negated,
-    softened,
-    softened_by,
+    reversible,
+    reversible_if_configurable,
 )
-from ros_lint.collectors.cmake.evaluator.values import effort, is_fixed, kept, split
+from ros_lint.collectors.cmake.evaluator.values import cached_short, is_fixed, split, split_cost
 from ros_lint.collectors.cmake.syntax import BRACKET, LITERAL, PLAIN, QUOTED, UNQUOTED, Command
 
 if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.run import Run
 
-_TESTS_WANTED: Final = Truth(LIKELY, test_if_true=True)
-_NO_TESTS: Final = Truth(UNLIKELY, test_if_true=True)
+_TESTS_ENABLED: Final = Truth(LIKELY, test_if_true=True)
+_TESTS_DISABLED: Final = Truth(UNLIKELY, test_if_true=True)
 
 
 _TEST_VARIABLE = re.compile(
@@ -43,7 +43,7 @@ _TEST_VARIABLE = re.compile(
 _REFERENCE = re.compile(r"\$\{([A-Za-z0-9_./+-]+)\}")
 
 
-_ASKED = re.compile(r"\$\{(\w+_FOUND)\}")
+_FOUND_VARIABLE = re.compile(r"\$\{(\w+_FOUND)\}")
 
 
 def condition(run: Run, command: Command) -> Truth:
@@ -55,16 +55,16 @@ def condition(run: Run, command: Command) -> Truth:
     tokens: list[Token] = []
     for text, kind, _, _ in command.args:
         if kind == UNQUOTED:
-            soft = _is_soft(run, text)
-            value = run.evaluated(text)
-            run.charge(effort(value))
-            tokens += [Token(part, False, soft) for part in split(value)]
+            configurable = _is_configurable(run, text)
+            value = run.evaluate(text)
+            run.charge(split_cost(value))
+            tokens += [Token(part, False, configurable) for part in split(value)]
         elif kind == QUOTED:
-            tokens.append(Token(run.evaluated(text), True, _is_soft(run, text)))
+            tokens.append(Token(run.evaluate(text), True, _is_configurable(run, text)))
         else:
             tokens.append(Token(text, kind in (LITERAL, BRACKET), False))
         if "_FOUND}" in text:
-            run.tested_variables.update(_ASKED.findall(text))
+            run.tested_variables.update(_FOUND_VARIABLE.findall(text))
     if len(tokens) > 1:
         truth = _Parser(run, tokens).whole()
         if sum(token.text == "MATCHES" for token in tokens) > 1:
@@ -75,7 +75,7 @@ def condition(run: Run, command: Command) -> Truth:
     return _word(run, tokens[0]) if tokens else Truth(FALSE)
 
 
-def _is_soft(run: Run, text: str) -> bool:
+def _is_configurable(run: Run, text: str) -> bool:
     # The packages of a repository are often built for several distributions, not only for the chosen one.
     return "$ENV{ROS_DISTRO}" in text or any(run.may_be_set(name) for name in _REFERENCE.findall(text))
 
@@ -148,7 +148,7 @@ class _Parser:
         if binary is not None and self.at + 1 < len(self.tokens):
             right = self.tokens[self.at + 1]
             self.at += 2
-            return softened_by(binary(self.run, left, right), self.run, left, right)
+            return reversible_if_configurable(binary(self.run, left, right), self.run, left, right)
         return _word(self.run, left)
 
     def binary_after(self, truth: Truth) -> Truth:
@@ -192,42 +192,43 @@ def _word(run: Run, token: Token) -> Truth:
     """Return the truth of a single word: a constant, a variable or a string."""
     text = token.text
     if text == "BUILD_TESTING" and not token.quoted:
-        return _tests_wanted(run)
+        return _build_testing(run)
     if not is_fixed(text):
         return Truth(UNKNOWN)
-    known = constant(text)
-    if known is not None:
-        return Truth(softened(TRUE if known else FALSE) if token.soft else (TRUE if known else FALSE))
+    value_of_constant = constant(text)
+    if value_of_constant is not None:
+        answer = TRUE if value_of_constant else FALSE
+        return Truth(reversible(answer) if token.configurable else answer)
     if token.quoted:
-        return Truth(UNLIKELY if token.soft else FALSE)
-    if _asks_for_tests(text):
+        return Truth(UNLIKELY if token.configurable else FALSE)
+    if _is_test_option(text):
         return _tests_enabled(run, text)
     value = run.get(text)
     if text.endswith("_FOUND"):
         run.tested_variables.add(text)
     if value is None:
-        soft = token.soft or run.may_be_set(text)
-        return Truth(UNLIKELY if soft else FALSE)
+        configurable = token.configurable or run.may_be_set(text)
+        return Truth(UNLIKELY if configurable else FALSE)
     # A function may have a local variable of this name with another value.
-    for_tests = text in run.for_tests and (value == run.for_tests[text] or not is_fixed(value))
+    for_tests = text in run.test_switches and (value == run.test_switches[text] or not is_fixed(value))
     if not is_fixed(value):
         return Truth(UNKNOWN, for_tests)
     answer = FALSE if is_off(value) else TRUE
-    return Truth(softened(answer) if token.soft or run.is_soft(text) else answer, for_tests)
+    return Truth(reversible(answer) if token.configurable or run.is_configurable(text) else answer, for_tests)
 
 
-@kept(1024)
-def _asks_for_tests(name: str) -> bool:
+@cached_short(1024)
+def _is_test_option(name: str) -> bool:
     return _TEST_VARIABLE.search(name) is not None
 
 
-def _tests_wanted(run: Run) -> Truth:
+def _build_testing(run: Run) -> Truth:
     """Return the truth of BUILD_TESTING: likely, unless the script itself sets it to false.
 
     A later option(BUILD_TESTING) keeps that value.
     """
     value = run.get("BUILD_TESTING")
-    return _NO_TESTS if value and is_fixed(value) and is_off(value) else _TESTS_WANTED
+    return _TESTS_DISABLED if value and is_fixed(value) and is_off(value) else _TESTS_ENABLED
 
 
 def _tests_enabled(run: Run, name: str) -> Truth:

@@ -20,7 +20,7 @@ def _define(run: Run, node: Definition) -> Exit:
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
     if not args or HOLE in args[0]:
-        run.hide(Facet.USES, "the name of a function is not known")
+        run.hide(Facet.USES, "the name of a function is unknown")
         return NEXT
     frame = run.frames[-1]
     body = node.body
@@ -36,13 +36,13 @@ def _define(run: Run, node: Definition) -> Exit:
         frame.path,
         file.folder,
         frame.procedure.provider if frame.procedure else frame.provider,
-        counts(body),
+        reads_argument_variables(body),
     )
     run.put(run.procedures, args[0].lower(), procedure)
     return NEXT
 
 
-def counts(body: Body) -> bool:
+def reads_argument_variables(body: Body) -> bool:
     """Return whether a body may read the arguments of its function by number (ARGV, ARGC, ARGV0 ...)."""
     for node in body:
         commands: list[Command | None]
@@ -50,24 +50,26 @@ def counts(body: Body) -> bool:
         if isinstance(node, Command):
             commands, bodies = [node], []
         elif isinstance(node, If):
-            commands, bodies = [command for command, _ in node.branches], [inner for _, inner in node.branches]
+            commands, bodies = [command for command, _ in node.branches], [branch_body for _, branch_body in node.branches]
         else:
             commands, bodies = [node.command], [node.body]
-        if any(command is not None and _counts(command) for command in commands) or any(map(counts, bodies)):
+        if any(map(reads_argument_variables, bodies)):
+            return True
+        if any(command is not None and _reads_argument_variables(command) for command in commands):
             return True
     return False
 
 
-def _counts(command: Command) -> bool:
+def _reads_argument_variables(command: Command) -> bool:
     return command.name == "include" or any("ARGV" in text or "ARGC" in text for text, *_ in command.args)
 
 
 def _substituted(macro_arguments: dict[str, str], args: tuple[Argument, ...]) -> tuple[Argument, ...]:
-    found = []
+    substituted_args = []
     for text, kind, start, end in args:
-        changed = substituted(text, macro_arguments) if kind in (UNQUOTED, QUOTED) else text
-        found.append((changed, kind, start, end))
-    return tuple(found)
+        value = substituted(text, macro_arguments) if kind in (UNQUOTED, QUOTED) else text
+        substituted_args.append((value, kind, start, end))
+    return tuple(substituted_args)
 
 
 def _run_scope(run: Run, node: Scope) -> Exit:
@@ -79,13 +81,13 @@ def _run_scope(run: Run, node: Scope) -> Exit:
     names = args[args.index("PROPAGATE") + 1 :] if "PROPAGATE" in args else []
     run.scopes.append(BlockVariables())
     try:
-        ended = run_body(run, node.body)
-        kept = {name: run.scopes[-1][name] for name in names if name in run.scopes[-1]}
+        exits = run_body(run, node.body)
+        propagated = {name: run.scopes[-1][name] for name in names if name in run.scopes[-1]}
     finally:
         run.scopes.pop()
-    for name, value in kept.items():
+    for name, value in propagated.items():
         run.set(name, value)
-    return ended
+    return exits
 
 
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Definition: _define, Scope: _run_scope}

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Final
 
-from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, MAYBE, certainly_set, flat
+from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, MAYBE, certainly_set, embeddable
 
 Part = str | tuple[str, "Template"]
 """A text, or a reference: its name space ("", "ENV" or "CACHE") and the template of the name."""
@@ -34,18 +34,18 @@ templates: Final[dict[str, Compiled]] = {}
 
 def template(text: str) -> Compiled:
     """Return the compiled form of an argument. Raises ExpansionError if CMake rejects it."""
-    found = templates.get(text)
-    if found is None:
+    compiled = templates.get(text)
+    if compiled is None:
         if len(templates) > _MOST_TEMPLATES:
             templates.clear()
-        found = parts = _compile(text)
+        compiled = parts = _compile(text)
         if len(parts) == 1 and isinstance(parts[0], tuple):
-            where, name = parts[0]
-            if not where and len(name) == 1 and isinstance(name[0], str) and not _MARKS.search(name[0]):
-                found = name[0]
+            space, name = parts[0]
+            if not space and len(name) == 1 and isinstance(name[0], str) and not _MARKS.search(name[0]):
+                compiled = name[0]
         if len(text) <= _LONGEST_KEPT:
-            templates[text] = found
-    return found
+            templates[text] = compiled
+    return compiled
 
 
 def _compile(text: str) -> Template:
@@ -62,9 +62,9 @@ def _compile(text: str) -> Template:
             parts = []
         elif group == 8:
             if stack:
-                where, outer = stack.pop()
-                outer.append((where, _joined(parts)))
-                parts = outer
+                space, outer_parts = stack.pop()
+                outer_parts.append((space, _joined(parts)))
+                parts = outer_parts
             else:
                 parts.append("}")
         elif group == 2:
@@ -84,13 +84,13 @@ def _compile(text: str) -> Template:
 
 def _joined(parts: list[Part]) -> Template:
     """Return the parts with adjacent texts joined."""
-    joined: list[Part] = []
+    texts: list[Part] = []
     for part in parts:
-        if joined and isinstance(part, str) and isinstance(joined[-1], str):
-            joined[-1] += part
+        if texts and isinstance(part, str) and isinstance(texts[-1], str):
+            texts[-1] += part
         else:
-            joined.append(part)
-    return tuple(joined)
+            texts.append(part)
+    return tuple(texts)
 
 
 _SIMPLE = re.compile(r"\$\{(\w+)\}")
@@ -101,18 +101,18 @@ def substituted(text: str, values: Mapping[str, str]) -> str:
 
     HOLE if it is too long.
     """
-    alone = _SIMPLE.fullmatch(text)
-    if alone is not None:
-        return values.get(alone[1], text)
+    match = _SIMPLE.fullmatch(text)
+    if match is not None:
+        return values.get(match[1], text)
     size = len(text)
 
     def value(reference: re.Match[str]) -> str:
         nonlocal size
-        found = flat(values.get(reference[1], reference[0]))
-        size += len(found)
+        replacement = embeddable(values.get(reference[1], reference[0]))
+        size += len(replacement)
         if size > LONGEST:
             raise OverflowError
-        return found
+        return replacement
 
     try:
         return _SIMPLE.sub(value, text)
@@ -135,10 +135,10 @@ def expand(parts: Template, lookup: Lookup) -> str:
         if isinstance(part, str):
             pieces.append(part)
             continue
-        where, inner = part
-        name = inner[0] if inner else ""
-        if len(inner) <= 1 and isinstance(name, str) and HOLE not in name and MAYBE not in name:
-            pieces.append(lookup(name, where))
+        space, name_template = part
+        name = name_template[0] if name_template else ""
+        if len(name_template) <= 1 and isinstance(name, str) and HOLE not in name and MAYBE not in name:
+            pieces.append(lookup(name, space))
         else:
             pieces.append(_reference(part, lookup))
     if sum(map(len, pieces)) > LONGEST:
@@ -150,17 +150,17 @@ def expand(parts: Template, lookup: Lookup) -> str:
 def _marked(pieces: list[str]) -> str:
     """Return the pieces joined. Only pieces that are whole list elements keep their MAYBE marks."""
     pieces = [piece for piece in pieces if piece]
-    found = []
-    for before, piece, after in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):
+    texts = []
+    for previous, piece, following in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):
         # A list that may be empty would leave an empty element, which the marks cannot express.
-        alone = before.endswith(";") and after.startswith(";") and certainly_set(piece)
-        found.append(piece if alone else flat(piece))
-    return "".join(found)
+        is_element = previous.endswith(";") and following.startswith(";") and certainly_set(piece)
+        texts.append(piece if is_element else embeddable(piece))
+    return "".join(texts)
 
 
 def _reference(part: tuple[str, Template], lookup: Lookup) -> str:
-    where, inner = part
-    name = inner[0] if len(inner) == 1 and isinstance(inner[0], str) else expand(inner, lookup)
+    space, name_template = part
+    name = name_template[0] if len(name_template) == 1 and isinstance(name_template[0], str) else expand(name_template, lookup)
     if HOLE in name or MAYBE in name:
         return HOLE
-    return lookup(name, where)
+    return lookup(name, space)

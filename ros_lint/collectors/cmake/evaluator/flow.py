@@ -9,11 +9,11 @@ from typing import Any, Final
 from ros_lint.collectors.cmake.evaluator.blocks import Node, UnbalancedError, blocks
 from ros_lint.collectors.cmake.evaluator.run import DEEPEST, MOST_STEPS, Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import (
+    BY_DEFAULT,
+    IF_TESTING,
     NEXT,
     RETURN,
     STOP,
-    TESTS,
-    USUAL,
     BudgetError,
     Changes,
     Choice,
@@ -22,7 +22,7 @@ from ros_lint.collectors.cmake.evaluator.state import (
     Procedure,
     Variables,
 )
-from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, certainly_set, elements, join, maybe
+from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, certainly_set, elements, join, mark_maybe
 from ros_lint.collectors.cmake.syntax import QUOTED, Command
 from ros_lint.facts.visibility import ALL_FACETS
 
@@ -45,36 +45,36 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
             frame.command = node
             name = node.name
             if name in procedures:
-                ended = run_named(run, name, run.arguments(node))
+                exits = run_named(run, name, run.arguments(node))
             else:
                 run.command_names.add(name)
                 handler = HANDLERS.get(name)
                 args = run.arguments(node)
-                ended = (handler(run, args) if handler is not None else run.run_external_command(run, name, args)) or NEXT
+                exits = (handler(run, args) if handler is not None else run.run_external_command(run, name, args)) or NEXT
         else:
-            ended = BLOCKS[type(node)](run, node)
-        if ended == NEXT:
+            exits = BLOCKS[type(node)](run, node)
+        if exits == NEXT:
             continue
-        if not ended & NEXT:
-            return ended
-        if ended == NEXT | STOP:
+        if not exits & NEXT:
+            return exits
+        if exits == NEXT | STOP:
             continue  # a branch that stops with an error has no effects
         run.steps -= len(body) - index - 1  # run_body() counts the rest again
-        rest, changes = perhaps(run, partial(run_body, run, body, index + 1), ended)
-        run.join([{}, changes], 1 if ended & USUAL else None)
-        return (ended & ~(NEXT | USUAL | TESTS)) | rest
+        rest, changes = run_conditionally(run, partial(run_body, run, body, index + 1), exits)
+        run.join([{}, changes], 1 if exits & BY_DEFAULT else None)
+        return (exits & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
     return NEXT
 
 
-def perhaps(run: Run, piece: Callable[[], Exit], reached: Exit = NEXT) -> tuple[Exit, Changes]:
-    """Run ``piece`` as code that may not run. The bits USUAL and TESTS of ``reached`` say when it runs."""
-    unsure, testing = run.uncertain_conditions, run.testing
-    run.uncertain_conditions += not reached & USUAL
-    run.testing = testing or bool(reached & TESTS)
+def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -> tuple[Exit, Changes]:
+    """Run ``piece`` as code that may not run. The bits BY_DEFAULT and IF_TESTING of ``exits`` give the condition."""
+    uncertain, testing = run.uncertain_conditions, run.testing
+    run.uncertain_conditions += not exits & BY_DEFAULT
+    run.testing = testing or bool(exits & IF_TESTING)
     try:
         return run.branch(piece)
     finally:
-        run.uncertain_conditions, run.testing = unsure, testing
+        run.uncertain_conditions, run.testing = uncertain, testing
 
 
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
@@ -114,18 +114,18 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     if len(frames) > DEEPEST:
         raise BudgetError
     run.charge(2 * ELEMENT * len(args))
-    firm = len(args)
-    gaps: Container[str] = ()
+    first_uncertain = len(args)
+    possibly_empty: Container[str] = ()
     command = frames[-1].command
     text = "".join(args)
     if (HOLE in text or MAYBE in text) and command is not None:
-        index = run.firm_arguments(command)
+        index = run.first_uncertain_argument(command)
         if index is not None:  # cmake_language(CALL name) has two arguments more than the called command
-            firm = max(0, index - (len(run.arguments(command)) - len(args)))
-        gaps = _gaps(run, command)
-    values = _call_values(procedure, args, firm, gaps)
+            first_uncertain = max(0, index - (len(run.arguments(command)) - len(args)))
+        possibly_empty = _possibly_empty(run, command)
+    values = _call_values(procedure, args, first_uncertain, possibly_empty)
     for arg in args:
-        run.notice(arg)
+        run.note_brackets(arg)
     frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
     frames.append(frame)
     if procedure.macro:
@@ -140,64 +140,64 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     values["CMAKE_CURRENT_FUNCTION_LIST_FILE"] = f"{folder}/{procedure.path.rpartition('/')[2]}"
     run.scopes.append(Variables(values))
     try:
-        ended = run_body(run, body)
+        exits = run_body(run, body)
     finally:
         frames.pop()
         run.scopes.pop()
-    return NEXT | ended & STOP if ended & (NEXT | RETURN) else ended
+    return NEXT | exits & STOP if exits & (NEXT | RETURN) else exits
 
 
 def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
     name = next(option.name for option in choice.procedures if option is not None).lower()
-    ended: Exit = 0
+    exits: Exit = 0
     branches: list[Changes] = []
     for number, option in enumerate(choice.procedures):
         piece = partial(call, run, option, args) if option is not None else partial(_without, run, name, args)
-        outcome, changes = perhaps(run, piece, USUAL if number == choice.usual else NEXT)
-        ended |= outcome
+        outcome, changes = run_conditionally(run, piece, BY_DEFAULT if number == choice.by_default else NEXT)
+        exits |= outcome
         branches.append(changes)
-    run.join(branches, choice.usual)
-    return ended
+    run.join(branches, choice.by_default)
+    return exits
 
 
-def _call_values(procedure: Procedure, args: list[str], firm: int, gaps: Container[str]) -> dict[str, str]:
+def _call_values(procedure: Procedure, args: list[str], first_uncertain: int, possibly_empty: Container[str]) -> dict[str, str]:
     """Return the values of the parameters and of ARGC, ARGV, ARGN, ARGV0 and so on.
 
-    ``firm`` is the index of the first argument that may be missing or be several arguments; the positions of all arguments
-    after it are unknown. ``gaps`` are quoted arguments that may be empty.
+    ``first_uncertain`` is the index of the first argument that may be missing or be several arguments; the positions of all
+    arguments after it are unknown. ``possibly_empty`` are quoted arguments that may be empty.
     """
     parameters = procedure.parameters
-    if firm == len(args):
+    if first_uncertain == len(args):
         values = dict(zip(parameters, args, strict=False))
         for name in parameters[len(args) :]:
             values[name] = ""
-        values["ARGN"] = _listed(args[len(parameters) :], gaps)
+        values["ARGN"] = _list_of(args[len(parameters) :], possibly_empty)
         if not procedure.counts:
             return values
         values["ARGC"] = str(len(args))
     else:
-        values = {name: args[index] if index < firm else HOLE for index, name in enumerate(parameters)}
+        values = {name: args[index] if index < first_uncertain else HOLE for index, name in enumerate(parameters)}
         values["ARGC"] = HOLE
-        if firm >= len(parameters):
-            values["ARGN"] = _listed(args[len(parameters) :], gaps)
+        if first_uncertain >= len(parameters):
+            values["ARGN"] = _list_of(args[len(parameters) :], possibly_empty)
         else:  # ARGN may have any of the other arguments, which may be keywords
-            values["ARGN"] = join([HOLE, *(maybe(item) for arg in args[firm:] for item in elements(arg))])
-        values.update({f"ARGV{index}": HOLE for index in range(firm, len(args) + 10)})
-    values["ARGV"] = _listed(args, gaps)
-    values.update({f"ARGV{index}": arg for index, arg in enumerate(args[:firm])})
+            values["ARGN"] = join([HOLE, *(mark_maybe(item) for arg in args[first_uncertain:] for item in elements(arg))])
+        values.update({f"ARGV{index}": HOLE for index in range(first_uncertain, len(args) + 10)})
+    values["ARGV"] = _list_of(args, possibly_empty)
+    values.update({f"ARGV{index}": arg for index, arg in enumerate(args[:first_uncertain])})
     return values
 
 
-def _gaps(run: Run, command: Command) -> set[str]:
+def _possibly_empty(run: Run, command: Command) -> set[str]:
     """Return the quoted arguments that may be empty."""
-    values = {run.evaluated(text) for text, kind, _, _ in command.args if kind == QUOTED}
+    values = {run.evaluate(text) for text, kind, _, _ in command.args if kind == QUOTED}
     return {value for value in values if MAYBE in value and not certainly_set(value)}
 
 
-def _listed(args: Sequence[str], gaps: Container[str]) -> str:
-    """Return arguments as a list. An argument of ``gaps`` that is not alone may add an empty element."""
-    listed = join(args)
-    return f"{listed};{MAYBE}" if gaps and len(args) > 1 and any(arg in gaps for arg in args) else listed
+def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
+    """Return arguments as a list. One of several arguments may add an empty element if it is in ``possibly_empty``."""
+    value = join(args)
+    return f"{value};{MAYBE}" if possibly_empty and len(args) > 1 and any(arg in possibly_empty for arg in args) else value
 
 
 def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
@@ -211,10 +211,10 @@ def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
         except UnbalancedError as error:
             body = error.body
             if frame.own:
-                run.problem("cmake-syntax", str(error), error.command.place(frame.path))
+                run.add_problem("cmake-syntax", str(error), error.command.place(frame.path))
             run.hide(ALL_FACETS, str(error), error.command.place(frame.path) if frame.own else None)
-        ended = run_body(run, body)
+        exits = run_body(run, body)
     finally:
         run.frames.pop()
         run.place_file()
-    return NEXT | ended & STOP if ended & (NEXT | RETURN) else ended
+    return NEXT | exits & STOP if exits & (NEXT | RETURN) else exits

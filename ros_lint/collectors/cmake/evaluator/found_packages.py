@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.state import Properties
-from ros_lint.collectors.cmake.evaluator.values import kept
+from ros_lint.collectors.cmake.evaluator.values import cached_short
 
 
-@kept(4096)
+@cached_short(4096)
 def folded(name: str) -> str:
     """Return a name without ``_``, ``-`` and upper case, to compare spellings of a package's name."""
     return name.replace("_", "").replace("-", "").lower()
@@ -30,7 +30,7 @@ class FoundPackages:
         self.prefixes: dict[str, bool] = {}
         """Prefixes of variables that found packages may have set, each with whether it is a package name.
 
-        It is none for pkg_check_modules(), whose first argument chooses the prefix."""
+        It is not for pkg_check_modules(), whose first argument is the prefix."""
         self.included: Properties = Properties()
         """Packages of the workspace whose CMake code has run."""
         self.optional_finds: dict[str, list[Span]] = {}
@@ -43,7 +43,7 @@ class FoundPackages:
             self._folded_prefixes = tuple(map(folded, self.prefixes))
         return folded(variable).startswith(self._folded_prefixes)
 
-    def named(self, prefix: str) -> str:
+    def with_prefix(self, prefix: str) -> str:
         """Return the found package whose variables have a prefix, ignoring case; "" if there is none."""
         if self.prefixes.get(prefix):
             return prefix

@@ -11,7 +11,7 @@ from ros_lint.base.text import octets
 from ros_lint.base.wildcards import LONGEST, letters, spaced
 
 
-def of_paths(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
+def path_pattern(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
     """Return the expression for a whole path, from a pattern for each of its names.
 
     The expression matches the :func:`~ros_lint.base.text.octets` of the path. With ``recurse``, any
@@ -22,7 +22,7 @@ def of_paths(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
     return re.compile("".join(f"{head}/" for head in heads) + ("(?:[^/]+/)*" if recurse else "") + last)
 
 
-def of_ends(pattern: str) -> re.Pattern[str] | None:
+def end_pattern(pattern: str) -> re.Pattern[str] | None:
     """Return the expression for the end of a path, as :func:`~ros_lint.base.text.octets`.
 
     None if CMake rejects the pattern.

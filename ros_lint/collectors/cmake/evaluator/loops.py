@@ -8,11 +8,20 @@ from typing import Any, Final
 
 from ros_lint.collectors.cmake.evaluator.blocks import Body, Loop
 from ros_lint.collectors.cmake.evaluator.conditions import condition
-from ros_lint.collectors.cmake.evaluator.flow import count_step, perhaps, run_body
+from ros_lint.collectors.cmake.evaluator.flow import count_step, run_body, run_conditionally
 from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
 from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
 from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
-from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, UNPAIRED_HOLE, effort, elements, split, sure
+from ros_lint.collectors.cmake.evaluator.values import (
+    ELEMENT,
+    HOLE,
+    MAYBE,
+    UNPAIRED_HOLE,
+    elements,
+    split,
+    split_cost,
+    strip_mark,
+)
 from ros_lint.collectors.cmake.syntax import UNQUOTED, Command
 
 
@@ -30,17 +39,17 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
         return NEXT
     run.charge(ELEMENT * len(rounds))
     names = _loop_names(args)
-    kept = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
-    seen = {name: run.get(name) or "" for name in names}
-    ended = _run_rounds(run, node.body, names, rounds)
-    for name, value in kept:
+    values_before = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
+    visible_before = {name: run.get(name) or "" for name in names}
+    exits = _run_rounds(run, node.body, names, rounds)
+    for name, value in values_before:
         if value in (_ABSENT, None) and run.policy_version < (3, 21):  # policy CMP0124
-            run.set(name, seen[name])
+            run.set(name, visible_before[name])
         elif value is _ABSENT:
             run.remove(run.scopes[-1], name)
         else:
             run.put(run.scopes[-1], name, value)
-    return ended
+    return exits
 
 
 _ABSENT: Final = object()
@@ -84,7 +93,7 @@ def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]
 
 def _elements(run: Run, name: str) -> list[str]:
     value = run.get(name) or ""
-    run.charge(effort(value))
+    run.charge(split_cost(value))
     return elements(value)
 
 
@@ -95,10 +104,10 @@ def _unknown_whole(items: list[str]) -> list[str]:
 
 def _quoted(run: Run, command: Command) -> list[bool]:
     """Return for each evaluated argument whether it was quoted."""
-    found: list[bool] = []
+    flags: list[bool] = []
     for text, kind, _, _ in command.args:
-        found += [False] * len(split(run.evaluated(text))) if kind == UNQUOTED else [True]
-    return found
+        flags += [False] * len(split(run.evaluate(text))) if kind == UNQUOTED else [True]
+    return flags
 
 
 def _range(args: list[str]) -> list[str]:
@@ -125,22 +134,22 @@ def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, 
     for index in range(start, len(rounds)):
         items = rounds[index]
         if items[0] in (HOLE, UNPAIRED_HOLE):
-            ended = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
+            exits = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
         else:
-            plain = tuple(sure(item)[0] for item in items)
+            plain = tuple(strip_mark(item)[0] for item in items)
             if plain == items:
-                ended = _run_round(run, body, names, items)
+                exits = _run_round(run, body, names, items)
             else:
-                ended, changes = perhaps(run, partial(_run_round, run, body, names, plain))
+                exits, changes = run_conditionally(run, partial(_run_round, run, body, names, plain))
                 run.join([{}, changes])
-                ended |= NEXT
-        if ended & (RETURN | BREAK | STOP) and not ended & (NEXT | CONTINUE):
-            return NEXT if ended & BREAK and not ended & RETURN else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
-        leaves = ended & (RETURN | BREAK)
-        if leaves:
-            rest, changes = perhaps(run, partial(_run_rounds, run, body, names, rounds, index + 1))
+                exits |= NEXT
+        if exits & (RETURN | BREAK | STOP) and not exits & (NEXT | CONTINUE):
+            return NEXT if exits & BREAK and not exits & RETURN else (exits & ~BREAK) | (NEXT if exits & BREAK else 0)
+        may_leave = exits & (RETURN | BREAK)
+        if may_leave:
+            rest, changes = run_conditionally(run, partial(_run_rounds, run, body, names, rounds, index + 1))
             run.join([{}, changes])
-            return (ended & RETURN) | (NEXT if ended & BREAK else 0) | rest
+            return (exits & RETURN) | (NEXT if exits & BREAK else 0) | rest
     return NEXT
 
 
@@ -157,13 +166,13 @@ def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
     """
     run.muted += 1
     try:
-        _, changes = perhaps(run, round_)
+        _, changes = run_conditionally(run, round_)
     finally:
         run.muted -= 1
     run.forget(changes)
-    ended, changes = perhaps(run, round_)
+    exits, changes = run_conditionally(run, round_)
     run.join([{}, changes])
-    return ended | NEXT
+    return exits | NEXT
 
 
 def _run_while(run: Run, node: Loop) -> Exit:
@@ -174,15 +183,15 @@ def _run_while(run: Run, node: Loop) -> Exit:
         if truth.value in (FALSE, UNLIKELY):
             return NEXT
         if truth.value in (LIKELY, UNKNOWN):
-            ended = _run_any_number(run, partial(run_body, run, node.body))
-            return (ended & RETURN) | NEXT
-        ended = run_body(run, node.body)
-        if not ended & (NEXT | CONTINUE):
-            return NEXT if ended == BREAK else (ended & ~BREAK) | (NEXT if ended & BREAK else 0)
-        if ended & (BREAK | RETURN):
-            rest, changes = perhaps(run, partial(_run_while, run, node))
+            exits = _run_any_number(run, partial(run_body, run, node.body))
+            return (exits & RETURN) | NEXT
+        exits = run_body(run, node.body)
+        if not exits & (NEXT | CONTINUE):
+            return NEXT if exits == BREAK else (exits & ~BREAK) | (NEXT if exits & BREAK else 0)
+        if exits & (BREAK | RETURN):
+            rest, changes = run_conditionally(run, partial(_run_while, run, node))
             run.join([{}, changes])
-            return (ended & RETURN) | NEXT | rest
+            return (exits & RETURN) | NEXT | rest
 
 
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Loop: _run_loop}

@@ -32,19 +32,19 @@ class Paths:
         self.directories: list[tuple[str, str]] = [("", BINARY)]
         """The current directories, outermost first: each relative to the package, with its build folder."""
         self._places = places
-        self._places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.named("")))
+        self._places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.absolute("")))
         self._place_directory()
 
     @property
     def directory(self) -> str:
         return self.directories[-1][0]
 
-    def named(self, path: str) -> str:
+    def absolute(self, path: str) -> str:
         """Return the absolute path, as CMake names it, of a path relative to the package."""
-        place = self.place(path)
+        place = self.tree_path(path)
         return f"{TREE}/{place}" if place else TREE
 
-    def place(self, path: str) -> str:
+    def tree_path(self, path: str) -> str:
         """Return the path in the tree of a path relative to the package."""
         if is_outside(path):
             path = resolve(self.sources.path, path)
@@ -56,34 +56,34 @@ class Paths:
 
         None if it is outside of the tree or unknown.
         """
-        return _seen(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
+        return _relative_to(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
         """Return a path within the package, relative to it; None if it is outside of the package or unknown."""
         path = self.relative(value)
         return None if path is None or is_outside(path) else path
 
-    def beside(self, value: str) -> str | None:
+    def outside(self, value: str) -> str | None:
         """Return the path, relative to the package, of an existing file or folder outside of it.
 
         None if none is visible.
         """
         path = self.relative(value)
-        return path if path is not None and is_outside(path) and self.sources.outside.kind(self.place(path)) else None
+        return path if path is not None and is_outside(path) and self.sources.outside.kind(self.tree_path(path)) else None
 
-    def reached(self, value: str) -> str | None:
-        """Return the result of :meth:`source`, or of :meth:`beside` if that is None."""
+    def source_or_outside(self, value: str) -> str | None:
+        """Return the result of :meth:`source`, or of :meth:`outside` if that is None."""
         path = self.source(value)
-        return self.beside(value) if path is None else path
+        return self.outside(value) if path is None else path
 
     def script(self, path: str) -> Parsed | None:
         """Return the commands of the CMake file at a path relative to the package.
 
         None if no such file is visible.
         """
-        return self.sources.outside.script(self.place(path)) if is_outside(path) else self.sources.scripts.get(path)
+        return self.sources.outside.script(self.tree_path(path)) if is_outside(path) else self.sources.scripts.get(path)
 
-    def leads_out(self, value: str) -> bool:
+    def is_outside_source(self, value: str) -> bool:
         """Return whether a path is a source folder outside of the package.
 
         ``$<BUILD_INTERFACE:`` before it is ignored.
@@ -101,7 +101,7 @@ class Paths:
         """
         return _destination(value) if len(value) <= LONGEST else None
 
-    def build(self, value: str) -> str | None:
+    def build_path(self, value: str) -> str | None:
         """Return a path relative to the build folder of the package.
 
         None if it is outside of that folder or unknown.
@@ -111,35 +111,35 @@ class Paths:
         path = posixpath.normpath(value[len(BINARY) :].lstrip("/"))
         return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
 
-    def listed(self, path: str) -> str:
+    def normalized(self, path: str) -> str:
         """Return the normalized path of a file, relative to the package.
 
         "" if the path is in the package but no such file exists. A path such as ``../package/file`` leads back into the package.
         """
-        path = relative(self.sources.path, self.place(path)) if is_outside(path) else path
+        path = relative(self.sources.path, self.tree_path(path)) if is_outside(path) else path
         return path if path in self.files or is_outside(path) else ""
 
     def is_folder(self, path: str) -> bool:
         """Return whether a folder exists. A folder in the package must contain a file."""
         if is_outside(path):
-            return self.sources.outside.kind(self.place(path)) == "directory"
-        return not path or bool(self.below(path)) or self.is_unseen(path)
+            return self.sources.outside.kind(self.tree_path(path)) == "directory"
+        return not path or bool(self.files_below(path)) or self.is_unlisted(path)
 
     def is_file(self, path: str) -> bool:
         """Return whether a file exists."""
-        return self.sources.outside.kind(self.place(path)) == "file" if is_outside(path) else path in self.files
+        return self.sources.outside.kind(self.tree_path(path)) == "file" if is_outside(path) else path in self.files
 
-    def is_unseen(self, path: str) -> bool:
+    def is_unlisted(self, path: str) -> bool:
         """Return whether a path is in a folder of the package whose files are not listed."""
-        return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unseen)
+        return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unlisted_folders)
 
-    def below(self, path: str) -> Sequence[str]:
+    def files_below(self, path: str) -> Sequence[str]:
         """Return the files below a folder, sorted.
 
         For a folder outside of the package, empty if not all files are visible.
         """
         if is_outside(path):
-            place = self.place(path)
+            place = self.tree_path(path)
             return [f"{path}/{strip_folder(place, file)}" for file in self.sources.outside.below(place)]
         files = self.sources.files
         if not path:
@@ -158,12 +158,12 @@ class Paths:
 
     def _place_directory(self) -> None:
         directory, build = self.directories[-1]
-        self._places["CMAKE_CURRENT_SOURCE_DIR"] = self.named(directory)
+        self._places["CMAKE_CURRENT_SOURCE_DIR"] = self.absolute(directory)
         self._places["CMAKE_CURRENT_BINARY_DIR"] = build
 
 
 @lru_cache(maxsize=4096)
-def _seen(package: str, directory: str, value: str) -> str | None:
+def _relative_to(package: str, directory: str, value: str) -> str | None:
     """Return a path relative to ``package``.
 
     ``directory`` is the folder of the script that names it, relative to the package.
@@ -173,10 +173,10 @@ def _seen(package: str, directory: str, value: str) -> str | None:
     if HOLE in value:
         return None
     if value.startswith(TREE):
-        rest = value[len(TREE) :]
-        if rest and not rest.startswith("/"):
+        below = value[len(TREE) :]
+        if below and not below.startswith("/"):
             return None
-        path = rest.lstrip("/")
+        path = below.lstrip("/")
     elif value.startswith(("/", "$<")) or not value:
         return None
     else:

@@ -65,31 +65,31 @@ class _Translator:
         """Number of pieces so far with an unlimited repetition (``*`` or ``+``)."""
 
     def whole(self) -> str:
-        found = self.branches()
+        pattern = self.branches()
         if self.at != len(self.text):
             raise RegexError(self.text)
-        return found[0]
+        return pattern[0]
 
     def branches(self) -> tuple[str, bool]:
         """Return the expression up to the end or a closing parenthesis, and whether it can match nothing."""
         pieces, empty = self.branch()
         while self.text[self.at : self.at + 1] == "|":
             self.at += 1
-            more, also = self.branch()
-            pieces, empty = f"{pieces}|{more}", empty or also
+            branch, may_be_empty = self.branch()
+            pieces, empty = f"{pieces}|{branch}", empty or may_be_empty
         return pieces, empty
 
     def branch(self) -> tuple[str, bool]:
         pieces: list[str] = []
         empty = True
         while self.at < len(self.text) and self.text[self.at] not in "|)":
-            piece, also = self.piece()
+            piece, may_be_empty = self.piece()
             pieces.append(piece)
-            empty = empty and also
+            empty = empty and may_be_empty
         return "".join(pieces), empty
 
     def piece(self) -> tuple[str, bool]:
-        before = self.repeats
+        repeats_before = self.repeats
         atom, empty = self.atom()
         sign = self.text[self.at : self.at + 1]
         if sign not in ("*", "+", "?"):
@@ -100,7 +100,7 @@ class _Translator:
         if self.text[self.at : self.at + 1] in ("*", "+", "?"):
             raise RegexError(self.text)
         if sign != "?":
-            if self.repeats > before:
+            if self.repeats > repeats_before:
                 raise RegexError(self.text)  # (a+)+ takes exponential time
             self.repeats += 1
         return f"{atom}{sign}", empty or sign != "+"
@@ -117,11 +117,11 @@ class _Translator:
         if letter == "[":
             return self.letters(), False
         if letter == "(":
-            inner, empty = self.branches()
+            group, empty = self.branches()
             if self.text[self.at : self.at + 1] != ")":
                 raise RegexError(self.text)
             self.at += 1
-            return f"({inner})", empty
+            return f"({group})", empty
         if letter in "*+?" or (letter == "\\" and self.at == len(self.text)):
             raise RegexError(self.text)
         if letter == "\\":
@@ -138,19 +138,19 @@ class _Translator:
         self.at = end + 1
         negated = body.startswith("^")
         body = body[negated:]
-        found: list[str] = []
+        ranges: list[str] = []
         index = 0
         while index < len(body):
             if body[index + 1 : index + 2] == "-" and index + 2 < len(body):
                 low, high = body[index], body[index + 2]
                 if low > high:
                     raise RegexError(self.text)
-                found.append(f"{re.escape(low)}-{re.escape(high)}")
+                ranges.append(f"{re.escape(low)}-{re.escape(high)}")
                 index += 3
             else:
-                found.append(re.escape(body[index]))
+                ranges.append(re.escape(body[index]))
                 index += 1
-        return f"[{'^' if negated else ''}{''.join(found)}]"
+        return f"[{'^' if negated else ''}{''.join(ranges)}]"
 
 
 # --- use -----------------------------------------------------------------------------------------------------------
@@ -207,7 +207,7 @@ def _groups(match: re.Match[str]) -> tuple[str, ...]:
     return tuple(_text(group or "") for group in (match[0], *match.groups()))
 
 
-def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
+def all_matches(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
     """Return all matches from left to right, each as the text before it, the match and its groups.
 
     The last entry is the text after the last match, without groups. Raises RegexError for empty matches, where CMake has an
@@ -216,28 +216,28 @@ def every(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
     pattern = translated(regex)
     if pattern is None:
         raise RegexError(regex)
-    whole = octets(text)
+    encoded = octets(text)
     anchored = "^" in regex.replace("[^", "")
     at = 0
-    found: list[tuple[str, str, tuple[str, ...]]] = []
-    while match := pattern.search(whole, at):
-        if not match[0] or len(found) > _MOST_MATCHES:
+    matches: list[tuple[str, str, tuple[str, ...]]] = []
+    while match := pattern.search(encoded, at):
+        if not match[0] or len(matches) > _MOST_MATCHES:
             raise RegexError(regex)
-        found.append((_text(whole[at : match.start()]), _text(match[0]), _groups(match)))
+        matches.append((_text(encoded[at : match.start()]), _text(match[0]), _groups(match)))
         at = match.end()
-        if anchored and pattern.search(whole[at:]):
+        if anchored and pattern.search(encoded[at:]):
             raise RegexError(regex)
-    found.append((_text(whole[at:]), "", ()))
-    return found
+    matches.append((_text(encoded[at:]), "", ()))
+    return matches
 
 
-_STAND_INS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
+_EXAMPLE_FOLDERS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
 """Two example folders of a workspace.
 
 A result that is the same for both does not depend on the folder."""
 
 
-def anywhere(compute: Callable[..., str], *values: str) -> str:
+def independent_of_folder(compute: Callable[..., str], *values: str) -> str:
     """Return the result of a computation on texts, HOLE if it depends on the folder of the workspace.
 
     Raises the exceptions of the computation.
@@ -247,7 +247,7 @@ def anywhere(compute: Callable[..., str], *values: str) -> str:
     if not all(map(is_fixed, values)):
         return HOLE
     results = []
-    for number, stand_in in enumerate(_STAND_INS):
+    for number, stand_in in enumerate(_EXAMPLE_FOLDERS):
         pairs = [(root, f"{stand_in}{number}{name}") for root, name in ((TREE, "s"), (BINARY, "b"), (PREFIX, "p"))]
         placed = list(values)
         for root, place in pairs:

@@ -1,4 +1,4 @@
-"""A run of a package's CMake scripts: evaluation of arguments, places, and the collected results."""
+"""The state of a run of CMake scripts: evaluation of arguments, places of values, and recording of results."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ros_lint.collectors.cmake.evaluator.paths import Paths
 from ros_lint.collectors.cmake.evaluator.results import Results
 from ros_lint.collectors.cmake.evaluator.sources import OUTSIDE, Helper, Sources
 from ros_lint.collectors.cmake.evaluator.state import MISSING, Frame, State, Variables
-from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, effort, split, with_unpaired_holes
-from ros_lint.collectors.cmake.released_macros import SOFT_VARIABLES, UNKNOWN_VARIABLES
+from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, split, split_cost, with_unpaired_holes
+from ros_lint.collectors.cmake.released_macros import CONFIGURABLE_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.collectors.cmake.syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
 from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.environment import ROS_2
@@ -47,7 +47,7 @@ class Run(State):
         run_external_command: Callable[[Run, str, list[str]], int | None],
     ) -> None:
         super().__init__()
-        self.paths = Paths(sources, self.places)
+        self.paths = Paths(sources, self.path_variables)
         self.packages = FoundPackages(sources.scripts)
         self.results = Results()
         self.run_external_command = run_external_command
@@ -77,8 +77,8 @@ class Run(State):
         """Variables of the form X_FOUND or ENV{X} that a condition tests."""
         self.index_variables: set[str] = set()
         """Variables whose value was read from the ament index, where any package may register it."""
-        self.literals: dict[str, tuple[str, Command, Argument]] = {}
-        """The first place at which each list element is written."""
+        self.literal_places: dict[str, tuple[str, Command, Argument]] = {}
+        """The first place of each list element in the scripts."""
         self.policy_version: tuple[int, int] = (3, 0)
         """The CMake version up to which policies have their NEW behaviour."""
         self.fetched_projects: dict[str, list[str]] = {}
@@ -98,25 +98,25 @@ class Run(State):
             if name in scope:
                 value = scope[name]
                 if value is not None and name not in self.cache:
-                    return self._read(value) if len(value) > _SHORT or self.unpaired else value
+                    return self._read(value) if len(value) > _SHORT or self.has_unpaired_brackets else value
                 break
         else:
             if name not in self.cache:
-                return self.default(name)
-        found: str | None = self.found(name)
-        return self._read(found) if found else found
+                return self.implicit_value(name)
+        result: str | None = self.value_or_missing(name)
+        return self._read(result) if result else result
 
     def _read(self, value: str) -> str | None:
         """Charge the cost of reading a value, and return it; a HOLE becomes UNPAIRED_HOLE if brackets may be unpaired."""
         self.charge(len(value))
-        if not self.unpaired:
+        if not self.has_unpaired_brackets:
             return value
         self.charge(SLOW * len(value))
         return with_unpaired_holes(value)
 
-    def default(self, name: str) -> str | None:
+    def implicit_value(self, name: str) -> str | None:
         """Return the value of a variable that no script has set."""
-        value = self.brought(name)
+        value = self.builtin_value(name)
         if value is not None:
             return value
         if name in UNKNOWN_VARIABLES:
@@ -136,11 +136,11 @@ class Run(State):
             return f"{ATOM}{name}" if name.endswith("_VERSION") else HOLE
         return None
 
-    def lookup(self, name: str, where: str) -> str:
+    def lookup(self, name: str, space: str) -> str:
         """Return the value of a reference; an unset variable is empty."""
-        if where == "":
+        if space == "":
             return self.get(name) or ""
-        if where == "CACHE":
+        if space == "CACHE":
             return self.cache.get(name, "")
         value = self.environment.get(name)
         if value is not None:
@@ -155,17 +155,23 @@ class Run(State):
         if command is None or command.name == "message":
             return
         if not (command.args and command.args[0][0].startswith("CPACK_")):  # CPack runs after the build
-            self.mention(
-                "ros_environment", "package", self.here(), f"$ENV{{{name}}}", optional=f"ENV{{{name}}}" in self.tested_variables
+            self.add_mention(
+                "ros_environment",
+                "package",
+                self.current_place(),
+                f"$ENV{{{name}}}",
+                optional=f"ENV{{{name}}}" in self.tested_variables,
             )
 
-    def is_soft(self, name: str) -> bool:
+    def is_configurable(self, name: str) -> bool:
         """Return whether the user, the platform or the compiler determines the value of a variable."""
-        return name in self.settable or (name in SOFT_VARIABLES and self.found(name) is MISSING)
+        return name in self.settable or (name in CONFIGURABLE_VARIABLES and self.value_or_missing(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
         """Return whether the user, or code that cannot be read, may have set a variable that seems known."""
-        return self.is_soft(name) or (self.open_world and self.found(name) is MISSING and name not in self.places)
+        if self.is_configurable(name):
+            return True
+        return self.open_world and self.value_or_missing(name) is MISSING and name not in self.path_variables
 
     # --- arguments
 
@@ -174,18 +180,18 @@ class Run(State):
         values: list[str] = []
         for text, kind, _, _ in command.args:
             if kind == UNQUOTED:
-                value = self.evaluated(text)
+                value = self.evaluate(text)
                 if ";" in value:
-                    self.charge(effort(value))
+                    self.charge(split_cost(value))
                     values += split(value)
                 elif value:
                     values.append(value)
             else:
-                values.append(self.evaluated(text) if kind == QUOTED else text)
+                values.append(self.evaluate(text) if kind == QUOTED else text)
         self.charge(sum(map(len, values)))
         return values
 
-    def firm_arguments(self, command: Command) -> int | None:
+    def first_uncertain_argument(self, command: Command) -> int | None:
         """Return the index of the first argument whose position is uncertain, None if there is none.
 
         An unquoted unknown text may be any number of arguments. A list element that may be missing shifts later arguments.
@@ -193,7 +199,7 @@ class Run(State):
         count = 0
         for text, kind, _, _ in command.args:
             if kind == UNQUOTED:
-                value = self.evaluated(text)
+                value = self.evaluate(text)
                 if HOLE in value or MAYBE in value:
                     return count
                 count += len(split(value))
@@ -201,7 +207,7 @@ class Run(State):
                 count += 1
         return None
 
-    def evaluated(self, text: str) -> str:
+    def evaluate(self, text: str) -> str:
         """Return the value of an argument before it is split."""
         arguments = self.frames[-1].macro_arguments
         try:
@@ -227,8 +233,8 @@ class Run(State):
 
     # --- files
 
-    def at_home(self) -> bool:
-        """Return whether the current command is in a file of the package, or in a script around it (OUTSIDE)."""
+    def runs_own_code(self) -> bool:
+        """Return whether the current command is in a file of the package, or in a script outside of it (OUTSIDE)."""
         frame = self.frames[-1]
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == OUTSIDE
 
@@ -241,13 +247,13 @@ class Run(State):
         """Set the variables that name the current file."""
         for frame in reversed(self.frames):
             if frame.procedure is None:
-                self.places["CMAKE_CURRENT_LIST_FILE"] = frame.file
-                self.places["CMAKE_CURRENT_LIST_DIR"] = frame.folder
+                self.path_variables["CMAKE_CURRENT_LIST_FILE"] = frame.file
+                self.path_variables["CMAKE_CURRENT_LIST_DIR"] = frame.folder
                 break
 
     # --- places
 
-    def where(self, value: str) -> Span:
+    def place_of(self, value: str) -> Span:
         """Return the best place for a value of the current command in the package's own files: the first of
 
         1. an argument whose text is the value, from the innermost call outwards
@@ -255,35 +261,35 @@ class Run(State):
         3. an argument that evaluates to the value
         4. the name of the command
         """
-        own: Frame | None = None
+        innermost: Frame | None = None
         for frame in reversed(self.frames):
             command = frame.command
             if not frame.own or command is None:
                 continue
-            own = own or frame
+            innermost = innermost or frame
             for argument in command.args:
                 if argument[0] == value and argument[1] < OPEN:
                     return _inside(frame.path, command, argument)
-        assert own is not None
-        frame, command = own, own.command
+        assert innermost is not None
+        frame, command = innermost, innermost.command
         assert command is not None
-        if value in self.literals:
-            return _inside(*self.literals[value])
+        if value in self.literal_places:
+            return _inside(*self.literal_places[value])
         if value and frame is self.frames[-1]:
             for text, kind, start, end in command.args:
-                if kind in (UNQUOTED, QUOTED) and value in split(self.evaluated(text)):
+                if kind in (UNQUOTED, QUOTED) and value in split(self.evaluate(text)):
                     return command.span(frame.path, start, end)
         return command.place(frame.path)
 
-    def remember(self, first: int) -> None:
+    def note_literals(self, first: int) -> None:
         """Record the places of list elements: the arguments of the current command from index ``first``."""
         frame = self.frames[-1]
         if frame.own and frame.command is not None:
             for argument in frame.command.args[first:]:
                 if argument[1] in (PLAIN, LITERAL):
-                    self.literals.setdefault(argument[0], (frame.path, frame.command, argument))
+                    self.literal_places.setdefault(argument[0], (frame.path, frame.command, argument))
 
-    def here(self) -> Span:
+    def current_place(self) -> Span:
         """Return the place of the current command in the package's own files."""
         for frame in reversed(self.frames):
             if frame.own and frame.command is not None:
@@ -304,32 +310,35 @@ class Run(State):
         """Return whether the current command may not run."""
         return self.uncertain_conditions > 0
 
-    def mention(self, name: str, via: Via, span: Span, what: str = "", *, optional: bool = False, purpose: Purpose = "") -> None:
+    def add_mention(
+        self, name: str, via: Via, span: Span, quotation: str = "", *, optional: bool = False, purpose: Purpose = ""
+    ) -> None:
         """Record that a place names a package."""
-        if not purpose and self.is_helped() and (via == "cmake" or (via == "target" and span == self.here())):
+        if not purpose and self.runs_helper_code() and (via == "cmake" or (via == "target" and span == self.current_place())):
             purpose = "helper"
         if not self.muted:
-            test = self.testing or (bool(self.gained) and self._is_gained(name))
-            self.results.mentions[Mention(name, via, span, what, optional or self.uncertain_conditions > 0, test, purpose)] = None
+            test = self.testing or (bool(self.test_elements) and self._is_test_element(name))
+            mention = Mention(name, via, span, quotation, optional or self.uncertain_conditions > 0, test, purpose)
+            self.results.mentions[mention] = None
 
-    def note_gained(self, name: str, elements: Iterable[str]) -> None:
+    def note_test_elements(self, name: str, elements: Iterable[str]) -> None:
         """Record the elements that a list is about to gain only if tests are enabled.
 
         The list must already exist outside of the branch for tests.
         """
         if not self.testing:
-            self.gained.pop(name, None)
-        elif before := self.get(name):
-            self.gained[name] = self.gained.get(name, frozenset()).union(set(elements).difference(split(before)))
+            self.test_elements.pop(name, None)
+        elif value := self.get(name):
+            self.test_elements[name] = self.test_elements.get(name, frozenset()).union(set(elements).difference(split(value)))
 
-    def _is_gained(self, name: str) -> bool:
+    def _is_test_element(self, name: str) -> bool:
         """Return whether the current command has ``name`` only from a list that was extended for tests."""
         command = self.frames[-1].command
-        lists = [variable for variable, elements in self.gained.items() if name in elements]
+        lists = [variable for variable, elements in self.test_elements.items() if name in elements]
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
-    def is_helped(self) -> bool:
-        """Return whether the running code is in another package of the workspace, or in a script around it."""
+    def runs_helper_code(self) -> bool:
+        """Return whether the running code is in another package of the workspace, or in a script outside of the package."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False
@@ -347,9 +356,9 @@ class Run(State):
         if self.non_default_conditions:
             facet &= Facet.USES
         if facet and not self.muted:
-            self.results.opaques[Opaque(facet, reason, span or self.here(), below=below, inside=inside)] = None
+            self.results.opaques[Opaque(facet, reason, span or self.current_place(), below=below, inside=inside)] = None
 
-    def problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
+    def add_problem(self, kind: str, message: str, span: Span, path: str = "") -> None:
         """Record an error of a command, if the command certainly runs."""
         if not self.muted and not self.uncertain_conditions:
             self.results.problems[Problem(kind, message, span, subject=path)] = None

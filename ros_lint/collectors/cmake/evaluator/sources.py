@@ -1,4 +1,4 @@
-"""Input of an evaluation: the scripts and files of a package, the tree around it, and helper packages."""
+"""Input of an evaluation: the scripts and files of a package, files outside of it, and helper packages."""
 
 from __future__ import annotations
 
@@ -10,13 +10,11 @@ from ros_lint.collectors.cmake.syntax import Parsed
 from ros_lint.facts.build import BuildScript
 
 OUTSIDE: Final = ".."
-"""The provider of scripts that lie outside of the package, but in the same tree.
-
-They run like its own scripts."""
+"""The provider of scripts outside of the package, but in the same tree: they run like scripts of the package."""
 
 
 class OutsideTree(NamedTuple):
-    """Access to the tree around a package.
+    """Access to the files of the tree outside of a package.
 
     Paths are relative to the base of the tree; nothing outside of it is visible.
     """
@@ -30,7 +28,7 @@ class OutsideTree(NamedTuple):
 
 
 class Sources(NamedTuple):
-    """The package as seen by its CMake scripts."""
+    """The files of a package that its CMake scripts can read, and its metadata."""
 
     name: str
     """The name in package.xml, or ""."""
@@ -41,18 +39,18 @@ class Sources(NamedTuple):
     scripts: Mapping[str, Parsed]
     """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder."""
     executables: AbstractSet[str] = frozenset()
-    """Files with the executable bit, in the package and in the tree around it, relative to the folder."""
+    """Files with the executable bit in the whole tree, relative to the folder."""
     version: str = ""
     """The version in package.xml."""
     build_depends: tuple[str, ...] = ()
     """Packages that package.xml declares for the build. ament_auto_find_build_dependencies() finds them."""
     test_depends: tuple[str, ...] = ()
-    unseen: tuple[str, ...] = ()
+    unlisted_folders: tuple[str, ...] = ()
     """Existing folders below the package, relative to it, whose files are not in ``files``."""
     texts: Mapping[str, str] = {}
     """Contents of files that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
-    look: Callable[[str], Sequence[str]] = lambda folder: ()
-    """Lists the files below one of the ``unseen`` folders, relative to the package.
+    list_unlisted: Callable[[str], Sequence[str]] = lambda folder: ()
+    """Lists the files below one of the ``unlisted_folders``, relative to the package.
 
     Empty if that is not possible."""
     outside: OutsideTree = OutsideTree()

@@ -7,12 +7,12 @@ from typing import Any, Final, NamedTuple
 
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.blocks import Body
-from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, SLOW, certainly_set, merge, unpaired
+from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, SLOW, certainly_set, is_unpaired, merge
 from ros_lint.collectors.cmake.released_macros import VARIABLES
 from ros_lint.collectors.cmake.syntax import Command
 
 Exit = int
-"""The ways in which a piece of a script can end: a set of the bits below."""
+"""The exits of a piece of a script: a set of the bits below."""
 NEXT: Final = 1
 """The next command follows."""
 BREAK: Final = 2
@@ -20,9 +20,9 @@ CONTINUE: Final = 4
 RETURN: Final = 8
 STOP: Final = 16
 """CMake stops with an error, such as message(FATAL_ERROR)."""
-USUAL: Final = 32
+BY_DEFAULT: Final = 32
 """Together with NEXT: with default options, the next command follows."""
-TESTS: Final = 64
+IF_TESTING: Final = 64
 """Together with NEXT: the next command follows only if tests are enabled."""
 
 
@@ -67,7 +67,7 @@ class Choice(NamedTuple):
     """Alternative procedures of one name, of which one is defined. ``None`` means that possibly none is."""
 
     procedures: tuple[Procedure | None, ...]
-    usual: int | None
+    by_default: int | None
     """The index of the procedure that is defined with default options."""
 
 
@@ -85,7 +85,7 @@ class Change(NamedTuple):
 Changes = dict[tuple[int, str], Change]
 
 MISSING: Final = object()
-_DEEPEST: Final = 100
+_MOST_NESTED: Final = 100
 """Greatest depth of nested branches.
 
 The commands after a possible return() or break() also form a branch.
@@ -116,17 +116,17 @@ class State:
         self.procedures: dict[str, Procedure | Choice] = {}
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
-        self.places: dict[str, str] = {}
+        self.path_variables: dict[str, str] = {}
         """Variables for places: the source folder, the current directory and file, CMAKE_INSTALL_DOCDIR."""
-        self.for_tests: dict[str, str] = {}
+        self.test_switches: dict[str, str] = {}
         """Variables that are true only if tests are enabled, with the value that they then have."""
-        self.gained: dict[str, frozenset[str]] = {}
+        self.test_elements: dict[str, frozenset[str]] = {}
         """Elements that a list has only if tests are enabled, by the variable of the list."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self._nested = 0
         self.characters = MOST_CHARACTERS
         """Characters that may still be written and read."""
-        self.unpaired = False
+        self.has_unpaired_brackets = False
         """True if some value has an unpaired square bracket, because unknown texts may then have one too."""
 
     # --- writing
@@ -151,14 +151,14 @@ class State:
             if len(value) > LONGEST:
                 value = HOLE
             self.charge(len(value))
-            self.notice(value)
+            self.note_brackets(value)
         mapping[key] = value
 
-    def notice(self, value: str) -> None:
-        """Update ``unpaired`` for a value that scripts can now read."""
-        if ("[" in value or "]" in value or "\3" in value) and not self.unpaired:
+    def note_brackets(self, value: str) -> None:
+        """Update ``has_unpaired_brackets`` for a value that scripts can now read."""
+        if ("[" in value or "]" in value or "\3" in value) and not self.has_unpaired_brackets:
             self.charge(SLOW * len(value))
-            self.unpaired = unpaired(value)
+            self.has_unpaired_brackets = is_unpaired(value)
 
     def remove(self, mapping: dict[str, Any], key: str) -> None:
         if key in mapping:
@@ -179,29 +179,29 @@ class State:
         for value in values.values():
             if value:
                 self.charge(len(value))
-                self.notice(value)
+                self.note_brackets(value)
 
-    def set_outer(self, name: str, value: str | None) -> None:
+    def set_parent(self, name: str, value: str | None) -> None:
         """Set a variable of the scope that encloses the innermost one (PARENT_SCOPE)."""
         if len(self.scopes) > 1:
             if name not in self.scopes[-1]:  # the inner scope keeps the value that it had
-                seen = self.found(name)
-                self.put(self.scopes[-1], name, None if seen is MISSING else seen)
+                value_before = self.value_or_missing(name)
+                self.put(self.scopes[-1], name, None if value_before is MISSING else value_before)
             self.put(self.scopes[-2], name, value)
 
     def return_to_caller(self, name: str, value: str | None) -> None:
         """Set a variable of the caller's scope, even from a block() in the function (return(PROPAGATE))."""
-        inner = next((index for index in range(len(self.scopes) - 1, 0, -1) if type(self.scopes[index]) is Variables), 0)
-        if inner == len(self.scopes) - 1:
-            self.set_outer(name, value)
-        elif inner:
-            self.put(self.scopes[inner - 1], name, value)
+        scope_index = next((index for index in range(len(self.scopes) - 1, 0, -1) if type(self.scopes[index]) is Variables), 0)
+        if scope_index == len(self.scopes) - 1:
+            self.set_parent(name, value)
+        elif scope_index:
+            self.put(self.scopes[scope_index - 1], name, value)
 
     # --- reading
 
-    def brought(self, name: str) -> str | None:
+    def builtin_value(self, name: str) -> str | None:
         """Return the value that CMake itself gives a variable, None if it sets none or the value is unknown."""
-        return self.places.get(name) or VARIABLES.get(name)
+        return self.path_variables.get(name) or VARIABLES.get(name)
 
     def normal(self, name: str) -> str | None:
         """Return the value of a variable in the scopes, ignoring the cache."""
@@ -210,7 +210,7 @@ class State:
                 return scope[name]
         return None
 
-    def found(self, name: str, depth: int | None = None) -> Any:
+    def value_or_missing(self, name: str, depth: int | None = None) -> Any:
         """Return the value of a variable in the scopes and the cache, or MISSING.
 
         ``depth`` is the number of scopes to search.
@@ -233,26 +233,26 @@ class State:
 
         Raises BudgetError if branches are nested too deeply.
         """
-        if self._nested > _DEEPEST:
+        if self._nested > _MOST_NESTED:
             raise BudgetError
         self._nested += 1
-        outer, self.log = self.log, []
+        outer_log, self.log = self.log, []
         try:
-            ended = run()
+            exits = run()
         finally:
             self._nested -= 1
-            log, self.log = self.log, outer
+            log, self.log = self.log, outer_log
             changes: Changes = {}
             for mapping, key, _ in log:
                 slot = (id(mapping), key)
                 if slot not in changes:
-                    changes[slot] = Change(mapping, key, self._held(mapping, key))
-            for mapping, key, old in reversed(log):
-                if old is MISSING:
+                    changes[slot] = Change(mapping, key, self._visible_value(mapping, key))
+            for mapping, key, value in reversed(log):
+                if value is MISSING:
                     mapping.pop(key, None)
                 else:
-                    mapping[key] = old
-        return ended, changes
+                    mapping[key] = value
+        return exits, changes
 
     def join(self, alternatives: Sequence[Changes], default: int | None = None) -> None:
         """Write the state after one of several branches ran, given the changes of each branch.
@@ -272,8 +272,8 @@ class State:
             if id(mapping) in fresh and value is not MISSING:
                 self.put(mapping, key, value)  # property of a target that only this branch creates
                 continue
-            before = self._held(mapping, key)
-            values = [changes[slot].value if slot in changes else before for changes in alternatives]
+            value_before = self._visible_value(mapping, key)
+            values = [changes[slot].value if slot in changes else value_before for changes in alternatives]
             merged = _merged(mapping, values, default)
             if merged is MISSING:
                 self.remove(mapping, key)
@@ -286,7 +286,7 @@ class State:
             if isinstance(value, str) or value is None or isinstance(mapping, Variables):
                 self.put(mapping, key, HOLE)
 
-    def _held(self, mapping: dict[str, Any], key: str) -> Any:
+    def _visible_value(self, mapping: dict[str, Any], key: str) -> Any:
         """Return an entry.
 
         A variable that its scope does not set is looked up in the outer scopes and in CMake's defaults.
@@ -295,8 +295,8 @@ class State:
         if value is MISSING and isinstance(mapping, Variables):
             for depth, scope in enumerate(self.scopes):
                 if scope is mapping:
-                    outer = self.found(key, depth)
-                    return self.brought(key) if outer is MISSING else outer
+                    outer_value = self.value_or_missing(key, depth)
+                    return self.builtin_value(key) if outer_value is MISSING else outer_value
         return value
 
 
@@ -305,21 +305,21 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
     if all(value is first for value in values):
         return first
     if all(value is None or value is MISSING or isinstance(value, str) for value in values):
-        gone = None if isinstance(mapping, Variables) else MISSING
+        unset = None if isinstance(mapping, Variables) else MISSING
         merged = merge([None if value is MISSING else value for value in values], default)
-        return gone if merged is None else merged
-    there = [value for value in values if value is not MISSING]
-    if isinstance(there[0], (Procedure, Choice)):
+        return unset if merged is None else merged
+    definitions = [value for value in values if value is not MISSING]
+    if isinstance(definitions[0], (Procedure, Choice)):
         alternatives: list[Procedure | None] = []
-        usual = None
+        chosen_index = None
         for number, value in enumerate(values):
             options = value.procedures if isinstance(value, Choice) else (None if value is MISSING else value,)
             alternatives += [option for option in options if not any(option is known for known in alternatives)]
-            wanted = value.usual if isinstance(value, Choice) else 0
-            if number == default and wanted is not None:
-                usual = next(at for at, procedure in enumerate(alternatives) if procedure is options[wanted])
-        return Choice(tuple(alternatives), usual)
-    return there[0]
+            default_index = value.by_default if isinstance(value, Choice) else 0
+            if number == default and default_index is not None:
+                chosen_index = next(at for at, procedure in enumerate(alternatives) if procedure is options[default_index])
+        return Choice(tuple(alternatives), chosen_index)
+    return definitions[0]
 
 
 class InstalledTarget(NamedTuple):

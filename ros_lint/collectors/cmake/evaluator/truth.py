@@ -9,7 +9,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from ros_lint.collectors.cmake.evaluator.values import kept
+from ros_lint.collectors.cmake.evaluator.values import cached_short
 
 if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.run import Run
@@ -44,7 +44,7 @@ class Token(NamedTuple):
 
     text: str
     quoted: bool
-    soft: bool
+    configurable: bool
     """True if a user may change its value."""
 
 
@@ -68,15 +68,15 @@ def either(left: Truth, right: Truth) -> Truth:
     )
 
 
-def softened(value: int) -> int:
+def reversible(value: int) -> int:
     """Return an answer that the user can reverse: LIKELY for TRUE, UNLIKELY for FALSE."""
     return {TRUE: LIKELY, FALSE: UNLIKELY}.get(value, value)
 
 
-def softened_by(value: int, run: Run, *tokens: Token) -> Truth:
-    """Return an answer, softened if a token depends on a value that a user may change."""
-    soft = any(token.soft or (not token.quoted and run.is_soft(token.text)) for token in tokens)
-    return Truth(softened(value) if soft else value)
+def reversible_if_configurable(value: int, run: Run, *tokens: Token) -> Truth:
+    """Return an answer, reversible if a token depends on a value that a user may change."""
+    configurable = any(token.configurable or (not token.quoted and run.is_configurable(token.text)) for token in tokens)
+    return Truth(reversible(value) if configurable else value)
 
 
 def is_off(text: str) -> bool:
@@ -84,7 +84,7 @@ def is_off(text: str) -> bool:
     return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
 
 
-@kept(1024)
+@cached_short(1024)
 def constant(text: str) -> bool | None:
     """Return the truth of a word that is a constant or a number, None for any other word."""
     if text.upper() in TRUE_WORDS:

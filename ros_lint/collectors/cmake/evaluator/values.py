@@ -62,7 +62,7 @@ def natural(text: str) -> int | None:
 _NATURAL: Final = re.compile("[0-9]{1,9}")
 
 
-def kept(most: int) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
+def cached_short(most: int) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
     """Return a decorator that caches the results of a function for up to ``most`` texts.
 
     Results for long texts are not cached, because they would fill the memory.
@@ -78,7 +78,7 @@ def kept(most: int) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
 _LONGEST_KEPT: Final = 1024
 
 
-def flat(value: str) -> str:
+def embeddable(value: str) -> str:
     """Return a value for use within a longer text: HOLE if it has elements that may be missing."""
     return HOLE if MAYBE in value else value
 
@@ -99,16 +99,16 @@ def elements(value: str) -> list[str]:
     if ";" not in value:
         return [value]
     if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
-        found = value.split(";")
+        items = value.split(";")
     else:
-        found = _split(value)
-    if found.count("") == 1 and all(element[:1] in ("", MAYBE, HOLE) for element in found):
-        return [element or MAYBE for element in found]  # if the other elements are missing, the list is empty
-    return found
+        items = _split(value)
+    if items.count("") == 1 and all(element[:1] in ("", MAYBE, HOLE) for element in items):
+        return [element or MAYBE for element in items]  # if the other elements are missing, the list is empty
+    return items
 
 
 def _split(value: str) -> list[str]:
-    found: list[str] = []
+    parts: list[str] = []
     piece: list[str] = []
     depth = position = 0
     while position < len(value):
@@ -118,29 +118,29 @@ def _split(value: str) -> list[str]:
             position += 2
             continue
         if letter == "\3":
-            return [*found, UNPAIRED_HOLE]
+            return [*parts, UNPAIRED_HOLE]
         if letter == "[":
             depth += 1
         elif letter == "]":
             depth -= 1
         if letter == ";" and not depth:
-            found.append("".join(piece))
+            parts.append("".join(piece))
             piece = []
         else:
             piece.append(letter)
         position += 1
-    found.append("".join(piece))
+    parts.append("".join(piece))
     if depth and (MAYBE in value or HOLE in value):
         return [UNPAIRED_HOLE]  # an unpaired bracket joins the elements after it
-    return found
+    return parts
 
 
-def effort(value: str) -> int:
+def split_cost(value: str) -> int:
     """Return the cost of splitting a list, in characters."""
     return SLOW * len(value) if "[" in value or "\\" in value else ELEMENT * value.count(";")
 
 
-def unpaired(value: str) -> bool:
+def is_unpaired(value: str) -> bool:
     """Return whether a text has an unpaired square bracket, or may have one."""
     if "\3" in value:
         return True
@@ -155,7 +155,7 @@ def with_unpaired_holes(value: str | None) -> str | None:
     """Return a value as read in a script whose unknown texts may have unpaired brackets."""
     if not value:
         return value
-    if MAYBE in value and unpaired(value):
+    if MAYBE in value and is_unpaired(value):
         return UNPAIRED_HOLE  # the elements that are joined depend on which ones are missing
     return value.replace(HOLE, UNPAIRED_HOLE) if HOLE in value and UNPAIRED_HOLE not in value else value
 
@@ -164,32 +164,32 @@ def join(values: Iterable[str]) -> str:
     """Return a list as CMake stores it, HOLE if it is too long."""
     if isinstance(values, (list, tuple)):
         return ";".join(values) if sum(map(len, values)) <= LONGEST else HOLE
-    found = []
+    texts = []
     size = 0
     for value in values:  # values of a generator may together exceed the memory
         size += len(value)
         if size > LONGEST:
             return HOLE
-        found.append(value)
-    return ";".join(found)
+        texts.append(value)
+    return ";".join(texts)
 
 
-def glued(glue: str, texts: Sequence[str]) -> str:
+def join_with(glue: str, texts: Sequence[str]) -> str:
     """Return texts joined by ``glue``.
 
     HOLE if the result is too long (a loop can double a text in each round).
     """
     if len(glue) * len(texts) + sum(map(len, texts)) > LONGEST:
         return HOLE
-    return flat(glue).join(map(flat, texts))
+    return embeddable(glue).join(map(embeddable, texts))
 
 
-def sure(element: str) -> tuple[str, bool]:
+def strip_mark(element: str) -> tuple[str, bool]:
     """Return a list element without its MAYBE mark, and whether it certainly exists."""
     return (element[1:], False) if element[:1] == MAYBE else (element, True)
 
 
-def maybe(element: str) -> str:
+def mark_maybe(element: str) -> str:
     """Return a list element marked as one that may be missing."""
     return element if element.startswith(MAYBE) or element in (HOLE, UNPAIRED_HOLE) else MAYBE + element
 
@@ -217,22 +217,25 @@ def merge(values: Sequence[str | None], default: int | None = None) -> str | Non
         return HOLE if default is None else values[default]  # splitting and joining such a list would change it
     if default is not None:
         base = values[default]
-        have = set(elements(base or ""))
-        if HOLE in have or base is None or ";" not in base:
+        base_elements = set(elements(base or ""))
+        if HOLE in base_elements or base is None or ";" not in base:
             if all(_extends(value, base) for value in values):
                 return _merge_lists(values)
             return base
-        more = dict.fromkeys(
-            maybe(element) for value in values for element in elements(value or "") if sure(element)[0] not in have
+        added = dict.fromkeys(
+            mark_maybe(element)
+            for value in values
+            for element in elements(value or "")
+            if strip_mark(element)[0] not in base_elements
         )
-        return join([base, *(element for element in more if element not in (HOLE, UNPAIRED_HOLE))])
+        return join([base, *(element for element in added if element not in (HOLE, UNPAIRED_HOLE))])
     return _merge_lists(values)
 
 
 def _extends(value: str | None, base: str | None) -> bool:
     """Return whether a list begins with the elements of another."""
-    old, new = elements(base or ""), elements(value or "")
-    return new[: len(old)] == old
+    base_items, items = elements(base or ""), elements(value or "")
+    return items[: len(base_items)] == base_items
 
 
 def _merge_lists(values: Sequence[str | None]) -> str | None:
@@ -247,5 +250,5 @@ def _merge_lists(values: Sequence[str | None]) -> str | None:
     tail = 0
     while tail < shortest - head and all(items[-1 - tail] == first[-1 - tail] for items in lists):
         tail += 1
-    middle = dict.fromkeys(maybe(element) for items in lists for element in items[head : len(items) - tail])
+    middle = dict.fromkeys(mark_maybe(element) for items in lists for element in items[head : len(items) - tail])
     return join([*first[:head], *middle, *first[len(first) - tail :]])
