@@ -43,7 +43,8 @@ Reported with low confidence, because packages rarely declare it:
 
 - Parts of launch that launch files import.
 - Tools that run tests, such as GoogleTest, pytest and `launch_testing`.
-- `ament_cmake_core`, because every build tool provides it.
+- `ament_cmake_core`, because every build tool provides it, and `ament_cmake`, if another build tool such as `ament_cmake_auto`
+  provides it.
 - Linters that `ament_lint_common` provides.
 - Packages that launch files use and a released metapackage provides.
 - Optional uses. They have no fix.
@@ -59,6 +60,7 @@ from ros_lint.api import Confidence, Finding, Package, Related, Role, Rule, Seve
 
 _LAUNCHER = "ros2launch"
 _LINTERS = "ament_lint_common"
+_BUILD_TOOL = "ament_cmake"
 _TEST_MODULES = frozenset({
     "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
     "python3-pytest",
@@ -95,7 +97,9 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
 
     This holds for launch in launch files, tools that run tests, linters, and what launch files use of a metapackage.
     """
-    if need.name in _PARTS or (need.role is Role.TEST and (need.name in _TEST_MODULES or carrier == _LINTERS)):
+    if need.name in _PARTS or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
+        return True
+    if need.role is Role.TEST and (need.name in _TEST_MODULES or carrier == _LINTERS):
         return True
     if all(use.via in ("launch", "package") for use in need.uses) and dependencies.only_brings(workspace.world, carrier):
         return True
@@ -134,7 +138,7 @@ def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tu
     purpose = next((roles for roles in _PURPOSES if best.role & roles), ~Role(0))
     same = [declared.name for declared in package.declared if declared.role & purpose]
     for starts in (dict.fromkeys(same), dict.fromkeys(declared.name for declared in package.declared)):
-        for name in best.providers:
+        for name in sorted(best.providers, key=workspace.world.only_runs):
             if path := workspace.world.path(starts, name):
                 return path
     return (need.name,)

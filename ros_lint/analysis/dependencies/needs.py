@@ -130,14 +130,14 @@ def _needs(
     }
     for names, direct in matches.items():
         direct += [provider for provider in sorted(vendors) if provider not in direct and is_vendor(provider, names[0])]
-    for names in {use.providers for use in uses if use.role & Role.BUILD}:
-        if matches[names] and all(map(only_runs, matches[names])) and not only_runs(name):
+    built = {use.providers for use in uses if use.role & Role.BUILD} if not only_runs(name) else set()
+    for names in built:
+        if matches[names] and all(map(only_runs, matches[names])):
             matches[names] = []
     unprovided = [
         names
         for names, direct in matches.items()
-        if not direct
-        and not any(provider in closure and not (provider in declared and only_runs(provider)) for provider in names)
+        if not direct and not any(provider in closure and not (names in built and only_runs(provider)) for provider in names)
     ]
     provided = [names for names, direct in matches.items() if not direct and names not in unprovided]
     if names := tuple(dict.fromkeys([provider for direct in matches.values() for provider in direct])):
