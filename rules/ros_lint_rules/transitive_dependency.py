@@ -42,11 +42,11 @@ Reported with medium confidence:
 Reported with low confidence, because packages rarely declare it:
 
 - Parts of launch that launch files import.
-- Tools that run tests, such as GoogleTest, pytest and `launch_testing`.
+- Tools that run tests, such as GoogleTest, pytest and `launch_testing`, if a test dependency or build tool provides them.
 - `ament_cmake_core`, because every build tool provides it, and `ament_cmake`, if another build tool such as `ament_cmake_auto`
   provides it.
-- Linters that `ament_lint_common` provides.
-- Packages that launch files use and a released metapackage provides.
+- Linters that `ament_lint_common` contains.
+- Packages that launch files use and that a released metapackage contains.
 - Optional uses. They have no fix.
 
 There is also no fix if no rosdep key resolves for the distribution.
@@ -54,20 +54,19 @@ There is also no fix if no rosdep key resolves for the distribution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros_lint.api import Confidence, Finding, Package, Related, Role, Rule, Severity, Workspace, dependencies, first_related
 
 _LAUNCHER = "ros2launch"
 _LINTERS = "ament_lint_common"
-_BUILD_TOOL = "ament_cmake"
-_TEST_MODULES = frozenset({
+_BUILD_TOOL, _CORE = "ament_cmake", "ament_cmake_core"
+_TEST_TOOLS = dependencies.TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
+"""Packages and keys that run tests. Build tools and packages for a kind of tests provide them."""
+_TEST_MODULES = _TEST_TOOLS | {
     "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
-    "python3-pytest",
-})  # fmt: skip
-"""Packages and keys that tests use and that usually come with a package for a kind of tests."""
-_PARTS = dependencies.TEST_LIBRARIES | {"ament_cmake_core", "ament_cmake_pytest"}
-"""Packages and keys that usually come with a build tool."""
+}  # fmt: skip
+"""Packages and keys that tests use and that packages for a kind of tests provide."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -92,17 +91,22 @@ def _is_command(need: dependencies.Need) -> bool:
     return all(use.via == "macro" for use in need.uses)
 
 
-def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, carrier: str) -> bool:
-    """Return whether packages rarely declare such a use, because the purpose of ``carrier`` is to provide it.
+def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
+    """Return whether packages rarely declare such a use, because the first package of ``path`` is there to provide it.
 
-    This holds for launch in launch files, tools that run tests, linters, and what launch files use of a metapackage.
+    This holds for parts of build tools, tools that run tests, linters, what launch files use of a metapackage, and launch
+    in launch files.
     """
-    if need.name in _PARTS or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
+    carrier, is_direct = path[0], len(path) == 2
+    if need.name == _CORE or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
         return True
-    if need.role is Role.TEST and (need.name in _TEST_MODULES or carrier == _LINTERS):
+    in_tests = need.role is Role.TEST
+    if need.name in (_TEST_MODULES if in_tests else _TEST_TOOLS) and package.declares(carrier) & (Role.TEST | Role.TOOL):
         return True
-    if all(use.via in ("launch", "package") for use in need.uses) and dependencies.only_brings(workspace.world, carrier):
+    if is_direct and in_tests and carrier == _LINTERS:
         return True
+    if is_direct and all(use.via in ("launch", "package") for use in need.uses):
+        return dependencies.only_brings(workspace.world, carrier)
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
     return dependencies.is_part_of_launch(package, outside_tests or need.uses)
 
@@ -117,7 +121,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
     best, *others = need.uses
     path = _path(package, workspace, need)
     name = path[-1]
-    if _comes_by_design(package, workspace, need, path[0]):
+    if _comes_by_design(package, workspace, need, path):
         confidence = Confidence.LOW
     between = " > ".join(f"'{package_between}'" for package_between in path[:-1])
     proposal = dependencies.remedy(package, workspace, name, need.role)
@@ -144,7 +148,7 @@ def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tu
     return (need.name,)
 
 
-_PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT)
+_PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT, Role.TEST | Role.TOOL)
 
 
 RULE = Rule(
