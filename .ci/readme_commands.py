@@ -1,4 +1,4 @@
-"""Print the commands of a README's ``sh`` blocks, one a line, in order."""
+"""Print the commands in the ``sh`` blocks of a README, one per line, in order."""
 
 import re
 import sys

@@ -1,11 +1,15 @@
-"""Compare ros-lint with its peers on workspaces whose undeclared dependencies were judged by hand, and write a table.
+"""Compare ros-lint with similar tools on workspaces whose undeclared dependencies were judged by hand.
 
     python bench/peers.py [--write docs/comparison.md] JUDGED.tsv=WORKSPACE...
 
-A judged list names package, dependency, verdict and reason: ``missing`` (used, and neither declared nor brought by what
-is declared, as far as anything is known of it), ``brought`` (used, and brought by what is declared), ``aside`` (used in a
-file that is neither built, installed nor run), ``wrong`` (not used, or declared under another name). The tools are
-taken from PATH as their documentation runs them; rosdep must be set up for package-xml-validator.
+A line of a judged list has package, dependency, verdict and reason. The verdicts are:
+
+- ``missing``: used, but neither declared nor installed by a declared dependency, as far as this is known,
+- ``transitive``: used and installed by a declared dependency,
+- ``unbuilt``: used only in files that are neither built, installed nor run,
+- ``wrong``: not used, or declared under another name.
+
+The tools are searched in PATH and run as their documentation says. package-xml-validator needs an initialized rosdep.
 """
 
 from __future__ import annotations
@@ -23,7 +27,7 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 Pair = tuple[str, str]
-"""A package, and a dependency that it is said to lack."""
+"""A package, and a dependency that a tool reports as missing in it."""
 
 _MARKS = ("<!-- made by bench/peers.py: begin -->", "<!-- end -->")
 _RULES = frozenset({"undeclared-dependency", "launch-outside-closure", "launch-unknown-package"})
@@ -31,8 +35,8 @@ _ERROR = re.compile(r"E(?:rror|RROR):")
 _MISSING = re.compile(r"\tMissing (?:<\w+> |test )?dependencies in ([\w.-]+)/package\.xml(?:: (?P<here>.*)| compared)")
 
 
-class Answer(NamedTuple):
-    """What a tool said: pairs, or why there are none."""
+class Findings(NamedTuple):
+    """The pairs that a tool reports; None if it cannot check the workspace, with the reason."""
 
     pairs: frozenset[Pair] | None
     reason: str = ""
@@ -41,9 +45,9 @@ class Answer(NamedTuple):
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("judged", nargs="+", metavar="JUDGED.tsv=WORKSPACE")
-    parser.add_argument("--write", metavar="PAGE", help="put the tables between the marks of a page, not on standard output")
+    parser.add_argument("--write", metavar="PAGE", help="page to write the tables into, between its marks")
     options = parser.parse_args()
-    tables = "\n".join(table(*each.split("=", 1)) for each in options.judged)
+    tables = "\n".join(table(*pair.split("=", 1)) for pair in options.judged)
     if not options.write:
         print(tables)
         return 0
@@ -56,7 +60,7 @@ def main() -> int:
 
 
 def table(judged: str, workspace: str) -> str:
-    """Return the table of one workspace, as Markdown."""
+    """Return the Markdown table for a workspace. ``judged`` is the path of its judged list."""
     title, verdicts = read(judged)
     total = sum(verdict == "missing" for verdict in verdicts.values())
     lines = [
@@ -68,43 +72,44 @@ def table(judged: str, workspace: str) -> str:
         "|---|---|---|---|---|---|",
     ]
     for name, run in TOOLS.items():
-        answer = run(os.path.abspath(workspace)) if shutil.which(name.split()[0]) else Answer(None, "not installed")
-        if answer.pairs is None:
-            lines.append(f"| {name} | – | – | – | – | {answer.reason} |")
+        result = run(os.path.abspath(workspace)) if shutil.which(name.split()[0]) else Findings(None, "not installed")
+        if result.pairs is None:
+            lines.append(f"| {name} | – | – | – | – | {result.reason} |")
             continue
-        count = Counter(verdicts.get(pair, "unknown") for pair in answer.pairs)
-        false = count["wrong"] + count["aside"]
-        found = count["missing"]
-        lines.append(f"| {name} | {found} | {total - found} | {count['brought']} | {false} | {count['unknown']} |")
+        count = Counter(verdicts.get(pair, "unknown") for pair in result.pairs)
+        false = count["wrong"] + count["unbuilt"]
+        correct = count["missing"]
+        lines.append(f"| {name} | {correct} | {total - correct} | {count['transitive']} | {false} | {count['unknown']} |")
     return "\n".join((*lines, ""))
 
 
 def read(path: str) -> tuple[str, Mapping[Pair, str]]:
-    """Return the title of a judged list and its verdicts."""
+    """Return the title of a judged list, and the verdict of each pair."""
     with open(path, encoding="utf-8") as file:
         title, _, *rows = file.read().splitlines()
     cells = [row.split("\t") for row in rows]
     return title.lstrip("# ").partition(":")[0], {(package, name): verdict for package, name, verdict, _ in cells}
 
 
-def _ros_lint(workspace: str, *more: str) -> Answer:
-    done = _run("ros-lint", workspace, "--format", "json", "--fail-on", "never", "--no-cache", *more)
-    findings = json.loads(done.stdout)["findings"]
-    return Answer(frozenset((each["package"], each["subject"]) for each in findings if each["rule"] in _RULES))
+def _ros_lint(workspace: str, *options: str) -> Findings:
+    process = _run("ros-lint", workspace, "--format", "json", "--fail-on", "never", "--no-cache", *options)
+    findings = json.loads(process.stdout)["findings"]
+    return Findings(frozenset((finding["package"], finding["subject"]) for finding in findings if finding["rule"] in _RULES))
 
 
-def _validator(workspace: str) -> Answer:
-    """Of package-xml-validator, the pairs of its three ways to say that something is missing."""
+def _validator(workspace: str) -> Findings:
+    """Return the pairs that package-xml-validator reports in any of its three messages about missing dependencies."""
     arguments = ("--missing-deps-only", "--compare-with-cmake", "--strict-cmake-checking", workspace)
-    done = _run("package-xml-validator", *arguments)
-    said = done.stdout + done.stderr
+    process = _run("package-xml-validator", *arguments)
+    output = process.stdout + process.stderr
     names = _names(workspace)
-    return Answer(frozenset((package, name) for folder, name in _missing(said) for package in names.get(folder, (folder,))))
+    return Findings(frozenset((package, name) for folder, name in _missing(output) for package in names.get(folder, (folder,))))
 
 
-def _missing(said: str) -> Iterator[Pair]:
+def _missing(output: str) -> Iterator[Pair]:
+    """Yield the pairs in the output of package-xml-validator, with the folder in place of the package."""
     folder = ""
-    for line in said.splitlines():
+    for line in output.splitlines():
         match = _MISSING.match(line)
         if match and match["here"]:
             yield from ((match[1], name.strip()) for name in match["here"].split(","))
@@ -116,22 +121,25 @@ def _missing(said: str) -> Iterator[Pair]:
 
 def _names(workspace: str) -> dict[str, list[str]]:
     """Return the names of packages by the names of their folders."""
-    found: dict[str, list[str]] = {}
+    names_of: dict[str, list[str]] = {}
     for folder, _, files in os.walk(workspace):
         if "package.xml" in files:
             name = ElementTree.parse(os.path.join(folder, "package.xml")).getroot().findtext("name") or ""
-            found.setdefault(os.path.basename(folder), []).append(name.strip())
-    return found
+            names_of.setdefault(os.path.basename(folder), []).append(name.strip())
+    return names_of
 
 
-def _unable(*command: str) -> Callable[[str], Answer]:
-    """Return how to run a tool that so far has never got to say anything of a package: its error or last line is the answer."""
+def _without_findings(*command: str) -> Callable[[str], Findings]:
+    """Return a function that runs a tool that reports nothing about ROS 2 packages.
 
-    def run(workspace: str) -> Answer:
-        done = _run(*command, ".", cwd=workspace)
-        lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-        said = next((line for line in lines if _ERROR.search(line)), lines[-1] if lines else "says nothing")
-        return Answer(None, said.replace("|", "/")[:120])
+    The reason in its result is the first error that the tool prints, or else its last line.
+    """
+
+    def run(workspace: str) -> Findings:
+        process = _run(*command, ".", cwd=workspace)
+        lines = [line.strip() for line in (process.stdout + process.stderr).splitlines() if line.strip()]
+        message = next((line for line in lines if _ERROR.search(line)), lines[-1] if lines else "no output")
+        return Findings(None, message.replace("|", "/")[:120])
 
     return run
 
@@ -140,13 +148,13 @@ def _run(*command: str, cwd: str | None = None) -> subprocess.CompletedProcess[s
     return subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
 
 
-TOOLS: Mapping[str, Callable[[str], Answer]] = {
+TOOLS: Mapping[str, Callable[[str], Findings]] = {
     "ros-lint": _ros_lint,
     "ros-lint --pedantic": lambda workspace: _ros_lint(workspace, "--pedantic"),
     "package-xml-validator": _validator,
-    "catkin_lint": _unable("catkin_lint"),
-    "deptry": _unable("deptry"),
-    "colcon": _unable("colcon", "lint", "--base-paths"),
+    "catkin_lint": _without_findings("catkin_lint"),
+    "deptry": _without_findings("deptry"),
+    "colcon": _without_findings("colcon", "lint", "--base-paths"),
 }
 
 

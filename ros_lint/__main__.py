@@ -1,4 +1,4 @@
-"""``python -m ros_lint``."""
+"""Run the command line as ``python -m ros_lint``."""
 
 from ros_lint.cli.start import run
 

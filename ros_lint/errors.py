@@ -4,4 +4,4 @@ from __future__ import annotations
 
 
 class UserError(Exception):
-    """The tool cannot do what was asked for. The message names the reason, and the way out."""
+    """A request of the user that cannot be fulfilled. The message names the reason and the remedy."""

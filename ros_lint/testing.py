@@ -1,21 +1,21 @@
-"""Test a rule with cases written in Markdown, for the rules of ros-lint and for those of plugins.
+"""Test rules with cases in Markdown: the rules of ros-lint, and those of plugins.
 
-A file of cases is named after its rule. Every ``##`` heading is a case, a small workspace:
+A file of cases is named after its rule. Each ``##`` heading begins a case, which is a small workspace:
 
-- A line with nothing but a path in backticks, then a fenced block, is a file.
-- A line ``package robot (ament_cmake): depend rclcpp, exec_depend rviz2`` writes ``robot/package.xml``. The build type may be
-  left out; ``package robot (ament_cmake) in src/robot`` names another folder, ``.`` the root.
-- In files, comments say what is expected. A confidence or the name of a rule in brackets must be that of the finding:
+- A line that is a path in backticks, followed by a fenced block, is a file.
+- A line ``package robot (ament_cmake): depend rclcpp, exec_depend rviz2`` is the file ``robot/package.xml``. The build type may
+  be left out. ``package robot (ament_cmake) in src/robot`` names another folder; ``.`` is the root.
+- Comments in files state the expected findings. Words in brackets must be the confidence or the rule of the finding:
 
       #include <std_msgs/msg/string.hpp>  // want "std_msgs is used"
-      # want+1 [medium] "..."             (for a line that cannot hold a comment; want-1 looks up)
+      # want+1 [medium] "..."             (a finding in the next line; want-1 is for the previous line)
 
-- A block ``output`` is what the tool prints for the case, a block ``diff`` what its fixes change. Both are compared exactly;
-  ``pytest --bless`` rewrites them.
-- A block ``toml`` without a path holds settings:
-  ``distro = "humble"``: the distribution, jazzy by default; ``chosen = false``: it is an assumption;
+- A block ``output`` is the expected output for the case, a block ``diff`` the expected changes of its fixes. Both are compared
+  exactly; ``pytest --bless`` rewrites them.
+- A block ``toml`` without a path has settings:
+  ``distro = "humble"``: the distribution, by default jazzy; ``chosen = false``: the user did not choose it;
   ``executable = ["scripts/a.py"]``: files with the executable bit;
-  ``underlay = "opt"``: a folder of the case that is an underlay; mark it with COLCON_IGNORE.
+  ``underlay = "opt"``: a folder of the case that is an underlay. It needs a file COLCON_IGNORE.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from ros_lint.base.diff import unified
 from ros_lint.base.text import Text, read, to_bytes
 from ros_lint.base.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.engine import edits, registry
-from ros_lint.engine import run as engine
 from ros_lint.engine.report import Issue
+from ros_lint.engine.run import find_issues
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
@@ -55,17 +55,17 @@ class Want(NamedTuple):
     text: str
     """A part of its message."""
     tags: frozenset[str]
-    """Words that must be its confidence or its rule."""
+    """Words in brackets: each must be the confidence of the finding or the name of its rule."""
 
     def fits(self, issue: Issue) -> bool:
         """Return whether a finding is the expected one."""
         finding = issue.finding
-        here = (finding.span.path, finding.span.line) == (self.path, self.line)
-        return here and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}
+        place = (finding.span.path, finding.span.line) == (self.path, self.line)
+        return place and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}
 
 
 class Case(NamedTuple):
-    """A workspace, and what is expected of it."""
+    """A workspace, and the findings and outputs that are expected for it."""
 
     title: str
     source: Path
@@ -74,12 +74,12 @@ class Case(NamedTuple):
     diff: str | None
     distro: str
     chosen: bool
-    """Whether the user named the distribution."""
+    """True if the user chose the distribution."""
     executable: frozenset[str]
     underlay: str
 
     def wants(self) -> list[Want]:
-        """Return every finding that is expected."""
+        """Return the expected findings."""
         return [
             Want(path, number + int(match["offset"] or 0), text, frozenset(re.findall(r"[\w-]+", match["tags"] or "")))
             for path, body in self.files.items()
@@ -146,23 +146,27 @@ def manifest(header: re.Match[str]) -> tuple[str, str]:
 
 
 def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
-    """Return what a rule says of a case, with the shipped knowledge and no underlay.
+    """Return the findings of a rule in the workspace of a case, which is read from ``tree``.
 
-    A rule about suppressions hears what all rules say. Raises AssertionError with the traceback when a rule crashes.
+    Only this rule runs, except for a rule about suppressions, which needs the findings of all rules. Raises AssertionError
+    with the traceback if a rule crashes.
     """
     target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
-    every = registry.load()
-    rules = every if rule.suppressions else (rule,)
-    checked = engine.check(loader.load(), rules, loader.suppressions(), every)
+    all_rules = registry.load()
+    rules = all_rules if rule.suppressions else (rule,)
+    checked = find_issues(loader.load(), rules, loader.suppressions(), all_rules)
     if checked.crashes:
         raise AssertionError(checked.crashes[0].traceback)
     return tuple(issue for issue in checked.issues if issue.rule is rule)
 
 
 def differences(case: Case, rule: Rule) -> Iterator[str]:
-    """Say, line by line, in what the rule does not do what the case wants. Silence means success."""
+    """Yield a line for each difference between the results of a rule and the expectations of a case.
+
+    Besides findings, output and diff it checks that fixes resolve their findings, and that the order of files has no effect.
+    """
     tree = case.tree()
     issues = issues_of(tree, case, rule)
     wanted = case.wants()
@@ -174,34 +178,34 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
             yield f"{issue.finding.span}: unexpected [{issue.finding.confidence}]: {issue.finding.message}"
     yield from (f'{want.path}:{want.line}: missing {sorted(want.tags)}: "{want.text}"' for want in wanted)
 
-    if case.output is not None and (got := _output(tree, issues)) != case.output:
-        yield f"the output is\n{got}"
+    if case.output is not None and (actual := _output(tree, issues)) != case.output:
+        yield f"the output is\n{actual}"
     changed = fixed(tree, issues)
-    if case.diff is not None and (got := _diff(tree, changed)) != case.diff:
-        yield f"the fix is\n{got}"
+    if case.diff is not None and (actual := _diff(tree, changed)) != case.diff:
+        yield f"the fix is\n{actual}"
     if changed and not rule.fixable:
-        yield "the rule has a fix, and is not marked as fixable"
+        yield "the rule has a fix, but is not marked as fixable"
     if changed:
         after = OverlayTree(tree, {path: to_bytes(text) for path, text in changed.items()})
-        again = issues_of(after, case, rule)
-        yield from (f"{issue.finding.span}: still there after its fix" for issue in again if issue.finding.fix)
+        remaining = issues_of(after, case, rule)
+        yield from (f"{issue.finding.span}: still reported after its fix" for issue in remaining if issue.finding.fix)
 
-    backwards = case._replace(files=dict(reversed(list(case.files.items())))).tree()
-    if issues_of(backwards, case, rule) != issues:
+    reversed_tree = case._replace(files=dict(reversed(list(case.files.items())))).tree()
+    if issues_of(reversed_tree, case, rule) != issues:
         yield "the result depends on the order of the files"
 
 
 def bless(case: Case, rule: Rule) -> None:
-    """Rewrite the blocks ``output`` and ``diff`` of the case from what the tool does now."""
+    """Rewrite the blocks ``output`` and ``diff`` of a case with the current results."""
     tree = case.tree()
     issues = issues_of(tree, case, rule)
     new = {"output": _output(tree, issues), "diff": _diff(tree, fixed(tree, issues))}
-    head, found, rest = case.source.read_text("utf-8").partition(f"## {case.title}\n")
-    body, more, tail = rest.partition("\n## ")
+    head, heading, rest = case.source.read_text("utf-8").partition(f"## {case.title}\n")
+    body, separator, tail = rest.partition("\n## ")
     for kind, text in new.items():
         block = f"```{kind}\n{text}```"
         body = _block(kind).sub(block.replace("\\", r"\\"), body)
-    case.source.write_text(head + found + body + more + tail, "utf-8")
+    case.source.write_text(head + heading + body + separator + tail, "utf-8")
 
 
 def _block(kind: str) -> re.Pattern[str]:
@@ -209,7 +213,7 @@ def _block(kind: str) -> re.Pattern[str]:
 
 
 def fixed(tree: Tree, issues: tuple[Issue, ...]) -> dict[str, str]:
-    """Return the new text of every file that the fixes of the issues change, safe or not."""
+    """Return the new text of each file that the fixes of the issues change, by path. Unsafe fixes are included."""
     fixes = edits.choose(issue.finding.fix for issue in issues if issue.finding.fix)
     return edits.apply(fixes, lambda path: edits.text_of(tree, path))
 

@@ -1,4 +1,4 @@
-"""What colcon itself makes of a folder: its packages, what each needs, and whether it can order them."""
+"""A folder as colcon reads it: its packages, their dependencies, and whether it can order them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Listing(NamedTuple):
     needs: Mapping[str, Mapping[str, frozenset[str]]]
     """By path, then by name of the dependency: the categories."""
     order: tuple[str, ...] | None
-    """Names as ``colcon list -t`` prints them, None when it refuses."""
+    """Names as ``colcon list -t`` prints them, None if it fails."""
 
 
 def colcon_list(base: Path) -> Listing:
@@ -53,19 +53,19 @@ def _list() -> Listing:
     parser = ArgumentParser()
     add_package_discovery_arguments(parser)
     extensions = get_package_identification_extensions()
-    found: set[Any] = discover_packages(parser.parse_args(["--ignore-user-meta"]), extensions)
-    augment_packages(found)
-    paths = {package: "" if str(package.path) == "." else str(package.path) for package in found}
-    needs: dict[str, dict[str, frozenset[str]]] = {}
+    result: set[Any] = discover_packages(parser.parse_args(["--ignore-user-meta"]), extensions)
+    augment_packages(result)
+    paths = {package: "" if str(package.path) == "." else str(package.path) for package in result}
+    dependencies: dict[str, dict[str, frozenset[str]]] = {}
     for package, path in paths.items():
         for category, names in package.dependencies.items():
             for name in names:
-                own = needs.setdefault(path, {})
-                own[str(name)] = own.get(str(name), frozenset()) | {category}
+                own_names = dependencies.setdefault(path, {})
+                own_names[str(name)] = own_names.get(str(name), frozenset()) | {category}
     order: tuple[str, ...] | None = None
     with contextlib.suppress(RuntimeError, AssertionError):
-        order = tuple(d.descriptor.name for d in topological_order_packages(found, recursive_categories=("run",)))
-    return Listing(frozenset((package.name, path, package.type) for package, path in paths.items()), needs, order)
+        order = tuple(d.descriptor.name for d in topological_order_packages(result, recursive_categories=("run",)))
+    return Listing(frozenset((package.name, path, package.type) for package, path in paths.items()), dependencies, order)
 
 
 @contextlib.contextmanager

@@ -1,4 +1,4 @@
-"""What the tests of the launch collectors share."""
+"""Helpers of the tests of launch collectors."""
 
 from ros_lint.base.text import Text
 from ros_lint.collectors.launch import collect as launch_files
@@ -13,15 +13,15 @@ def collect(path: str, text: str) -> tuple[Text, LaunchFile]:
     return source, launch_files.collect(source, language)
 
 
-def said(source: Text, found: LaunchFile) -> list[str]:
-    """Return the references in short, and check that what is exact is exact."""
-    for reference in found.references:
+def summaries(source: Text, launch_file: LaunchFile) -> list[str]:
+    """Return a summary of each reference. Checks that exact references have the exact span of their name."""
+    for reference in launch_file.references:
         if reference.exact:
             assert source.slice(reference.span) == (reference.name or reference.package)
         assert reference.span.path == source.path
-    return [short(reference) for reference in found.references]
+    return [summary(reference) for reference in launch_file.references]
 
 
-def short(reference: LaunchReference) -> str:
+def summary(reference: LaunchReference) -> str:
     mark = "?" if reference.conditional else ""
     return f"{reference.kind}{mark} {reference.package} {reference.name}".strip()

@@ -1,4 +1,4 @@
-"""What catkin_pkg makes of a manifest, beside what ros-lint makes of it; and manifests to compare them on."""
+"""A manifest as catkin_pkg reads it and as ros-lint reads it, and generated manifests to compare them."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ VERSIONS = ("version_lt", "version_lte", "version_eq", "version_gte", "version_g
 
 
 class Verdict(NamedTuple):
-    """What a reader made of a manifest. Everything but ``accepted`` is empty when it is rejected."""
+    """The result of a reader. All fields but ``accepted`` are empty for a rejected manifest."""
 
     accepted: bool
     name: str = ""
@@ -51,7 +51,7 @@ class Verdict(NamedTuple):
 
 
 def by_catkin_pkg(data: bytes) -> Verdict:
-    """As ``parse_package`` does with a file: UTF-8, universal line ends."""
+    """Return the manifest as ``parse_package`` reads it: UTF-8, universal line ends."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # catkin_pkg uses old names of pyparsing
         try:
@@ -59,8 +59,8 @@ def by_catkin_pkg(data: bytes) -> Verdict:
             package = parse_package_string(text, warnings=[])
         except (InvalidPackage, AssertionError, ValueError):
             return Verdict(False)
-        found = tuple(_catkin_evaluated(package, context) for context in CONTEXTS)
-    return Verdict(True, package.name, package.version, package.package_format, found)
+        result = tuple(_catkin_evaluated(package, context) for context in CONTEXTS)
+    return Verdict(True, package.name, package.version, package.package_format, result)
 
 
 def _catkin_evaluated(package: Package, context: Mapping[str, str]) -> object:
@@ -90,8 +90,8 @@ def by_ros_lint(data: bytes) -> Verdict:
     manifest = collect(read("package.xml", data))
     if manifest.problems:
         return Verdict(False)
-    found = tuple(_evaluated(manifest, context) for context in CONTEXTS)
-    return Verdict(True, manifest.name, manifest.version, manifest.format, found)
+    result = tuple(_evaluated(manifest, context) for context in CONTEXTS)
+    return Verdict(True, manifest.name, manifest.version, manifest.format, result)
 
 
 class _Complete(dict):
@@ -101,8 +101,8 @@ class _Complete(dict):
         return super().get(name, "")
 
 
-def _evaluated(manifest: Manifest, known: Mapping[str, str]) -> object:
-    context = _Complete(known)
+def _evaluated(manifest: Manifest, context: Mapping[str, str]) -> object:
+    context = _Complete(context)
     if conditions.problems(manifest):
         return "a condition does not parse"
     types = conditions.build_types(manifest, context)
@@ -113,7 +113,7 @@ def _evaluated(manifest: Manifest, known: Mapping[str, str]) -> object:
             versions = dict(depend.versions)
             for kind in KINDS[depend.tag]:
                 kinds[kind].append((depend.name, *(str(versions.get(name)) for name in VERSIONS)))
-    return build_type, {kind: sorted(found) for kind, found in kinds.items()}
+    return build_type, {kind: sorted(result) for kind, result in kinds.items()}
 
 
 SEEDS = (
@@ -196,7 +196,7 @@ _ATTRIBUTE = re.compile(r""" [\w:]+="[^"]*\"""")
 _VALUE = re.compile(r"""(?<=")[^"<>]*(?=")|(?<=>)[^<>]*(?=</)""")
 
 Op = tuple[int, int, int]
-"""Which mutation, where, with what: indexes that are taken modulo what there is."""
+"""Indexes of the mutation, its place and its content, modulo the number of choices."""
 
 
 def mutate(seed: int, ops: Sequence[Op], encoding: int = 0) -> bytes:
@@ -293,7 +293,7 @@ _MUTATIONS = (
 
 
 def differences(data: bytes) -> Iterator[str]:
-    """Say in what the two readers differ."""
+    """Return the differences between the two readers."""
     ours, theirs = by_ros_lint(data), by_catkin_pkg(data)
     for name, our, their in zip(Verdict._fields, ours, theirs, strict=True):
         if our != their:

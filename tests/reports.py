@@ -184,7 +184,7 @@ EVERYTHING = Report(
         UnreadFile("the file", "Permission denied", Span("ws/secret/package.xml", 1, 1, 1, 1)),
         UnreadFile("unknown-dependency", "there is no index for distribution jazzy", None),
     ),
-    unseen=(BlindSpot("executables", ("bringup", "talker")), BlindSpot("used dependencies", ("talker",))),
+    blind_spots=(BlindSpot("executables", ("bringup", "talker")), BlindSpot("used dependencies", ("talker",))),
     crashes=(Crash("unused-dependency", "talker", TRACEBACK), Crash("dependency-cycle", "", TRACEBACK)),
     workspace="ws",
 )

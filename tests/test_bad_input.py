@@ -1,4 +1,4 @@
-"""What a workspace can do to a tool: a clear message with the place, and the other packages are checked all the same."""
+"""Invalid workspaces give a message with the place, and other packages are still checked."""
 
 import json
 import os
@@ -41,10 +41,10 @@ class Ran(NamedTuple):
 def lint(*arguments: str | os.PathLike[str], cwd: Path | None = None, text: bool = False) -> Ran:
     command = [sys.executable, "-m", "ros_lint", *map(str, arguments), "--no-cache", "--distro", "jazzy"]
     form = [] if text else ["--format", "json"]
-    done = subprocess.run([*command, *form], capture_output=True, cwd=cwd, timeout=60, check=False)
-    assert b"Traceback" not in done.stderr, done.stderr.decode()
-    out = json.loads(done.stdout) if done.stdout.startswith(b"{") else {}
-    return Ran(done.returncode, out, done.stderr.decode(), done.stdout.decode())
+    process = subprocess.run([*command, *form], capture_output=True, cwd=cwd, timeout=60, check=False)
+    assert b"Traceback" not in process.stderr, process.stderr.decode()
+    out = json.loads(process.stdout) if process.stdout.startswith(b"{") else {}
+    return Ran(process.returncode, out, process.stderr.decode(), process.stdout.decode())
 
 
 def package(folder: Path, name: str) -> Path:
@@ -58,7 +58,7 @@ def rules(ran: Ran, path: str) -> list[str]:
     return [finding["rule"] for finding in ran.out["findings"] if finding["path"].startswith(path)]
 
 
-def test_an_empty_folder(tmp_path: Path) -> None:
+def test_an_empty_folder_gives_exit_code_2(tmp_path: Path) -> None:
     for form in (True, False):
         ran = lint(tmp_path, text=form)
         assert ran.code == 2
@@ -66,7 +66,7 @@ def test_an_empty_folder(tmp_path: Path) -> None:
         assert form or ran.out["packages"] == 0
 
 
-def test_a_folder_that_colcon_skips(tmp_path: Path) -> None:
+def test_a_folder_that_colcon_skips_is_named(tmp_path: Path) -> None:
     package(tmp_path / "ws" / "src", "robot")
     (tmp_path / "COLCON_IGNORE").write_text("")
     ran = lint(tmp_path)
@@ -75,7 +75,7 @@ def test_a_folder_that_colcon_skips(tmp_path: Path) -> None:
     assert lint(tmp_path / "ws").out["packages"] == 1
 
 
-def test_folders_below_that_colcon_skips(tmp_path: Path) -> None:
+def test_skipped_folders_below_are_named(tmp_path: Path) -> None:
     for name in ("arm", "base", "camera", "lidar"):
         package(tmp_path / "src" / name, name)
         (tmp_path / "src" / name / "COLCON_IGNORE").write_text("")
@@ -85,13 +85,13 @@ def test_folders_below_that_colcon_skips(tmp_path: Path) -> None:
     assert f"skipped: {named} and 1 more; to check a skipped folder" in ran.err
 
 
-def test_a_missing_path(tmp_path: Path) -> None:
+def test_a_missing_path_is_an_error(tmp_path: Path) -> None:
     ran = lint(tmp_path / "nowhere")
     assert ran.code == 2
     assert f"{tmp_path}/nowhere: no such file or directory" in ran.err
 
 
-def test_a_file_instead_of_a_folder(tmp_path: Path) -> None:
+def test_a_file_instead_of_a_folder_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "f").write_text("")
     ran = lint(tmp_path / "f")
     assert ran.code == 2
@@ -124,7 +124,7 @@ MANIFESTS = {
 
 
 @pytest.mark.parametrize("case", MANIFESTS)
-def test_manifests(tmp_path: Path, case: str) -> None:
+def test_an_invalid_manifest_is_reported_with_its_place(tmp_path: Path, case: str) -> None:
     content, line = MANIFESTS[case]
     package(tmp_path / "good", "good")
     (tmp_path / "bad").mkdir()
@@ -132,15 +132,15 @@ def test_manifests(tmp_path: Path, case: str) -> None:
     ran = lint(tmp_path)
     assert rules(ran, "good/") == ["undeclared-dependency"]
     assert ran.code == 1
-    found = [finding for finding in ran.out["findings"] if finding["path"] == "bad/package.xml"]
+    result = [finding for finding in ran.out["findings"] if finding["path"] == "bad/package.xml"]
     if line is None:
-        assert "rejected-manifest" not in [finding["rule"] for finding in found]
+        assert "rejected-manifest" not in [finding["rule"] for finding in result]
     else:
-        assert [finding["line"] for finding in found if finding["rule"] == "rejected-manifest"][:1] == [line]
+        assert [finding["line"] for finding in result if finding["rule"] == "rejected-manifest"][:1] == [line]
     assert "root:" not in ran.text
 
 
-def test_a_folder_called_package_xml(tmp_path: Path) -> None:
+def test_a_folder_named_package_xml_is_no_package(tmp_path: Path) -> None:
     package(tmp_path / "good", "good")
     (tmp_path / "bad" / "package.xml").mkdir(parents=True)
     ran = lint(tmp_path)
@@ -148,7 +148,7 @@ def test_a_folder_called_package_xml(tmp_path: Path) -> None:
     assert ran.code == 1
 
 
-def test_files_that_cannot_be_read(tmp_path: Path) -> None:
+def test_unreadable_files_are_listed_as_not_checked(tmp_path: Path) -> None:
     """Root reads everything, so a link to itself stands for a file without permission; it takes the same way."""
     good = package(tmp_path / "good", "good")
     (good / "src").mkdir()
@@ -183,7 +183,7 @@ def script_package(folder: Path) -> Path:
     return folder
 
 
-def test_names_that_are_no_utf_8(tmp_path: Path) -> None:
+def test_names_that_are_not_utf_8_are_escaped(tmp_path: Path) -> None:
     folder = package(tmp_path / "talker", "talker")
     (folder / "README.md").write_text("ros2 run talker talker")
     for inner in ("config", "scripts", "launch", "msg", "src", "talker", "maps"):
@@ -206,7 +206,7 @@ def test_names_that_are_no_utf_8(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("what", ["a folder", "a link to its folder"])
-def test_what_a_fix_would_create_is_there_and_no_file(tmp_path: Path, what: str) -> None:
+def test_a_fix_does_not_replace_a_folder_by_a_file(tmp_path: Path, what: str) -> None:
     place = script_package(tmp_path / "talker") / "setup.cfg"
     if what == "a folder":
         place.mkdir()
@@ -219,14 +219,14 @@ def test_what_a_fix_would_create_is_there_and_no_file(tmp_path: Path, what: str)
     assert rules(ran, "good/") == []  # fixed although another file failed
 
 
-def test_a_settings_file_that_cannot_be_read(tmp_path: Path) -> None:
+def test_an_unreadable_settings_file_is_an_error(tmp_path: Path) -> None:
     place = script_package(tmp_path / "talker") / "setup.cfg"
     place.write_bytes(b"\0" * 100)
     ran = lint(tmp_path)
     assert [entry["what"] for entry in ran.out["not_checked"]] == ["talker/setup.cfg"]
 
 
-def test_link_loops(tmp_path: Path) -> None:
+def test_link_loops_end(tmp_path: Path) -> None:
     good = package(tmp_path / "good", "good")
     (good / "up").symlink_to(tmp_path)
     (good / "self").symlink_to("self")
@@ -236,7 +236,7 @@ def test_link_loops(tmp_path: Path) -> None:
     assert ran.code == 1
 
 
-def test_a_path_with_spaces_and_letters(tmp_path: Path) -> None:
+def test_a_path_with_spaces_and_umlauts_is_checked(tmp_path: Path) -> None:
     folder = package(tmp_path / "mein Röböter 漢" / "src a", "good")
     ran = lint(tmp_path)
     assert rules(ran, "mein Röböter 漢/src a/") == ["undeclared-dependency"]
@@ -245,7 +245,7 @@ def test_a_path_with_spaces_and_letters(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("what", ["file", "folder"])
-def test_a_read_only_tree(tmp_path: Path, what: str) -> None:
+def test_a_read_only_tree_is_checked(tmp_path: Path, what: str) -> None:
     good = package(tmp_path / "good", "good")
     before = (good / "package.xml").read_bytes()
     place = good / "package.xml" if what == "file" else good
@@ -283,7 +283,7 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize(("file", "content"), [(file, text) for file, texts in HOSTILE.items() for text in texts])
-def test_hostile_files(tmp_path: Path, file: str, content: str) -> None:
+def test_hostile_files_end_with_a_report(tmp_path: Path, file: str, content: str) -> None:
     package(tmp_path / "good", "good")
     bad = package(tmp_path / "bad", "bad")
     if file == "setup.py":
@@ -314,13 +314,13 @@ def test_modules_of_the_workspace_are_not_loaded(tmp_path: Path) -> None:
         (tmp_path / f"{name}.py").write_text("import os\nopen(os.path.join(os.path.dirname(__file__), 'sprung'), 'w').close()\n")
     for arguments in (("check", "--jobs", "2"), ("check", "--jobs", "1", "--pedantic"), ("graph", "--format", "json")):
         command = [sys.executable, "-m", "ros_lint", *arguments]
-        done = subprocess.run(command, capture_output=True, cwd=tmp_path, timeout=60, check=False)
-        assert b"Traceback" not in done.stderr, done.stderr.decode()
-        assert done.returncode in (0, 1), done.stderr.decode()
+        process = subprocess.run(command, capture_output=True, cwd=tmp_path, timeout=60, check=False)
+        assert b"Traceback" not in process.stderr, process.stderr.decode()
+        assert process.returncode in (0, 1), process.stderr.decode()
         assert not (tmp_path / "sprung").exists()
 
 
-def test_a_version_of_more_digits_than_python_makes_a_number_of(tmp_path: Path) -> None:
+def test_a_version_with_too_many_digits_raises_no_error(tmp_path: Path) -> None:
     package(tmp_path / "arm", "arm")
     manifest = package(tmp_path / "robot", "robot") / "package.xml"
     depend = f'<depend version_gte="{"9" * 5000}">arm</depend>'

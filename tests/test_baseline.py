@@ -1,4 +1,4 @@
-"""Files of known findings: what they list is not shown, and what is new or gone is."""
+"""Baselines: known findings are hidden, and new and gone findings are reported."""
 
 import filecmp
 import json
@@ -52,16 +52,18 @@ found = issues_of(st.text(max_size=2))
 
 
 @given(issues_of(st.text(st.characters(), max_size=4)))  # lone bytes, too
-def test_what_is_written_hides_just_that(tmp_path_factory: pytest.TempPathFactory, issues: list[Issue]) -> None:
+def test_a_baseline_hides_exactly_its_findings(tmp_path_factory: pytest.TempPathFactory, issues: list[Issue]) -> None:
     known = kept(tmp_path_factory.mktemp("known"), report(*issues))
-    left = known.without(report(*issues), "known.json", (".",))
+    left = known.hide_known(report(*issues), "known.json", (".",))
     assert (left.issues, left.warnings) == ((), ())
     assert left.hidden == ((HiddenCount("listed in known.json", len(issues)),) if issues else ())
 
 
 @given(found, found)
-def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, before: list[Issue], after: list[Issue]) -> None:
-    left = kept(tmp_path_factory.mktemp("known"), report(*before)).without(report(*after), "known.json", (".",))
+def test_findings_are_new_if_there_are_more_than_listed(
+    tmp_path_factory: pytest.TempPathFactory, before: list[Issue], after: list[Issue]
+) -> None:
+    left = kept(tmp_path_factory.mktemp("known"), report(*before)).hide_known(report(*after), "known.json", (".",))
     keys = [(one.rule.name, one.package, one.finding.subject) for one in before]
     for one in after:
         key = one.rule.name, one.package, one.finding.subject
@@ -69,24 +71,24 @@ def test_only_more_of_the_same_is_new(tmp_path_factory: pytest.TempPathFactory, 
         assert (one in left.issues) == (now > keys.count(key))
 
 
-def test_what_is_gone_is_told(tmp_path: Path) -> None:
+def test_findings_that_no_longer_occur_give_a_warning(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("one", "a", "x"), issue("two", "b", "y")))
-    left = known.without(report(issue("one", "a", "x")), "known.json", (".",))
+    left = known.hide_known(report(issue("one", "a", "x")), "known.json", (".",))
     assert left.warnings == ("2 findings in known.json no longer occur; --write-baseline removes them",)
-    left = known.without(report(issue("one", "a", "x"), issue("two", "b", "y")), "known.json", (".",))
+    left = known.hide_known(report(issue("one", "a", "x"), issue("two", "b", "y")), "known.json", (".",))
     assert left.warnings == ("1 finding in known.json no longer occurs; --write-baseline removes it",)
 
 
-def test_nothing_is_gone_that_was_not_looked_for(tmp_path: Path) -> None:
+def test_findings_of_rules_that_did_not_run_are_not_gone(tmp_path: Path) -> None:
     known = kept(tmp_path, report(issue("one", "a", "x"), issue("two", "b", "y", sure=False)))
-    assert not known.without(report(ran=("two",), hidden=(HiddenCount(UNSURE, 1),)), "k", (".",)).warnings
-    assert not known.without(report(), "k", ("src",)).warnings
+    assert not known.hide_known(report(ran=("two",), hidden=(HiddenCount(UNSURE, 1),)), "k", (".",)).warnings
+    assert not known.hide_known(report(), "k", ("src",)).warnings
     crashed = report(ran=("one",))._replace(crashes=(Crash("one", "a", "ValueError"),))
-    assert not known.without(crashed, "k", (".",)).warnings
-    assert known.without(report(ran=("two",)), "k", (".",)).warnings
+    assert not known.hide_known(crashed, "k", (".",)).warnings
+    assert known.hide_known(report(ran=("two",)), "k", (".",)).warnings
 
 
-def test_the_file_has_a_line_a_key_and_does_not_depend_on_places(tmp_path: Path) -> None:
+def test_the_file_has_a_line_per_key_and_no_places(tmp_path: Path) -> None:
     moved = issue("two", "b", "ü")._replace(finding=Finding("other words", Span("z", 9, 9, 9, 9), "ü"))
     text = baseline.text(report(issue("two", "b", "ü"), issue("one", "a", "x"), issue("one", "a", "x", sure=False)), ("src",))
     assert text == baseline.text(report(issue("one", "a", "x"), moved, issue("one", "a", "x", sure=False)), ("src",))
@@ -120,7 +122,7 @@ KNOWN = '{"folders": [], "known": [{"rule": "", "package": "", "subject": "", "c
         (b"\xff\xfe", "known.json: not a baseline file"),
     ],
 )
-def test_bad_files_are_named(tmp_path: Path, text: str | bytes, complaint: str) -> None:
+def test_an_invalid_file_is_reported_with_its_path(tmp_path: Path, text: str | bytes, complaint: str) -> None:
     file = tmp_path / "known.json"
     file.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(BaselineError) as raised:
@@ -128,7 +130,7 @@ def test_bad_files_are_named(tmp_path: Path, text: str | bytes, complaint: str) 
     assert str(raised.value).startswith(f"{tmp_path}{os.sep}{complaint}")
 
 
-def test_files_of_another_kind_or_size_are_named(tmp_path: Path) -> None:
+def test_irregular_and_large_files_are_reported_with_their_path(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "large").write_text(KNOWN + " " * (64 << 20))
     for name, reason in (("fifo", "not a regular file"), ("large", "65 MB is more than the limit of 64 MB")):
@@ -145,23 +147,23 @@ def demo(tmp_path: Path) -> Path:
 
 def test_a_workspace_with_known_findings_is_clean_until_there_is_a_new_one(demo: Path) -> None:
     (demo / "ros-lint.toml").write_text('baseline = "known.json"\n')
-    done = run("--write-baseline", cwd=demo)
-    assert (done.returncode, done.stdout) == (0, "")
-    assert "wrote 6 findings to " in done.stderr
+    process = run("--write-baseline", cwd=demo)
+    assert (process.returncode, process.stdout) == (0, "")
+    assert "wrote 6 findings to " in process.stderr
     assert {entry["rule"] for entry in json.loads((demo / "known.json").read_text())["known"]} == HEADLINES
-    done = run(cwd=demo / "src" / "rover_teleop")  # the file lies beside the settings, wherever one is
-    assert done.returncode == 0
-    assert "1 finding listed in known.json" in done.stdout
-    assert "than there" not in done.stderr
+    process = run(cwd=demo / "src" / "rover_teleop")  # the file lies beside the settings, wherever one is
+    assert process.returncode == 0
+    assert "1 finding listed in known.json" in process.stdout
+    assert "than there" not in process.stderr
     source = demo / "src" / "rover_driver" / "src" / "driver_node.cpp"
     source.write_text(f"#include <nav_msgs/msg/path.hpp>\n{source.read_text()}")
-    done = run("--format", "json", cwd=demo)
-    assert done.returncode == 1
-    (finding,) = json.loads(done.stdout)["findings"]
+    process = run("--format", "json", cwd=demo)
+    assert process.returncode == 1
+    (finding,) = json.loads(process.stdout)["findings"]
     assert (finding["rule"], finding["subject"]) == ("undeclared-dependency", "nav_msgs")
 
 
-def test_the_same_with_what_is_kept_between_runs(demo: Path, tmp_path: Path) -> None:
+def test_the_cache_does_not_change_the_effect_of_a_baseline(demo: Path, tmp_path: Path) -> None:
     env = {"XDG_CACHE_HOME": str(tmp_path / "cache")}
     assert run(demo, env=env).returncode == 1
     known = ("--baseline", tmp_path / "known.json")
@@ -170,15 +172,15 @@ def test_the_same_with_what_is_kept_between_runs(demo: Path, tmp_path: Path) -> 
     assert run(demo, env=env).returncode == 1
 
 
-def test_fixes_are_made_of_known_findings_too(demo: Path) -> None:
+def test_known_findings_are_fixed(demo: Path) -> None:
     known = ("--baseline", demo / "known.json")
     run(demo, *known, "--write-baseline")
-    done = run(demo, *known, "--fix")
-    assert done.returncode == 0
-    assert "4 findings in known.json no longer occur" in done.stderr
+    process = run(demo, *known, "--fix")
+    assert process.returncode == 0
+    assert "4 findings in known.json no longer occur" in process.stderr
 
 
-def test_what_makes_no_sense_is_refused(demo: Path, tmp_path: Path) -> None:
+def test_conflicting_options_are_rejected(demo: Path, tmp_path: Path) -> None:
     for arguments, complaint in (
         (("--write-baseline",), "--write-baseline needs a file"),
         (("--baseline", "k.json", "--write-baseline", "--diff"), "--diff writes no files"),
@@ -186,13 +188,13 @@ def test_what_makes_no_sense_is_refused(demo: Path, tmp_path: Path) -> None:
         (("--baseline", "k.json", "--fix"), "k.json: No such file or directory"),
         (("--baseline", tmp_path / "no" / "k.json", "--write-baseline"), "k.json: cannot be written"),
     ):
-        done = run(demo, *arguments, cwd=tmp_path)
-        assert done.returncode == 2, arguments
-        assert complaint in done.stderr
+        process = run(demo, *arguments, cwd=tmp_path)
+        assert process.returncode == 2, arguments
+        assert complaint in process.stderr
         assert not (tmp_path / "k.json").exists()
     manifest = "src/rover_driver/package.xml"
     assert filecmp.cmp(DEMO / manifest, demo / manifest, shallow=False)  # nothing was fixed before the error
-    done = run(tmp_path / "ws" / "src" / "rover_teleop" / "launch", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
-    assert done.returncode == 2
-    assert "k.json: not written: no package found below" in done.stderr
+    process = run(tmp_path / "ws" / "src" / "rover_teleop" / "launch", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
+    assert process.returncode == 2
+    assert "k.json: not written: no package found below" in process.stderr
     assert not (tmp_path / "k.json").exists()

@@ -1,4 +1,4 @@
-"""What is kept between runs is what was found."""
+"""Facts in the cache equal the collected facts."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint import facts
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.tree import DiskTree
 from ros_lint.facts.visibility import Facet
-from ros_lint.workspace import cache_files as kept_files
+from ros_lint.workspace import cache_files
 from ros_lint.workspace import fact_cache as cache
 from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.fact_cache import FactCache
@@ -41,30 +41,30 @@ def generate_launch_description():
 }
 
 
-def test_what_is_kept_is_what_was_found(tmp_path: Path) -> None:
+def test_cached_facts_equal_fresh_facts(tmp_path: Path) -> None:
     for name, text in FILES.items():
         path = tmp_path / "ws" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     tree = DiskTree(str(tmp_path / "ws"))
-    found = collect_all(tree, list(FILES), 1, FactCache(str(tmp_path / "cache"), "ws"), lambda done: None)
-    assert not any(each.unreadable for each in found.values())
-    kept = FactCache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)
-    assert kept == found
-    assert repr(kept) == repr(found)  # which tells the classes, too
+    collected = collect_all(tree, list(FILES), 1, FactCache(str(tmp_path / "cache"), "ws"), lambda processed: None)
+    assert not any(facts.unreadable for facts in collected.values())
+    cached = FactCache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)
+    assert cached == collected
+    assert repr(cached) == repr(collected)  # which tells the classes, too
     (tmp_path / "ws" / "p" / "a.cpp").write_text("#include <d/e.hpp>\n")
     assert set(FactCache(str(tmp_path / "cache"), "ws").fetch(tree, list(FILES), Collected)) == set(FILES) - {"p/a.cpp"}
 
 
-def test_enumerations_are_kept_whatever_way_python_writes_them_down(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_enumerations_are_cached_in_every_pickle_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Facet, "__reduce_ex__", lambda self, _: (getattr, (Facet, self.name)))
-    both = (Facet.USES, Facet.USES | Facet.SHARE, Severity.ERROR)
-    kept_files.save(str(tmp_path / "kept"), "state", both)
-    assert kept_files.load(str(tmp_path / "kept"), "state") == both
+    enumerations = (Facet.USES, Facet.USES | Facet.SHARE, Severity.ERROR)
+    cache_files.save(str(tmp_path / "kept"), "state", enumerations)
+    assert cache_files.load(str(tmp_path / "kept"), "state") == enumerations
 
 
-def test_all_facts_can_be_kept_and_change_with_their_code() -> None:
+def test_all_facts_can_be_cached_until_their_code_changes() -> None:
     modules = list(iter_modules(facts.__path__))
     names = {f"ros_lint.facts.{module.name}" for module in modules} - {"ros_lint.facts.environment"}  # which has no class
-    assert names <= set(kept_files.MODULES)
+    assert names <= set(cache_files.MODULES)
     assert {Path(facts.__path__[0], f"{module.name}.py") for module in modules} <= set(map(Path, cache._collectors()))

@@ -1,4 +1,4 @@
-"""docs/catkin-lint.md: what became of each check of catkin_lint."""
+"""docs/catkin-lint.md covers each check of catkin_lint."""
 
 import re
 from pathlib import Path
@@ -10,7 +10,7 @@ ROWS = re.findall(r"^\| ([A-Z_]+) \| .+? \| (.+) \|$", TABLE, re.MULTILINE)
 NAMES = {rule.name for rule in registry.load()}
 
 
-def test_every_check_is_there_once() -> None:
+def test_every_check_is_listed_once() -> None:
     names = [name for name, _ in ROWS]
     assert len(names) == len(set(names)) == 80  # 96 in all, less 16 about catkin alone
 

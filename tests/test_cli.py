@@ -1,4 +1,4 @@
-"""The command line: exit codes, formats, settings, fixes, hooks."""
+"""The command line: exit codes, formats, settings, fixes and hooks."""
 
 import gc
 import json
@@ -57,11 +57,11 @@ def clean(demo: Path) -> Path:
     return demo
 
 
-def test_the_demo_shows_every_headline(demo: Path) -> None:
-    done = run(demo, "--format", "json")
-    assert done.returncode == 1
-    assert {finding["rule"] for finding in json.loads(done.stdout)["findings"]} == HEADLINES
-    assert len(json.loads(done.stdout)["findings"]) == len(HEADLINES)
+def test_the_demo_has_every_kind_of_headline(demo: Path) -> None:
+    process = run(demo, "--format", "json")
+    assert process.returncode == 1
+    assert {finding["rule"] for finding in json.loads(process.stdout)["findings"]} == HEADLINES
+    assert len(json.loads(process.stdout)["findings"]) == len(HEADLINES)
 
 
 @pytest.mark.parametrize("form", FORMATS)
@@ -74,11 +74,11 @@ def test_exit_codes_do_not_depend_on_the_format(demo: Path, clean: Path, tmp_pat
 
 
 @pytest.mark.parametrize(("arguments", "code"), [(["--fail-on", "error"], 0), (["--fail-on", "never"], 0), ([], 1)])
-def test_fail_on(demo: Path, arguments: Sequence[str], code: int) -> None:
+def test_the_exit_code_depends_on_fail_on(demo: Path, arguments: Sequence[str], code: int) -> None:
     assert run(demo, "--select", "unused-dependency", *arguments).returncode == code
 
 
-def test_version_and_help() -> None:
+def test_version_and_help_are_printed() -> None:
     assert run("--version").stdout == f"ros-lint {__version__}\n"
     shown = run("--help")
     assert shown.returncode == 0
@@ -99,14 +99,14 @@ HEAVY = {"networkx", "libcst", "lxml", "yaml", "importlib.metadata", "dataclasse
         (["CLEAN", "--format", "concise", "--ignore", "manifest-schema"], {"argparse"}),
     ],
 )
-def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str], allowed: set[str]) -> None:
+def test_slow_modules_are_imported_only_if_needed(clean: Path, arguments: list[str], allowed: set[str]) -> None:
     given = [str(clean) if argument == "CLEAN" else argument for argument in arguments]
     code = (
         "import sys\nfrom ros_lint.cli.main import main\ntry:\n    main(sys.argv[1:])\nexcept SystemExit:\n    pass\n"
         "print('\\n'.join(sys.modules), file=sys.stderr)"
     )
-    done = subprocess.run([sys.executable, "-c", code, *given], capture_output=True, text=True, check=True)
-    assert HEAVY & set(done.stderr.split()) <= allowed
+    process = subprocess.run([sys.executable, "-c", code, *given], capture_output=True, text=True, check=True)
+    assert HEAVY & set(process.stderr.split()) <= allowed
 
 
 @pytest.mark.parametrize(
@@ -125,14 +125,14 @@ def test_what_is_heavy_is_imported_when_needed(clean: Path, arguments: list[str]
         (["--underlay", "nowhere"], "nowhere"),
     ],
 )
-def test_what_cannot_be_done_is_said(arguments: list[str], message: str) -> None:
-    done = run(DEMO, *arguments)
-    assert done.returncode == 2
-    assert re.search(message, done.stderr)
-    assert done.stdout == ""
+def test_an_invalid_request_gives_a_message_and_exit_code_2(arguments: list[str], message: str) -> None:
+    process = run(DEMO, *arguments)
+    assert process.returncode == 2
+    assert re.search(message, process.stderr)
+    assert process.stdout == ""
 
 
-def test_the_distribution_is_a_choice(demo: Path) -> None:
+def test_the_distribution_is_chosen_by_option_file_environment_or_default(demo: Path) -> None:
     assert " for lyrical (assumed: newest LTS; set with --distro)" in run(demo).stdout
     assert " for humble (ROS_DISTRO)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
     assert " for kilted (--distro)" in run(demo, "--distro", "kilted", env={"ROS_DISTRO": "humble"}).stdout
@@ -140,7 +140,7 @@ def test_the_distribution_is_a_choice(demo: Path) -> None:
     assert " for jazzy (ros-lint.toml)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
 
 
-def test_a_package_of_a_workspace_alone(demo: Path) -> None:
+def test_a_package_checked_without_its_siblings_gives_a_warning(demo: Path) -> None:
     (demo / ".git").mkdir()
     alone = run(demo / "src" / "rover_driver")
     assert "'src/rover_driver' was checked without its sibling packages; run 'ros-lint " in alone.stderr
@@ -149,7 +149,7 @@ def test_a_package_of_a_workspace_alone(demo: Path) -> None:
     assert "checked alone" not in run(demo / "src" / "rover_driver").stderr
 
 
-def test_select_and_ignore(demo: Path) -> None:
+def test_rules_are_selected_and_ignored(demo: Path) -> None:
     assert len(findings(demo, "--select", "ROS5")) == 2
     assert len(findings(demo, "--select", "unused-dependency,ROS103")) == 2
     assert len(findings(demo, "--ignore", "launch-outside-closure,ROS2")) == 3
@@ -163,19 +163,19 @@ def test_select_and_ignore(demo: Path) -> None:
     assert "ignored by per-path-ignores" in run(demo).stdout
 
 
-def test_pedantic_shows_more(demo: Path) -> None:
+def test_pedantic_shows_findings_of_lower_confidence(demo: Path) -> None:
     manifest = demo / "src" / "rover_driver" / "package.xml"
     text = manifest.read_text().replace("<depend>rclcpp</depend>", "<depend>rclcpp</depend><depend>of_the_house</depend>")
     manifest.write_text(text)
     assert len(findings(demo, "--pedantic")) > len(findings(demo))
 
 
-def test_exclude(demo: Path) -> None:
+def test_excluded_folders_are_not_read(demo: Path) -> None:
     assert json.loads(run(demo, "--exclude", "rover_*", "--format", "json").stdout)["packages"] == 0
     assert json.loads(run(demo, "--exclude", "src/rover_driver", "--format", "json").stdout)["packages"] == 4
 
 
-def test_show_settings(demo: Path) -> None:
+def test_show_settings_prints_the_origin_of_each_setting(demo: Path) -> None:
     (demo / "ros-lint.toml").write_text("pedantic = true")
     shown = run(demo, "--show-settings", "--jobs", "3").stdout
     assert "pedantic         = true  # ros-lint.toml\n" in shown
@@ -184,8 +184,8 @@ def test_show_settings(demo: Path) -> None:
 
 def test_output_goes_to_a_file(demo: Path, tmp_path: Path) -> None:
     target = tmp_path / "out.sarif"
-    done = run(demo, "--format", "sarif", "--output", target)
-    assert (done.returncode, done.stdout) == (1, "")
+    process = run(demo, "--format", "sarif", "--output", target)
+    assert (process.returncode, process.stdout) == (1, "")
     assert json.loads(target.read_text())["version"] == "2.1.0"
     assert run(demo, "--output", tmp_path / "no" / "such" / "folder").returncode == 2
 
@@ -200,22 +200,24 @@ def test_output_goes_to_a_file(demo: Path, tmp_path: Path) -> None:
         (["--color", "never"], {"FORCE_COLOR": "1"}, False),
     ],
 )
-def test_color(demo: Path, arguments: list[str], env: dict[str, str], colored: bool) -> None:
+def test_colours_depend_on_option_environment_and_terminal(
+    demo: Path, arguments: list[str], env: dict[str, str], colored: bool
+) -> None:
     assert ("\x1b[" in run(demo, *arguments, env=env).stdout) is colored
 
 
-def test_a_reader_that_goes_away(demo: Path) -> None:
+def test_a_closed_pipe_prints_no_traceback(demo: Path) -> None:
     command = f"{sys.executable} -m ros_lint {demo} | head -n 1"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=ROOT, check=False)
-    assert done.stderr == ""
+    process = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert process.stderr == ""
 
 
-def test_fixes_are_made_once(demo: Path) -> None:
+def test_a_second_fix_changes_nothing(demo: Path) -> None:
     patch = run(demo, "--diff").stdout
     before = {path: path.read_bytes() for path in demo.rglob("*") if path.is_file()}
-    done = run(demo, "--fix")
-    assert "fixed 5 findings in 4 files" in done.stderr
-    assert done.returncode == 1, "what is left is reported"
+    process = run(demo, "--fix")
+    assert "fixed 5 findings in 4 files" in process.stderr
+    assert process.returncode == 1, "what is left is reported"
     changed = {path for path, data in before.items() if path.read_bytes() != data}
     assert {path.name for path in changed} == {"package.xml", "setup.py"}
     assert "nothing to fix" in run(demo, "--fix").stderr
@@ -236,9 +238,9 @@ def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
         (tmp_path / name).mkdir()
         (tmp_path / name / "package.xml").write_text(manifest.format(name))
         (tmp_path / name / "CMakeLists.txt").write_text(cmake.format(name, f"find_package({find} REQUIRED)"))
-    done = run(tmp_path, "--fix", "--select", "undeclared-dependency")
-    assert "fixed 1 finding in 1 file" in done.stderr
-    assert "cannot be declared: it depends on this package itself" in done.stdout
+    process = run(tmp_path, "--fix", "--select", "undeclared-dependency")
+    assert "fixed 1 finding in 1 file" in process.stderr
+    assert "cannot be declared: it depends on this package itself" in process.stdout
     assert run("order", tmp_path).returncode == 0
 
 
@@ -251,7 +253,7 @@ def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
         (("--distro", "humble"), {"nav_msgs"}),
     ],
 )
-def test_what_not_every_distribution_has_is_declared_only_where_it_is(
+def test_a_package_is_only_declared_for_a_distribution_that_has_it(
     tmp_path: Path, options: tuple[str, ...], declared: set[str]
 ) -> None:
     manifest = tmp_path / "package.xml"
@@ -262,7 +264,7 @@ def test_what_not_every_distribution_has_is_declared_only_where_it_is(
     assert set(re.findall("<depend>(.*)</depend>", manifest.read_text())) == declared
 
 
-def test_what_is_less_than_certain_is_removed_only_if_asked_for(demo: Path) -> None:
+def test_findings_of_lower_confidence_are_fixed_only_if_shown(demo: Path) -> None:
     manifest = demo / "src" / "rover_driver" / "package.xml"
     text = manifest.read_text().replace("<depend>rclcpp</depend>", "<depend>rclcpp</depend><depend>of_the_house</depend>")
     manifest.write_text(text)
@@ -273,11 +275,11 @@ def test_what_is_less_than_certain_is_removed_only_if_asked_for(demo: Path) -> N
     assert "of_the_house" not in manifest.read_text()
 
 
-def test_graph_commands(demo: Path) -> None:
-    done = run("order", demo)
-    assert done.returncode == 1
-    assert done.stdout.splitlines() == ["rover_interfaces", "rover_mission", "rover_teleop"]
-    assert "no build order, because of a dependency cycle: rover_bringup, rover_driver" in done.stderr
+def test_the_graph_commands_print_their_output(demo: Path) -> None:
+    process = run("order", demo)
+    assert process.returncode == 1
+    assert process.stdout.splitlines() == ["rover_interfaces", "rover_mission", "rover_teleop"]
+    assert "no build order, because of a dependency cycle: rover_bringup, rover_driver" in process.stderr
     assert run("why", "rover_bringup", "rover_interfaces", "-C", demo).returncode == 0
     assert run("why", "rover_interfaces", "rover_bringup", "-C", demo).returncode == 1
     assert run("why", "rover_interface", "rover_bringup", "-C", demo).returncode == 2
@@ -287,7 +289,7 @@ def test_graph_commands(demo: Path) -> None:
     assert run("order", demo / "src" / "nowhere").returncode == 2
 
 
-def test_papers() -> None:
+def test_rules_schema_and_completion_are_printed() -> None:
     assert "undeclared-dependency" in run("rules").stdout
     assert json.loads(run("rules", "--format", "json").stdout)
     assert "## Why it matters" in run("rule", "ROS201").stdout
@@ -296,7 +298,7 @@ def test_papers() -> None:
     assert json.loads(run("schema").stdout)["properties"]["distro"]
 
 
-def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
+def test_a_plugin_adds_rules(demo: Path, tmp_path: Path) -> None:
     site = tmp_path / "site"
     (site / "mine-1.0.dist-info").mkdir(parents=True)
     (site / "mine-1.0.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
@@ -311,22 +313,22 @@ def test_a_plugin_brings_rules(demo: Path, tmp_path: Path) -> None:
     assert run(demo, "--plugins", "--format", "concise", env={"PYTHONPATH": path}).stdout.count("[mine]") == 5
     file = demo / "ros-lint.toml"
     file.write_text("plugins = true\n")
-    done = run(demo, "--format", "concise", env={"PYTHONPATH": path})
-    assert (done.returncode, "[mine]" in done.stdout) == (1, False)
-    assert f"ros-lint: {file}:1: plugins has no effect in a file because it loads code; use --plugins" in done.stderr
+    process = run(demo, "--format", "concise", env={"PYTHONPATH": path})
+    assert (process.returncode, "[mine]" in process.stdout) == (1, False)
+    assert f"ros-lint: {file}:1: plugins has no effect in a file because it loads code; use --plugins" in process.stderr
     assert f"{file}:1: plugins has no effect" in run("order", demo, env={"PYTHONPATH": path}).stderr
     file.write_text("plugins = true\nselect = ['mine']\n")
-    done = run(demo, env={"PYTHONPATH": path})
-    assert f"{file}:1: plugins has no effect" in done.stderr
-    assert "unknown rule 'mine'" in done.stderr
+    process = run(demo, env={"PYTHONPATH": path})
+    assert f"{file}:1: plugins has no effect" in process.stderr
+    assert "unknown rule 'mine'" in process.stderr
     file.unlink()
     (site / "mine_rules.py").write_text("import nothing_of_that_name")
-    done = run(demo, "--plugins", env={"PYTHONPATH": path})
-    assert done.returncode == 2
-    assert "plugin 'mine' (mine_rules) cannot be loaded" in done.stderr
+    process = run(demo, "--plugins", env={"PYTHONPATH": path})
+    assert process.returncode == 2
+    assert "plugin 'mine' (mine_rules) cannot be loaded" in process.stderr
 
 
-def test_a_rule_that_crashes_hides_no_other(demo: Path, tmp_path: Path) -> None:
+def test_a_crashing_rule_hides_no_finding_of_another_rule(demo: Path, tmp_path: Path) -> None:
     site = tmp_path / "site"
     (site / "bad-1.0.dist-info").mkdir(parents=True)
     (site / "bad-1.0.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: bad\nVersion: 1.0\n")
@@ -337,14 +339,14 @@ def test_a_rule_that_crashes_hides_no_other(demo: Path, tmp_path: Path) -> None:
         "RULE = Rule('bad', 'BAD01', 'nothing is bad', Severity.ERROR, '1.0', '', package=check)\n"
     )
     path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
-    done = run(demo, "--plugins", "--format", "json", env={"PYTHONPATH": path})
-    assert done.returncode == 2
-    report = json.loads(done.stdout)
+    process = run(demo, "--plugins", "--format", "json", env={"PYTHONPATH": path})
+    assert process.returncode == 2
+    report = json.loads(process.stdout)
     assert {finding["rule"] for finding in report["findings"]} == HEADLINES
     assert "ValueError: oh" in str(report["crashes"])
 
 
-def test_the_hooks_are_whole_project_hooks() -> None:
+def test_the_pre_commit_hooks_check_the_whole_project() -> None:
     yaml = pytest.importorskip("yaml")
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     assert [hook["id"] for hook in hooks] == ["ros-lint", "ros-lint-fix"]
@@ -353,7 +355,7 @@ def test_the_hooks_are_whole_project_hooks() -> None:
         assert not hook["pass_filenames"]
 
 
-def test_what_a_fix_brings_to_light_is_mended_along_with_it(tmp_path: Path) -> None:
+def test_a_finding_that_a_fix_reveals_is_fixed_in_the_same_run(tmp_path: Path) -> None:
     package = tmp_path / "robot"
     (package / "launch").mkdir(parents=True)
     (package / "package.xml").write_text(

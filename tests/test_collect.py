@@ -1,4 +1,4 @@
-"""How files are read: by how many processes."""
+"""The number of processes that read files."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from ros_lint.workspace.fact_cache import FactCache
 
 
 class Pool:
-    """Does the work of a ProcessPoolExecutor in this process, and remembers how many processes are asked for."""
+    """Does the work of a ProcessPoolExecutor in this process, and records the requested number of processes."""
 
-    asked: list[int] = []  # noqa: RUF012
+    requested: list[int] = []  # noqa: RUF012
 
     def __init__(self, processes: int) -> None:
-        self.asked.append(processes)
+        self.requested.append(processes)
 
     def __enter__(self) -> Pool:
         return self
@@ -46,15 +46,15 @@ class Pool:
         (None, 8, 200, 1),
     ],
 )
-def test_there_is_no_more_than_a_process_a_core(
+def test_at_most_one_process_per_core_is_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cores: int | None, jobs: int, files: int, processes: int
 ) -> None:
     monkeypatch.setattr(os, "cpu_count", lambda: cores)
     monkeypatch.setattr(concurrent.futures, "ProcessPoolExecutor", Pool)
-    monkeypatch.setattr(Pool, "asked", [])
+    monkeypatch.setattr(Pool, "requested", [])
     names = [f"{number}.cpp" for number in range(files)]
     for name in names:
         (tmp_path / name).write_text("#include <a/b.hpp>\n")
-    found = collect_all(DiskTree(str(tmp_path)), names, jobs, FactCache("", ""), lambda done: None)
-    assert list(found) == names
-    assert (Pool.asked or [1]) == [processes]
+    collected = collect_all(DiskTree(str(tmp_path)), names, jobs, FactCache("", ""), lambda finished: None)
+    assert list(collected) == names
+    assert (Pool.requested or [1]) == [processes]

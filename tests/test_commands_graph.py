@@ -1,4 +1,4 @@
-"""The commands over the graph: order, why, graph, overlay."""
+"""The commands that query the dependency graph: order, why, graph and overlay."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ ODD = 'a "b" \\ <c>\n;'
 
 
 def workspace(packages: Iterable[Package], prefixes: Iterable[Path] = ()) -> Workspace:
-    found = tuple(packages)
-    members = [Member(each.name, each.manifest.version if each.manifest else "", {}) for each in found]
+    result = tuple(packages)
+    members = [Member(entry.name, entry.manifest.version if entry.manifest else "", {}) for entry in result]
     underlays = underlay.read([str(prefix) for prefix in prefixes]) if prefixes else ()
-    return Workspace(found, (), World(members, underlays, Knowledge("jazzy")), TargetDistro("jazzy", "--distro"), ())
+    return Workspace(result, (), World(members, underlays, Knowledge("jazzy")), TargetDistro("jazzy", "--distro"), ())
 
 
 CHAIN = (
@@ -48,12 +48,12 @@ KNOT = (
 )
 
 
-def test_order() -> None:
+def test_order_prints_dependencies_first() -> None:
     assert order.run(workspace(CHAIN)) == ("low\nmiddle\ntop\n", "", 0)
     assert order.run(workspace(())) == ("", "", 0)
 
 
-def test_order_with_a_cycle_names_what_is_stuck() -> None:
+def test_order_names_packages_that_a_cycle_blocks() -> None:
     assert order.run(workspace(KNOT)) == (
         "free\n",
         "no build order, because of a dependency cycle: a, b\n"
@@ -65,15 +65,17 @@ def test_order_with_a_cycle_names_what_is_stuck() -> None:
     )
 
 
-def test_order_with_a_name_twice() -> None:
-    out, said, code = order.run(workspace([package("a", path="x"), package("a", path="y"), package("b", ["<depend>a</depend>"])]))
+def test_order_rejects_duplicate_names() -> None:
+    out, output, code = order.run(
+        workspace([package("a", path="x"), package("a", path="y"), package("b", ["<depend>a</depend>"])])
+    )
     assert (out, code) == ("a\nb\n", 1)
-    assert said == "2 packages are named 'a', so colcon rejects the workspace: x and y\n"
+    assert output == "2 packages are named 'a', so colcon rejects the workspace: x and y\n"
 
 
-def test_why_tells_every_way_with_tag_and_line() -> None:
+def test_why_prints_every_path_with_tag_and_line() -> None:
     use = Use("low", ("low",), Role.BUILD, "#include <low/low.hpp>", "include", False, Span("middle/src/m.cpp", 3, 1, 3, 9))
-    packages = [each._replace(uses=(use,) * (each.name == "middle")) for each in CHAIN]
+    packages = [entry._replace(uses=(use,) * (entry.name == "middle")) for entry in CHAIN]
     assert why.run(workspace(packages), "top", "low") == (
         "'top' depends on 'low' through 2 paths; shortest first:\n"
         "\n"
@@ -90,16 +92,16 @@ def test_why_tells_every_way_with_tag_and_line() -> None:
     )
 
 
-def test_why_follows_what_comes_along_with_released_packages() -> None:
-    out, said, code = why.run(workspace(CHAIN), "top", "rcl", 1)
-    assert (said, code) == ("", 0)
+def test_why_follows_dependencies_of_released_packages() -> None:
+    out, output, code = why.run(workspace(CHAIN), "top", "rcl", 1)
+    assert (output, code) == ("", 0)
     head = "'top' depends on 'rcl' through at least 1 path:\n\n1. top -> middle -> rclcpp -> rcl\n"
     assert out.startswith(head)
     assert "   middle -> rclcpp: <depend> middle/package.xml:9:3\n" in out
     assert "   rclcpp -> rcl: <exec_depend> as released in jazzy\n" in out
 
 
-def test_why_not() -> None:
+def test_why_without_a_path_gives_exit_code_1() -> None:
     assert why.run(workspace(CHAIN), "middle", "top") == (
         "'middle' does not depend on 'top'; but 'top' depends on 'middle': see 'ros-lint why top middle'\n",
         "",
@@ -108,27 +110,27 @@ def test_why_not() -> None:
     assert why.run(workspace(CHAIN), "low", "rclcpp") == ("'low' does not depend on 'rclcpp'\n", "", 1)
 
 
-def test_why_with_names_that_nobody_knows() -> None:
-    out, said, code = why.run(workspace(CHAIN), "midle", "rclcp")
+def test_why_suggests_names_for_unknown_ones() -> None:
+    out, output, code = why.run(workspace(CHAIN), "midle", "rclcp")
     assert (out, code) == ("", 2)
-    first, second = said.splitlines()
+    first, second = output.splitlines()
     assert first.startswith("ros-lint: unknown package or rosdep key 'midle'; did you mean ")
     assert re.match("ros-lint: unknown package or rosdep key 'rclcp'; did you mean .*rclcpp", second)
 
 
-def test_why_under_a_condition() -> None:
+def test_why_prints_the_condition_of_an_edge() -> None:
     lines = ['<depend condition="$X == 1">b</depend>', '<depend condition="$X == 2">curl</depend>']
-    found = workspace([package("a", lines), package("b")])
-    assert "a -> b: <depend> if its condition is true a/package.xml:7:3" in why.run(found, "a", "b")[0]
-    assert "a -> curl: <depend> if $X == 2 a/package.xml:8:3" in why.run(found, "a", "curl")[0]
+    result = workspace([package("a", lines), package("b")])
+    assert "a -> b: <depend> if its condition is true a/package.xml:7:3" in why.run(result, "a", "b")[0]
+    assert "a -> curl: <depend> if $X == 2 a/package.xml:8:3" in why.run(result, "a", "curl")[0]
 
 
-def test_why_knows_no_edge_of_a_manifest_that_colcon_does_not_use() -> None:
-    found = workspace([package("a", ["<depend>b</depend>", "<depend>rclcpp</depend>"], kind="cmake"), package("b")])
-    assert why.run(found, "a", "b")[2] == why.run(found, "a", "rclcpp")[2] == 1
+def test_why_ignores_a_manifest_that_colcon_does_not_read() -> None:
+    result = workspace([package("a", ["<depend>b</depend>", "<depend>rclcpp</depend>"], kind="cmake"), package("b")])
+    assert why.run(result, "a", "b")[2] == why.run(result, "a", "rclcpp")[2] == 1
 
 
-def test_graph_as_dot() -> None:
+def test_graph_prints_dot() -> None:
     assert graph.run(workspace(CHAIN)) == (
         "digraph workspace {\n"
         "  rankdir=LR;\n"
@@ -146,7 +148,7 @@ def test_graph_as_dot() -> None:
     assert '"b" -> "a" [style=dashed, color=red];' in graph.run(workspace(KNOT))[0]
 
 
-def test_graph_as_mermaid() -> None:
+def test_graph_prints_mermaid() -> None:
     assert graph.run(workspace(KNOT), "mermaid")[0] == (
         "flowchart LR\n"
         '  p0["a"]\n'
@@ -161,9 +163,9 @@ def test_graph_as_mermaid() -> None:
 
 
 def test_odd_names_are_quoted() -> None:
-    found = workspace([package("a")._replace(name=ODD)])
-    assert '  "a \\"b\\" &#92; <c>\n;";\n' in graph.run(found)[0]
-    assert '  p0["a #34;b#34; #92; #60;c#62;#10;#59;"]\n' in graph.run(found, "mermaid")[0]
+    result = workspace([package("a")._replace(name=ODD)])
+    assert '  "a \\"b\\" &#92; <c>\n;";\n' in graph.run(result)[0]
+    assert '  p0["a #34;b#34; #92; #60;c#62;#10;#59;"]\n' in graph.run(result, "mermaid")[0]
 
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
@@ -174,10 +176,10 @@ def test_graphviz_reads_the_names() -> None:
         assert [html.unescape(node["name"]) for node in read["objects"]] == sorted(package.name for package in packages)
 
 
-def test_graph_as_json() -> None:
+def test_graph_prints_json() -> None:
     document = json.loads(graph.run(workspace(KNOT), "json", metrics=True)[0])
     assert document["schema_version"] == 1
-    assert [each["name"] for each in document["packages"]] == ["a", "b", "c", "free"]
+    assert [entry["name"] for entry in document["packages"]] == ["a", "b", "c", "free"]
     assert document["packages"][2] == {
         "name": "c",
         "places": [{"path": "c", "type": "ros.ament_cmake"}],
@@ -194,7 +196,7 @@ def test_graph_as_json() -> None:
     assert "metrics" not in json.loads(graph.run(workspace(KNOT), "json")[0])["packages"][0]
 
 
-def test_metrics_as_a_table() -> None:
+def test_metrics_are_printed_as_a_table() -> None:
     assert graph.run(workspace(CHAIN), metrics=True)[0] == (
         "package  needed by  needs  depth  reach  redundant\n"
         "low              2      0      0      2          0\n"
@@ -215,11 +217,11 @@ def prefix(root: Path, *names: str) -> Path:
     return root
 
 
-def test_overlay_tells_who_wins(tmp_path: Path) -> None:
+def test_overlay_marks_the_layer_that_wins(tmp_path: Path) -> None:
     upper, lower = prefix(tmp_path / "upper", "mine", "both"), prefix(tmp_path / "lower", "both", "alone")
-    found = workspace([package("mine", path="src/mine"), package("new")], [upper, lower])
-    text, said, code = overlay.run(found)
-    assert (said, code) == ("", 0)
+    result = workspace([package("mine", path="src/mine"), package("new")], [upper, lower])
+    text, output, code = overlay.run(result)
+    assert (output, code) == ("", 0)
     assert text.replace(str(tmp_path), "/opt") == (
         "both\n"
         "  * /opt/upper  7.0.0  underlay 1\n"
@@ -231,7 +233,7 @@ def test_overlay_tells_who_wins(tmp_path: Path) -> None:
     )
 
 
-def test_overlay_knows_what_is_released_and_what_is_refused() -> None:
+def test_overlay_lists_released_packages_and_duplicates() -> None:
     text = overlay.run(workspace([package("rclcpp", path="x"), package("rclcpp", path="y"), package("own")]))[0]
     assert re.fullmatch(
         r"rclcpp\n"
@@ -243,17 +245,17 @@ def test_overlay_knows_what_is_released_and_what_is_refused() -> None:
     )
 
 
-def test_overlay_with_nothing_to_tell() -> None:
+def test_overlay_without_packages_in_several_layers() -> None:
     assert overlay.run(workspace([package("own")])) == ("No package exists in more than one layer.\n", "", 0)
 
 
-def test_why_shows_the_uses_of_what_is_not_declared() -> None:
+def test_why_prints_the_uses_of_an_undeclared_dependency() -> None:
     files = {
         "a/package.xml": manifest_text("a"),
         "a/CMakeLists.txt": "project(a)\nfind_package(nav_msgs REQUIRED)\nament_package()\n",
     }
-    found = loaded(files)
-    assert why.run(found, "a", "nav_msgs") == (
+    result = loaded(files)
+    assert why.run(result, "a", "nav_msgs") == (
         "'a' uses 'nav_msgs', but declares neither it nor anything that depends on it:\n"
         "   a/CMakeLists.txt:2:14: find_package(nav_msgs), needed to build\n",
         "",
@@ -270,17 +272,17 @@ RENAMED = (
 
 
 def test_order_and_graph_have_the_names_of_colcon() -> None:
-    found = workspace(RENAMED)
-    assert order.run(found) == ("vendor_low\nuser\nvendor_top\n", "", 0)
-    assert list(dependency_graph(found).edges) == [("user", "vendor_low")], (
+    result = workspace(RENAMED)
+    assert order.run(result) == ("vendor_low\nuser\nvendor_top\n", "", 0)
+    assert list(dependency_graph(result).edges) == [("user", "vendor_low")], (
         "colcon does not see what a manifest calls by another name"
     )
 
 
 @pytest.mark.parametrize("name", ["low", "vendor_low"])
-def test_why_takes_either_name(name: str) -> None:
-    out, said, code = why.run(workspace(RENAMED), name, "rcl", 1)
-    assert (said, code) == ("", 0)
+def test_why_accepts_the_name_in_the_manifest_and_that_of_colcon(name: str) -> None:
+    out, output, code = why.run(workspace(RENAMED), name, "rcl", 1)
+    assert (output, code) == ("", 0)
     assert f"{name} -> rclcpp: <depend> low/package.xml:7:3\n" in out
 
 

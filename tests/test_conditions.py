@@ -1,4 +1,4 @@
-"""Conditions against catkin_pkg, and what is only ours: three truth values."""
+"""Conditions compared with catkin_pkg, and their evaluation with three truth values."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ contexts = st.dictionaries(st.sampled_from(VARIABLES), st.sampled_from(VALUES))
 
 
 def by_catkin_pkg(text: str, context: Mapping[str, str]) -> bool | None:
-    """The answer, or None if the condition does not parse."""
+    """Return the value in catkin_pkg, None if the condition does not parse."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)
         try:
@@ -64,12 +64,12 @@ def by_ros_lint(text: str, context: Mapping[str, str]) -> bool | None:
 
 @settings(max_examples=400)
 @given(st.one_of(valid, broken), contexts)
-def test_same_answer_as_catkin_pkg(text: str, context: dict[str, str]) -> None:
+def test_conditions_have_the_value_of_catkin_pkg(text: str, context: dict[str, str]) -> None:
     assert by_ros_lint(text, context) == by_catkin_pkg(text, context)
 
 
 @given(broken)
-def test_errors_are_inside_the_text(text: str) -> None:
+def test_error_offsets_are_inside_the_text(text: str) -> None:
     try:
         conditions.parse(text)
     except conditions.ConditionError as error:
@@ -81,9 +81,11 @@ def test_errors_are_inside_the_text(text: str) -> None:
 
 @settings(max_examples=400)
 @given(valid, contexts, st.lists(st.lists(st.sampled_from(VALUES), min_size=5, max_size=5), min_size=1, max_size=5))
-def test_what_is_certain_holds_for_every_completion(text: str, known: dict[str, str], completions: list[list[str]]) -> None:
-    certain = conditions.truth(text, known)
-    answers = {by_catkin_pkg(text, {**dict(zip(VARIABLES, values, strict=True)), **known}) for values in completions}
+def test_a_certain_value_holds_for_every_value_of_the_unknown_variables(
+    text: str, context: dict[str, str], completions: list[list[str]]
+) -> None:
+    certain = conditions.truth(text, context)
+    answers = {by_catkin_pkg(text, {**dict(zip(VARIABLES, values, strict=True)), **context}) for values in completions}
     if certain is not None:
         assert answers == {certain}
 
@@ -106,7 +108,7 @@ def test_what_is_certain_holds_for_every_completion(text: str, known: dict[str, 
         ("$ROS_VERSION", None),
     ],
 )
-def test_truth(text: str, expected: bool | None) -> None:
+def test_truth_of_conditions(text: str, expected: bool | None) -> None:
     assert conditions.truth(text, {"ROS_VERSION": "2", "ROS_DISTRO": "jazzy"}) is expected
 
 
@@ -122,13 +124,13 @@ def test_truth(text: str, expected: bool | None) -> None:
         ("(" * 30 + "$A == 1" + ")" * 30, "too many parentheses", 20),
     ],
 )
-def test_errors_name_the_place(text: str, message: str, offset: int) -> None:
-    with pytest.raises(conditions.ConditionError) as caught:
+def test_errors_contain_the_place(text: str, message: str, offset: int) -> None:
+    with pytest.raises(conditions.ConditionError) as raised:
         conditions.parse(text)
-    assert (caught.value.message, caught.value.offset) == (message, offset)
+    assert (raised.value.message, raised.value.offset) == (message, offset)
 
 
-def test_variables() -> None:
+def test_variables_of_conditions() -> None:
     assert conditions.variables(conditions.parse("$A == b or ($C != '$D' and $A == 1)")) == {"A", "C"}
 
 
@@ -136,7 +138,7 @@ MANIFEST = """<package format="3"><name>p</name><version>1.0.0</version><descrip
 <maintainer email="a@b.cc">m</maintainer><license>l</license>{}</package>"""
 
 
-def test_build_types_and_problems_of_a_manifest() -> None:
+def test_build_types_and_condition_problems_of_a_manifest() -> None:
     manifest = collect(
         Text(
             "package.xml",

@@ -1,4 +1,4 @@
-"""C and C++ sources: the scan for includes against a slow and plain preprocessor, and what is said about places."""
+"""C and C++ sources: the scan for includes compared with a simple preprocessor, and places of mentions."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from hypothesis import strategies as st
 
 from ros_lint.base.text import Span, Text, read
 from ros_lint.collectors.cpp import collect as cpp
-from ros_lint.collectors.cpp.includes import STANDARD, IncludeScan, exact, mentions
+from ros_lint.collectors.cpp.includes import STANDARD, IncludeScan, scan_exactly, scan_includes
 from ros_lint.facts.sources import Mention
 
 pytestmark = pytest.mark.slow
 
 
 def includes(text: str) -> IncludeScan:
-    """Return what both ways to find includes find."""
+    """Return the result of both scans for includes. Checks that they are equal."""
     source = Text("a.cpp", text)
-    found = mentions(source)
-    precise = exact(source)
-    assert (found.mentions, found.computed) == (precise.mentions, precise.computed)
-    assert all(text.find(mention.name, at) >= at for mention, at in zip(found.mentions, found.code, strict=True))
-    return found
+    result = scan_includes(source)
+    precise = scan_exactly(source)
+    assert (result.mentions, result.computed) == (precise.mentions, precise.computed)
+    assert all(text.find(mention.name, at) >= at for mention, at in zip(result.mentions, result.code, strict=True))
+    return result
 
 
 def collected(text: str) -> list[tuple[str, str, bool]]:
@@ -37,7 +37,7 @@ def collected(text: str) -> list[tuple[str, str, bool]]:
 
 def slow_includes(text: str) -> list[str]:
     """Return the names of includes that are not in a comment, a raw string or ``#if 0``."""
-    out: list[str] = []
+    names: list[str] = []
     skipping: list[list[bool]] = []  # per conditional: [in a dead branch, a branch was certain]
     for line in _logical_lines(text):
         directive = re.match(r"\s*#\s*(\w+)\s*(.*)", line)
@@ -51,11 +51,11 @@ def slow_includes(text: str) -> list[str]:
             skipping[-1][1] |= word == "else" or rest == "1"
         elif word == "endif" and skipping:
             skipping.pop()
-        elif word == "include" and not any(dead for dead, _ in skipping):
+        elif word == "include" and not any(skipped for skipped, _ in skipping):
             name = re.match(r'<([^>]+)>|"([^"]+)"', rest)
             if name:
-                out.append(name[1] or name[2])
-    return out
+                names.append(name[1] or name[2])
+    return names
 
 
 def _logical_lines(text: str) -> list[str]:
@@ -86,9 +86,9 @@ def _logical_lines(text: str) -> list[str]:
                 end += 1
             lines[-1] += text[at : end + 1] if text[end : end + 1] == ">" else text[at:end]
             at = end + (text[end : end + 1] == ">")
-        elif char in "\"'" and (closed := re.compile(rf"{char}(?:[^{char}\\\n]|\\.)*{char}", re.DOTALL).match(text, at)):
-            lines[-1] += closed[0].replace("\n", " ")
-            at = closed.end()
+        elif char in "\"'" and (is_closed := re.compile(rf"{char}(?:[^{char}\\\n]|\\.)*{char}", re.DOTALL).match(text, at)):
+            lines[-1] += is_closed[0].replace("\n", " ")
+            at = is_closed.end()
         elif char == "\n":
             lines.append("")
             at += 1
@@ -145,13 +145,13 @@ PIECES = st.sampled_from(
 @given(st.lists(st.tuples(PIECES, st.sampled_from(["\n", "\n", "\n", " ", ""])), max_size=14))
 @example([("*//*", "\n"), ("/*// #include <n/o.h>", "\n"), ("#include <a/b.hpp>", "\n")])
 @settings(max_examples=1500)
-def test_same_includes_as_a_plain_preprocessor(parts: list[tuple[str, str]]) -> None:
+def test_includes_equal_those_of_a_simple_preprocessor(parts: list[tuple[str, str]]) -> None:
     # What follows a condition on its line would be an error, about which both readers may think as they like.
     text = "".join(piece + ("\n" if re.match("#(if|el|endif)", piece) else end) for piece, end in parts)
     assert [item.name for item in includes(text).mentions] == slow_includes(text)
 
 
-def test_brackets_hide_what_looks_like_a_comment() -> None:
+def test_comment_marks_in_bracketed_includes_are_part_of_the_name() -> None:
     assert [item.name for item in includes("#include <a//b>\n#include <c/*d>\n#include <e>\n/* #include <f> */\n").mentions] == [
         "a//b",
         "c/*d",
@@ -161,7 +161,7 @@ def test_brackets_hide_what_looks_like_a_comment() -> None:
 
 @given(st.text(alphabet="#includef <>\"'/*\\\nR()01x\r", max_size=80))
 @settings(max_examples=1500)
-def test_any_text_is_read(text: str) -> None:
+def test_arbitrary_text_is_read_without_an_exception(text: str) -> None:
     for mention in cpp.collect(source := Text("a.h", text)).mentions:
         assert source.slice(mention.span) == mention.name
 
@@ -191,10 +191,10 @@ def test_any_text_is_read(text: str) -> None:
         ("#if X\n#include <p/a.h>\n", True),
     ],
 )
-def test_optional(text: str, optional: bool) -> None:
-    found = [item.optional for item in includes(text).mentions if item.name.startswith("p/")]
-    assert found
-    assert set(found) == {optional}
+def test_conditional_includes_are_optional(text: str, optional: bool) -> None:
+    result = [item.optional for item in includes(text).mentions if item.name.startswith("p/")]
+    assert result
+    assert set(result) == {optional}
 
 
 def test_standard_headers_are_left_out() -> None:
@@ -206,7 +206,7 @@ def test_standard_headers_are_left_out() -> None:
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
-def test_places_and_quotes(newline: str) -> None:
+def test_includes_have_place_and_quotes(newline: str) -> None:
     lines = [
         "// ß",
         '#include "x/y.hpp"',
@@ -248,10 +248,10 @@ def test_look_ups_in_comments_do_not_count() -> None:
         ('auto d = get_package_share_directory("p");\nauto d = get_package_share_directory("q"); f(d + "/a");', []),
     ],
 )
-def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) -> None:
+def test_looked_up_files_are_found(text: str, expected: list[tuple[str, str]]) -> None:
     facts = cpp.collect(source := Text("a.cpp", text))
-    assert [(found.package, found.path) for found in facts.lookups] == expected
-    assert all(source.slice(found.span).strip("/") in found.path for found in facts.lookups)
+    assert [(result.package, result.path) for result in facts.lookups] == expected
+    assert all(source.slice(result.span).strip("/") in result.path for result in facts.lookups)
     assert facts.mentions[0].name == "p"
 
 
@@ -266,7 +266,7 @@ def test_files_that_are_looked_up(text: str, expected: list[tuple[str, str]]) ->
         ('Chain::Chain() : loader_("a", "a::Filter<b::msg::C>") {', ["a"]),
     ],
 )
-def test_plugin_loaders(text: str, expected: list[str]) -> None:
+def test_plugin_loaders_are_found(text: str, expected: list[str]) -> None:
     assert [name for via, name, _ in collected("#include <pluginlib/class_loader.hpp>\n" + text) if via == "package"] == expected
     assert not [name for via, name, _ in collected(text) if via == "package"]
 
@@ -280,23 +280,23 @@ def test_plugin_loaders(text: str, expected: list[str]) -> None:
         ('loader.load("a", "b");', []),
     ],
 )
-def test_what_plugins_are_loaded_for(text: str, expected: list[tuple[str, str]]) -> None:
+def test_base_classes_of_plugin_loaders_are_found(text: str, expected: list[tuple[str, str]]) -> None:
     facts = cpp.collect(source := Text("a.cpp", "#include <pluginlib/class_loader.hpp>\n" + text))
     assert [(loader.package, loader.base) for loader in facts.loaders] == expected
     assert all(source.slice(loader.span) == loader.package for loader in facts.loaders)
     assert not cpp.collect(Text("a.cpp", text)).loaders
-    # The header that declares the loader is mostly the one of the source's own name.
+    # The header that declares the loader usually has the name of the source.
     facts = cpp.collect(Text("src/chain.cpp", '#include "robot/chain.hpp"\n' + text))
     assert [(loader.package, loader.base) for loader in facts.loaders] == expected
     assert not cpp.collect(Text("src/chain.cpp", '#include "robot/chain_links.hpp"\n' + text)).loaders
     assert not cpp.collect(Text("include/chain.hpp", '#include "robot/chain.hpp"\n' + text)).loaders
 
 
-def test_computed_include_is_opaque() -> None:
+def test_a_computed_include_is_opaque() -> None:
     facts = cpp.collect(Text("a.h", "#include CONFIG_H // x\n"))
     assert not facts.mentions
     assert [(o.reason, str(o.span)) for o in facts.opaque] == [
-        ("only the preprocessor knows which header #include CONFIG_H names", "a.h:1:10")
+        ("the header in '#include CONFIG_H' is known only to the preprocessor", "a.h:1:10")
     ]
 
 
@@ -325,28 +325,28 @@ def test_computed_include_is_opaque() -> None:
         ("#ifndef A_H\n#define A_H\n#if 1\n#else\na_b::msg::C c;\n#endif\n#endif\n", [("a_b", "a_b::msg::C", True)]),
     ],
 )
-def test_symbols(text: str, expected: list[tuple[str, str, bool]]) -> None:
+def test_qualified_interface_types_are_symbols(text: str, expected: list[tuple[str, str, bool]]) -> None:
     source = Text("a.cpp", text)
-    found = [mention for mention in cpp.collect(source).mentions if mention.via == "symbol"]
-    assert [(mention.name, mention.what, mention.optional) for mention in found] == expected
-    assert all(source.slice(mention.span) == mention.what for mention in found)
+    result = [mention for mention in cpp.collect(source).mentions if mention.via == "symbol"]
+    assert [(mention.name, mention.what, mention.optional) for mention in result] == expected
+    assert all(source.slice(mention.span) == mention.what for mention in result)
 
 
-def test_facts_are_whole() -> None:
-    # They are made without their constructors, which would give fields that are new their defaults.
+def test_facts_have_all_fields() -> None:
+    # Facts are created without their constructors, which would add the defaults of new fields.
     facts = cpp.collect(Text("a.cpp", '#include "a/b.h"\nc_d::msg::E e;\n'))
     assert [len(mention) for mention in facts.mentions] == [len(Mention._fields)] * 2
     assert [len(mention.span) for mention in facts.mentions] == [len(Span._fields)] * 2
 
 
 @pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="ROS_LINT_CORPUS names no folder of repositories")
-def test_both_ways_agree_on_real_sources() -> None:
+def test_fast_and_exact_scans_agree_on_real_sources() -> None:
     sources = [path for path in Path(os.environ["ROS_LINT_CORPUS"]).rglob("*.[ch]pp") if path.is_file()]
     assert sources
     for path in sources:
         source = read(str(path), path.read_bytes())
-        found, precise = mentions(source), exact(source)
-        assert (found.mentions, found.computed) == (precise.mentions, precise.computed), path
+        result, precise = scan_includes(source), scan_exactly(source)
+        assert (result.mentions, result.computed) == (precise.mentions, precise.computed), path
 
 
 @pytest.mark.parametrize(
@@ -359,8 +359,8 @@ def test_both_ways_agree_on_real_sources() -> None:
         ("catch (const std::out_of_range & e) { /* PackageNotFoundError */ }", False),
     ],
 )
-def test_a_look_up_that_may_fail_is_optional(handler: str, optional: bool) -> None:
+def test_a_look_up_in_a_try_block_is_optional(handler: str, optional: bool) -> None:
     text = f'void f() {{\n  try {{\n    if (a) {{ d = get_package_share_directory("meshes"); }}\n  }}\n  {handler}\n}}\n'
     facts = cpp.collect(Text("a.cpp", text + 'void g() { get_package_share_directory("maps"); }\n'))
-    found = {mention.name: mention.optional for mention in facts.mentions if mention.via == "package"}
-    assert found == {"meshes": optional, "maps": False}
+    result = {mention.name: mention.optional for mention in facts.mentions if mention.via == "package"}
+    assert result == {"meshes": optional, "maps": False}

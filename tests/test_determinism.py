@@ -1,4 +1,4 @@
-"""The same input gives the same bytes: from any folder, on any machine, with any number of processes, cold or warm."""
+"""The same input gives the same bytes: from any folder, with any number of processes, cold or warm."""
 
 import os
 import random
@@ -19,10 +19,10 @@ DEMO = Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo"
 def lint(workspace: str, cwd: Path, home: Path, *arguments: str, user: str = "ada") -> bytes:
     environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": str(home / "cache"), "USER": user, "LOGNAME": user}
     command = [sys.executable, "-m", "ros_lint", workspace, "--distro", "jazzy", *arguments]
-    done = subprocess.run(command, capture_output=True, cwd=cwd, env=environment, check=False)
-    assert done.returncode == 1, done.stderr
-    assert done.stdout
-    return done.stdout
+    process = subprocess.run(command, capture_output=True, cwd=cwd, env=environment, check=False)
+    assert process.returncode == 1, process.stderr
+    assert process.stdout
+    return process.stdout
 
 
 def shuffled_copy(source: Path, target: Path, seed: int) -> None:
@@ -36,17 +36,19 @@ def shuffled_copy(source: Path, target: Path, seed: int) -> None:
 
 
 @pytest.mark.parametrize("form", FORMATS)
-def test_the_same_bytes(tmp_path: Path, form: str) -> None:
+def test_the_output_is_the_same_for_any_folder_order_and_cache(tmp_path: Path, form: str) -> None:
     first, second = tmp_path / "a" / "ws", tmp_path / "somewhere else" / "w"
     shuffled_copy(DEMO, first, 1)
     shuffled_copy(DEMO, second, 2)
     home, other = tmp_path / "home", tmp_path / "other"
-    want = lint("ws", first.parent, home, "--format", form, "--jobs", "1", "--no-cache")
-    assert lint(".", first, home, "--format", form, "--jobs", "1") == want, "another folder, cold"
-    assert lint(".", first, home, "--format", form, "--jobs", "1") == want, "warm"
-    assert lint(str(second), tmp_path, other, "--format", form, "--jobs", "4", "--no-cache", user="grace") == want, "4 processes"
-    assert lint(str(second), Path("/"), other, "--format", form, "--jobs", "4", user="grace") == want, "4 processes, cold"
-    assert lint(str(second), Path("/"), other, "--format", form, "--jobs", "1", user="grace") == want, "warm from 4 processes"
+    expected = lint("ws", first.parent, home, "--format", form, "--jobs", "1", "--no-cache")
+    assert lint(".", first, home, "--format", form, "--jobs", "1") == expected, "another folder, cold"
+    assert lint(".", first, home, "--format", form, "--jobs", "1") == expected, "warm"
+    assert lint(str(second), tmp_path, other, "--format", form, "--jobs", "4", "--no-cache", user="grace") == expected, (
+        "4 processes"
+    )
+    assert lint(str(second), Path("/"), other, "--format", form, "--jobs", "4", user="grace") == expected, "4 processes, cold"
+    assert lint(str(second), Path("/"), other, "--format", form, "--jobs", "1", user="grace") == expected, "warm from 4 processes"
 
 
 def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
@@ -60,17 +62,17 @@ def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
     assert b"sensor_msgs" not in again
 
 
-def test_a_cache_that_somebody_planted_is_not_obeyed(tmp_path: Path) -> None:
+def test_a_manipulated_cache_is_ignored(tmp_path: Path) -> None:
     shuffled_copy(DEMO, tmp_path / "ws", 1)
-    want = lint("ws", tmp_path, tmp_path, "--format", "concise")
+    expected = lint("ws", tmp_path, tmp_path, "--format", "concise")
     kept = list((tmp_path / "cache" / "ros-lint").iterdir())
     assert {cache.suffix for cache in kept} == {".facts", ".report"}
     marker = tmp_path / "planted"
     for cache in kept:
         head = cache.read_bytes().partition(b"\n")[0]
         cache.write_bytes(head + b"\ncposix\nsystem\n(S'touch " + str(marker).encode() + b"'\ntR.")
-    assert lint("ws", tmp_path, tmp_path, "--format", "concise") == want
+    assert lint("ws", tmp_path, tmp_path, "--format", "concise") == expected
     assert not marker.exists()
     for cache in kept:
         cache.write_bytes(cache.read_bytes().partition(b"\n")[0] + b"\n\x80\x05garbage")
-    assert lint("ws", tmp_path, tmp_path, "--format", "concise") == want
+    assert lint("ws", tmp_path, tmp_path, "--format", "concise") == expected

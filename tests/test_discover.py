@@ -1,4 +1,4 @@
-"""Discovery against colcon itself, and what goes beyond colcon."""
+"""Discovery compared with colcon, and additions to colcon."""
 
 from __future__ import annotations
 
@@ -21,27 +21,32 @@ SEEDS = range(int(os.environ.get("ROS_LINT_SEEDS", "60")))
 
 
 def differences(base: Path) -> list[str]:
-    """Say in what discovery, and the edges between what it finds, are not what colcon has."""
-    found = discover(DiskTree(str(base)), [""], CONTEXT)
+    """Return the differences between discovery and colcon, in packages and in the edges between them."""
+    discovery = discover(DiskTree(str(base)), [""], CONTEXT)
     theirs = colcon_list(base)
-    ours = frozenset((package.colcon_name, package.path, package.type) for package in found.packages)
-    said = [f"only here: {line}" for line in sorted(ours - theirs.packages)]
-    said += [f"only colcon: {line}" for line in sorted(theirs.packages - ours)]
+    ours = frozenset((package.colcon_name, package.path, package.type) for package in discovery.packages)
+    messages = [f"only here: {line}" for line in sorted(ours - theirs.packages)]
+    messages += [f"only colcon: {line}" for line in sorted(theirs.packages - ours)]
     names = {name for name, _, _ in theirs.packages}
-    for package in map(found_package, found.packages):
+    for package in map(found_package, discovery.packages):
         name = package.colcon_name
-        graph = build([package, *[other for other in map(found_package, found.packages) if other.colcon_name != name]])
-        needs = {
-            other: {category for reason in reasons for category in reason.categories}
-            for other, reasons in graph.needs[name].items()
+        graph = build(
+            [
+                package,
+                *[other_folder for other_folder in map(found_package, discovery.packages) if other_folder.colcon_name != name],
+            ]
+        )
+        edges = {
+            other_folder: {category for reason in reasons for category in reason.categories}
+            for other_folder, reasons in graph.needs[name].items()
         }
-        wanted = {name: set(kinds) for name, kinds in theirs.needs.get(package.path, {}).items() if name in names}
-        if needs != wanted:
-            said.append(f"{package.path}: needs {needs}, for colcon {wanted}")
-    return said
+        expected = {name: set(kinds) for name, kinds in theirs.needs.get(package.path, {}).items() if name in names}
+        if edges != expected:
+            messages.append(f"{package.path}: needs {edges}, for colcon {expected}")
+    return messages
 
 
-def test_is_what_colcon_finds(tmp_path: Path) -> None:
+def test_discovery_equals_colcon(tmp_path: Path) -> None:
     packages = 0
     for seed in SEEDS:
         base = tmp_path / str(seed)
@@ -56,7 +61,7 @@ SCRIPT = "from setuptools import setup\n"
 
 
 @pytest.mark.parametrize(
-    ("setup_py", "more", "name"),
+    ("setup_py", "extra_files", "name"),
     [
         ("setup(name='x')", {}, "x"),
         ("NAME = 'x'\nsetup(name=NAME, install_requires=['alpha>=1', 'beta'])", {}, "x"),
@@ -80,16 +85,18 @@ SCRIPT = "from setuptools import setup\n"
         ("setup(name='x'", {}, None),
     ],
 )
-def test_a_plain_python_package(tmp_path: Path, setup_py: str, more: dict[str, str], name: str | None) -> None:
-    for file, text in {"p/setup.py": SCRIPT + setup_py, **{f"p/{file}": text for file, text in more.items()}}.items():
+def test_plain_python_packages_are_found_as_by_colcon(
+    tmp_path: Path, setup_py: str, extra_files: dict[str, str], name: str | None
+) -> None:
+    for file, text in {"p/setup.py": SCRIPT + setup_py, **{f"p/{file}": text for file, text in extra_files.items()}}.items():
         (tmp_path / file).parent.mkdir(exist_ok=True)
         (tmp_path / file).write_text(text)
-    for other in ("alpha", "beta"):
-        (tmp_path / other).mkdir()
-        (tmp_path / other / "package.xml").write_text(manifest_text(other))
+    for other_folder in ("alpha", "beta"):
+        (tmp_path / other_folder).mkdir()
+        (tmp_path / other_folder / "package.xml").write_text(manifest_text(other_folder))
     assert differences(tmp_path) == []
-    found = {package.path: package.name for package in discover(DiskTree(str(tmp_path)), [""]).packages}
-    assert found.get("p") == name
+    discovery = {package.path: package.name for package in discover(DiskTree(str(tmp_path)), [""]).packages}
+    assert discovery.get("p") == name
 
 
 @pytest.mark.parametrize(
@@ -103,13 +110,15 @@ def test_a_plain_python_package(tmp_path: Path, setup_py: str, more: dict[str, s
         "setup(name=" + " + ".join(["'a'"] * 1500) + ")",
     ],
 )
-def test_a_name_that_only_running_would_tell_is_said_to_be_unknown(setup_py: str) -> None:
-    found = discover(MemoryTree({"p/setup.py": SCRIPT + setup_py, "p/q/package.xml": manifest_text("q")}), [""])
-    assert [package.name for package in found.packages] == ["q"]
-    assert [(item.what, "colcon may see a package here" in item.reason) for item in found.not_checked] == [("p/setup.py", True)]
+def test_a_computed_python_package_name_is_reported_as_unknown(setup_py: str) -> None:
+    discovery = discover(MemoryTree({"p/setup.py": SCRIPT + setup_py, "p/q/package.xml": manifest_text("q")}), [""])
+    assert [package.name for package in discovery.packages] == ["q"]
+    assert [(item.what, "colcon may find a package here" in item.reason) for item in discovery.not_checked] == [
+        ("p/setup.py", True)
+    ]
 
 
-def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> None:
+def test_files_exclude_nested_packages_and_skipped_folders() -> None:
     tree = MemoryTree(
         {
             "w/p/package.xml": manifest_text("p"),
@@ -139,8 +148,8 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
             "w/p/venv/lib/x.py": "",
         }
     )
-    found = discover(tree, [""])
-    (package,) = found.packages
+    discovery = discover(tree, [""])
+    (package,) = discovery.packages
     assert package.files == (
         ".hidden/x.yaml",
         "data/package.xml",
@@ -168,11 +177,11 @@ def test_files_are_those_below_without_nested_packages_and_skipped_folders() -> 
         ({"p/setup.py": ""}, False),
     ],
 )
-def test_a_package_that_the_outer_build_takes_in_is_a_part_of_it(scripts: dict[str, str], part: bool) -> None:
+def test_a_package_added_by_the_outer_build_is_a_part_of_it(scripts: dict[str, str], part: bool) -> None:
     inner = {"p/lib/inner/package.xml": manifest_text("inner"), "p/lib/inner/CMakeLists.txt": "", "p/lib/inner/src/x.cpp": ""}
-    (found,) = discover(MemoryTree({"p/package.xml": manifest_text("p"), **inner, **scripts}), [""]).packages
-    assert ("lib/inner/src/x.cpp" in found.files) == part
-    assert [manifest.name for manifest in found.nested] == ([] if part else ["inner"])
+    (discovery,) = discover(MemoryTree({"p/package.xml": manifest_text("p"), **inner, **scripts}), [""]).packages
+    assert ("lib/inner/src/x.cpp" in discovery.files) == part
+    assert [manifest.name for manifest in discovery.nested] == ([] if part else ["inner"])
 
 
 @pytest.mark.parametrize(
@@ -186,36 +195,36 @@ def test_a_package_that_the_outer_build_takes_in_is_a_part_of_it(scripts: dict[s
         {"install/pyvenv.cfg": ""},
     ],
 )
-def test_products_are_skipped_by_what_is_in_them(files: dict[str, str]) -> None:
+def test_build_products_are_recognised_by_their_files(files: dict[str, str]) -> None:
     tree = MemoryTree({"install/p/share/p/package.xml": manifest_text("p"), "src/q/package.xml": manifest_text("q"), **files})
-    found = discover(tree, [""])
-    assert [package.path for package in found.packages] == ["src/q"]
-    assert [skipped.path for skipped in found.skipped] == ["install"]
+    discovery = discover(tree, [""])
+    assert [package.path for package in discovery.packages] == ["src/q"]
+    assert [skipped.path for skipped in discovery.skipped] == ["install"]
 
 
 @pytest.mark.parametrize("hook", ["local_setup.dsv", "package.dsv"])
-def test_an_installed_package_is_one_where_nothing_else_of_the_install_tree_is_kept(hook: str) -> None:
+def test_an_installed_package_outside_an_install_tree_is_skipped(hook: str) -> None:
     files = {
         "install/p/share/p/package.xml": manifest_text("p"),
         f"install/p/share/p/{hook}": "",
         "src/p/package.xml": manifest_text("p"),
     }
-    found = discover(MemoryTree(files), [""])
-    assert [package.path for package in found.packages] == ["src/p"]
-    assert [skipped.path for skipped in found.skipped] == ["install/p/share/p"]
+    discovery = discover(MemoryTree(files), [""])
+    assert [package.path for package in discovery.packages] == ["src/p"]
+    assert [skipped.path for skipped in discovery.skipped] == ["install/p/share/p"]
 
 
-def test_a_package_with_such_a_file_of_its_own_is_one() -> None:
+def test_a_source_package_with_an_install_file_is_found() -> None:
     tree = MemoryTree({"p/package.xml": manifest_text("p"), "p/package.dsv": "", "p/setup.py": ""})
     assert [package.name for package in discover(tree, [""]).packages] == ["p"]
 
 
-def test_scripts_of_a_package_make_no_install_tree() -> None:
+def test_setup_scripts_in_a_package_do_not_make_an_install_tree() -> None:
     tree = MemoryTree({"p/package.xml": manifest_text("p"), "p/setup.bash": "", "p/local_setup.bash": "", "local_setup.sh": ""})
     assert [package.name for package in discover(tree, [""]).packages] == ["p"]
 
 
-def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
+def test_links_are_followed_without_cycles(tmp_path: Path) -> None:
     package = tmp_path / "ws" / "p"
     (package / "config").mkdir(parents=True)
     (package / "package.xml").write_text(manifest_text("p"))
@@ -230,9 +239,9 @@ def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
     (tmp_path / "ws" / "shared" / "deep" / "b.yaml").write_text("")
     (tmp_path / "ws" / "shared" / "back").symlink_to("../p/shared")
     (package / "shared").symlink_to("../shared")
-    found = discover(DiskTree(str(tmp_path / "ws")), [""])
-    assert found.packages[0].files == ("alias/a.yaml", "config/a.yaml", "package.xml", "shared/deep/b.yaml")
-    assert found.packages[0].unvisited == (
+    discovery = discover(DiskTree(str(tmp_path / "ws")), [""])
+    assert discovery.packages[0].files == ("alias/a.yaml", "config/a.yaml", "package.xml", "shared/deep/b.yaml")
+    assert discovery.packages[0].unvisited == (
         Skipped("alias/up", "a link to a folder that contains it", link=True),
         Skipped("config/up", "a link to a folder that contains it", link=True),
         Skipped("outside", "a link that leads out of the workspace", link=True),
@@ -241,7 +250,7 @@ def test_links_lead_to_files_but_never_round_in_circles(tmp_path: Path) -> None:
     )
 
 
-def test_a_link_to_what_is_around_the_workspace_is_not_followed(tmp_path: Path) -> None:
+def test_a_link_to_a_folder_around_the_workspace_is_not_followed(tmp_path: Path) -> None:
     for name in ("ws/p", "elsewhere", "around"):
         (tmp_path / name).mkdir(parents=True)
         (tmp_path / name / "package.xml").write_text(manifest_text(name.replace("/", "_")))
@@ -249,20 +258,20 @@ def test_a_link_to_what_is_around_the_workspace_is_not_followed(tmp_path: Path) 
     (tmp_path / "ws" / "root").symlink_to("/")
     (tmp_path / "ws" / "beside").symlink_to("../elsewhere")
     (tmp_path / "ws" / "again").symlink_to(".")
-    found = discover(DiskTree(str(tmp_path / "ws")), [""])
-    assert [(package.path, package.name) for package in found.packages] == [("beside", "elsewhere"), ("p", "ws_p")]
-    assert [skipped.path for skipped in found.skipped] == ["root", "up"]
+    discovery = discover(DiskTree(str(tmp_path / "ws")), [""])
+    assert [(package.path, package.name) for package in discovery.packages] == [("beside", "elsewhere"), ("p", "ws_p")]
+    assert [skipped.path for skipped in discovery.skipped] == ["root", "up"]
 
 
-def test_links_across_each_other_do_not_multiply(tmp_path: Path) -> None:
+def test_mutual_links_do_not_multiply_files(tmp_path: Path) -> None:
     folders = [tmp_path / "p" / name for name in "abcdefghij"]
     for folder in folders:
         folder.mkdir(parents=True)
         (folder / "x").write_text("")
     for folder in folders:
-        for other in folders:
-            if other != folder:
-                (folder / f"to_{other.name}").symlink_to(other)
+        for other_folder in folders:
+            if other_folder != folder:
+                (folder / f"to_{other_folder.name}").symlink_to(other_folder)
     (tmp_path / "p" / "package.xml").write_text(manifest_text("p"))
     files = discover(DiskTree(str(tmp_path)), [""]).packages[0].files
     assert {"a/x", "a/to_b/x", "j/to_i/x"} <= set(files)
@@ -283,15 +292,15 @@ class _Closed(DiskTree):
         return super().read(path)
 
 
-def test_what_cannot_be_read_is_said_and_the_rest_goes_on(tmp_path: Path) -> None:
+def test_unreadable_places_are_reported_and_others_are_found(tmp_path: Path) -> None:
     for folder in ("closed", "p/closed", "p/secret", "secret", "z"):
         (tmp_path / folder).mkdir(parents=True)
     for folder in ("p", "p/secret", "secret", "z"):
         (tmp_path / folder / "package.xml").write_text(manifest_text(folder.replace("/", "_")))
     (tmp_path / "p/secret/setup.py").write_text("")
-    found = discover(_Closed(str(tmp_path)), ["", "missing"])
-    assert [package.name for package in found.packages] == ["p", "z"]
-    assert [(item.what, item.reason) for item in found.not_checked] == [
+    discovery = discover(_Closed(str(tmp_path)), ["", "missing"])
+    assert [package.name for package in discovery.packages] == ["p", "z"]
+    assert [(item.what, item.reason) for item in discovery.not_checked] == [
         ("closed", "Permission denied"),
         ("missing", "No such file or directory"),
         ("p/closed", "Permission denied"),
@@ -300,13 +309,13 @@ def test_what_cannot_be_read_is_said_and_the_rest_goes_on(tmp_path: Path) -> Non
     ]
 
 
-def test_names_with_spaces_and_letters_of_any_kind_and_a_folder_called_package_xml(tmp_path: Path) -> None:
+def test_unusual_names_and_a_folder_named_package_xml_are_handled(tmp_path: Path) -> None:
     for folder in ("my ws/größe", "my ws/package.xml/q", "\udcff"):
         (tmp_path / folder).mkdir(parents=True)
         (tmp_path / folder / "package.xml").write_text(manifest_text("p"))
     assert differences(tmp_path) == []
-    found = discover(DiskTree(str(tmp_path)), [""])
-    assert [package.path for package in found.packages] == ["my ws/größe", "my ws/package.xml/q", "\udcff"]
+    discovery = discover(DiskTree(str(tmp_path)), [""])
+    assert [package.path for package in discovery.packages] == ["my ws/größe", "my ws/package.xml/q", "\udcff"]
 
 
 def test_the_base_can_be_a_package_and_roots_may_overlap() -> None:
@@ -315,13 +324,13 @@ def test_the_base_can_be_a_package_and_roots_may_overlap() -> None:
     assert [package.path for package in discover(tree, ["src", "src/q", "other"]).packages] == ["src/q"]
 
 
-def test_a_rejected_manifest_without_another_script_is_no_package_but_known() -> None:
-    found = discover(MemoryTree({"p/package.xml": "<package/>", "p/q/package.xml": manifest_text("q")}), [""])
-    assert [package.name for package in found.packages] == ["q"]
-    assert [manifest.path for manifest in found.rejected] == ["p/package.xml"]
+def test_a_rejected_manifest_without_a_script_is_listed_as_rejected() -> None:
+    discovery = discover(MemoryTree({"p/package.xml": "<package/>", "p/q/package.xml": manifest_text("q")}), [""])
+    assert [package.name for package in discovery.packages] == ["q"]
+    assert [manifest.path for manifest in discovery.rejected] == ["p/package.xml"]
 
 
-def test_a_rejected_manifest_beside_a_script_is_a_plain_package() -> None:
+def test_a_rejected_manifest_with_a_script_is_a_plain_package() -> None:
     tree = MemoryTree({"p/package.xml": "<package/>", "p/CMakeLists.txt": "project(other)\nfind_package(q)\n"})
     (package,) = discover(tree, [""]).packages
     assert (package.name, package.type) == ("other", "cmake")
@@ -330,15 +339,15 @@ def test_a_rejected_manifest_beside_a_script_is_a_plain_package() -> None:
 
 
 @pytest.mark.parametrize("text", ["- a", "a: [", "\udcff", "[" * 3_000, "!x y"])
-def test_colcon_files_that_are_no_mapping_are_said_and_not_used(text: str) -> None:
+def test_colcon_files_that_are_not_mappings_are_reported_and_ignored(text: str) -> None:
     data = text.encode("utf-8", "surrogateescape")
     tree = MemoryTree({"colcon.meta": data, "p/package.xml": manifest_text("p"), "p/colcon.pkg": data})
-    found = discover(tree, [""])
-    assert [package.name for package in found.packages] == ["p"]
-    assert [item.what for item in found.not_checked] == ["colcon.meta", "p/colcon.pkg"]
+    discovery = discover(tree, [""])
+    assert [package.name for package in discovery.packages] == ["p"]
+    assert [item.what for item in discovery.not_checked] == ["colcon.meta", "p/colcon.pkg"]
 
 
-def test_edges_from_colcon_files_have_their_places() -> None:
+def test_dependencies_in_colcon_files_have_places() -> None:
     tree = MemoryTree(
         {
             "p/package.xml": manifest_text("p"),
@@ -357,10 +366,10 @@ def test_edges_from_colcon_files_have_their_places() -> None:
     ]
 
 
-def test_the_order_of_a_directory_does_not_matter() -> None:
+def test_the_order_of_a_directory_listing_does_not_matter() -> None:
     files = {f"{folder}/package.xml": manifest_text(folder) for folder in ("b", "a", "c")} | {"a/x": "", "a/b/y": ""}
 
-    def found(names: list[str]) -> Discovery:
+    def discovery(names: list[str]) -> Discovery:
         return discover(MemoryTree({name: files[name] for name in names}), [""])
 
-    assert found(list(files)) == found(list(reversed(files)))
+    assert discovery(list(files)) == discovery(list(reversed(files)))

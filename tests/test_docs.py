@@ -1,4 +1,4 @@
-"""Every example in the docs is what the tool does."""
+"""Every example in the docs is what ros-lint prints."""
 
 import json
 import re
@@ -33,45 +33,45 @@ def check(path: Path, text: str, request: pytest.FixtureRequest) -> None:
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
-def test_the_page_of_a_rule(rule: registry.Rule, request: pytest.FixtureRequest) -> None:
+def test_the_page_of_a_rule_is_up_to_date(rule: registry.Rule, request: pytest.FixtureRequest) -> None:
     check(PAGES / f"{rule.name}.md", docs.page(rule, example_of(rule)), request)
 
 
 def example_of(rule: registry.Rule) -> str:
     """Return the first finding in the cases of a rule that says nothing about its confidence, else the first of all."""
     cases = testing.read_cases(ROOT / "fixtures" / f"{rule.name}.md")
-    found = [issue for case in cases for issue in (case.output or "").strip("\n").split("\n\n") if issue]
-    assert found, f"no case of {rule.name} has a block output"
-    return WANTED.sub("", next((issue for issue in found if "= note:" not in issue), found[0]))
+    result = [issue for case in cases for issue in (case.output or "").strip("\n").split("\n\n") if issue]
+    assert result, f"no case of {rule.name} has a block output"
+    return WANTED.sub("", next((issue for issue in result if "= note:" not in issue), result[0]))
 
 
-def test_the_list_of_rules(request: pytest.FixtureRequest) -> None:
+def test_the_list_of_rules_is_up_to_date(request: pytest.FixtureRequest) -> None:
     check(PAGES / "README.md", docs.overview(RULES), request)
 
 
-def test_no_page_without_a_rule() -> None:
+def test_every_page_belongs_to_a_rule() -> None:
     assert {page.stem for page in PAGES.glob("*.md")} == {rule.name for rule in RULES} | {"README"}
 
 
-def test_the_table_of_settings(request: pytest.FixtureRequest) -> None:
+def test_the_table_of_settings_is_up_to_date(request: pytest.FixtureRequest) -> None:
     page = ROOT / "docs" / "settings.md"
     check(page, SETTINGS.sub(lambda _: docs.settings(OPTIONS), page.read_text("utf-8")), request)
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
-def test_console_examples(document: Path, request: pytest.FixtureRequest) -> None:
+def test_console_examples_show_the_actual_output(document: Path, request: pytest.FixtureRequest) -> None:
     text = document.read_text("utf-8")
 
     def run(match: re.Match[str]) -> str:
         command = [sys.executable, "-m", "ros_lint", *match["arguments"].split()]
-        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
-        return f"```console\n$ ros-lint {match['arguments']}\n{done.stdout}{done.stderr}```"
+        process = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+        return f"```console\n$ ros-lint {match['arguments']}\n{process.stdout}{process.stderr}```"
 
     check(document, CONSOLE.sub(run, text), request)
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
-def test_settings_examples(document: Path, tmp_path: Path) -> None:
+def test_settings_examples_are_valid(document: Path, tmp_path: Path) -> None:
     for kind, body in BLOCK.findall(document.read_text("utf-8")):
         if kind != "toml" or "project.entry-points" in body:
             continue
@@ -89,7 +89,7 @@ def test_python_examples_compile(document: Path) -> None:
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
-def test_links_lead_somewhere(document: Path) -> None:
+def test_links_lead_to_existing_files_and_headings(document: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+)\)", document.read_text("utf-8")):
         if "://" not in target:
             assert (document.parent / target).exists(), target
@@ -140,14 +140,14 @@ def demo(*arguments: str) -> str:
 def example(kind: str, word: str) -> str:
     """Return the block of a kind in the page about adopting that has a word."""
     text = (ROOT / "docs" / "adopting.md").read_text("utf-8")
-    return next(body for found, body in BLOCK.findall(text) if found == kind and word in body)
+    return next(body for result, body in BLOCK.findall(text) if result == kind and word in body)
 
 
-def test_the_problem_matcher_of_the_editor() -> None:
+def test_the_problem_matcher_of_the_editor_matches_concise_output() -> None:
     pattern = json.loads(example("json", "problemMatcher"))["tasks"][0]["problemMatcher"]["pattern"]
-    found = [match for line in demo("--format", "concise").splitlines() if (match := re.match(pattern["regexp"], line))]
+    result = [match for line in demo("--format", "concise").splitlines() if (match := re.match(pattern["regexp"], line))]
     findings = json.loads(demo("--format", "json"))["findings"]
     keys = (("path", "file"), ("line", "line"), ("column", "column"), ("severity", "severity"), ("rule", "code"))
-    assert sorted([match[pattern[group]] for _, group in keys] for match in found) == sorted(
+    assert sorted([match[pattern[group]] for _, group in keys] for match in result) == sorted(
         [str(finding[key]) for key, _ in keys] for finding in findings
     )

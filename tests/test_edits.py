@@ -1,3 +1,5 @@
+"""Edits are applied to texts and files."""
+
 import os
 from pathlib import Path
 
@@ -21,27 +23,27 @@ def applied(*fixes: Fix) -> str:
     return edits.apply(fixes, lambda path: SOURCE)["f"]
 
 
-def test_edits_do_not_move_each_other() -> None:
+def test_edits_do_not_shift_each_other() -> None:
     assert applied(fix((0, 3, "ONE"), (9, 14, "3")), fix((5, 5, "a "), (5, 5, "b "))) == "ONE\r\na b two\n3"
 
 
-def test_lines_end_as_those_of_the_file() -> None:
+def test_inserted_lines_have_the_line_ends_of_the_file() -> None:
     source = Text("f", "one\r\ntwo\r\n")
     change = Fix("", (Edit(source.span(5, 5), "a\nb\r\n"),))
     assert edits.apply([change], lambda path: source)["f"] == "one\r\na\r\nb\r\ntwo\r\n"
 
 
-def test_new_lines_are_indented_by_tabs_where_their_neighbours_are() -> None:
+def test_inserted_lines_are_indented_by_tabs_like_their_neighbours() -> None:
     source = Text("f", "a(\n\t\tone\n  two)\n")
     changes = [Fix("", (Edit(source.span(end, end), "\n  new"),)) for end in (source.text.index("\n  t"), source.text.index(")"))]
     assert edits.apply(changes, lambda path: source)["f"] == "a(\n\t\tone\n\t\tnew\n  two\n  new)\n"
 
 
-def test_the_same_edit_twice_is_made_once() -> None:
+def test_an_edit_of_two_fixes_is_applied_once() -> None:
     assert applied(fix((0, 0, "x")), fix((0, 0, "x"))) == "xone\r\ntwo\nthree"
 
 
-def test_a_fix_that_collides_waits() -> None:
+def test_a_fix_that_overlaps_an_earlier_one_is_not_chosen() -> None:
     first, second, third = fix((0, 3, "")), fix((1, 2, "x"), (9, 9, "y")), fix((3, 3, "z"))
     assert edits.choose([first, second, third]) == (first, third)
 
@@ -57,21 +59,21 @@ def test_a_fix_that_collides_waits() -> None:
         ([(0, "", "a\n"), (0, "", "b\n")], "b\na\n"),
     ],
 )
-def test_what_belongs_together_is_set_off_once(put: list[tuple[int, str, str]], expected: str) -> None:
+def test_a_group_of_insertions_is_separated_by_one_blank_line(put: list[tuple[int, str, str]], expected: str) -> None:
     start = SOURCE.span(5, 5)
     fixes = [Fix("", (Edit(start, text, kind, order),)) for kind, order, text in reversed(put)]
     assert edits.choose(fixes) == tuple(fixes)
     assert edits.apply(fixes, lambda path: SOURCE)["f"] == f"one\r\n{expected}two\nthree"
 
 
-def test_an_encoding_without_the_letter() -> None:
+def test_a_character_that_the_encoding_lacks_is_an_error() -> None:
     source = Text("f", "é", "iso8859-1")
     assert edits.encode({"f": "éa"}, lambda path: source) == {"f": b"\xe9a"}
     with pytest.raises(edits.EditError, match="f: its encoding .* cannot represent '漢'"):
         edits.encode({"f": "漢"}, lambda path: source)
 
 
-def test_files_are_replaced_whole(tmp_path: Path) -> None:
+def test_files_are_replaced_with_their_permissions(tmp_path: Path) -> None:
     target = tmp_path / "real"
     target.write_bytes(b"old")
     target.chmod(0o755)
@@ -84,7 +86,7 @@ def test_files_are_replaced_whole(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("what", ["file", "folder"])
-def test_one_read_only_place_keeps_everything_as_it_is(tmp_path: Path, what: str) -> None:
+def test_a_read_only_file_or_folder_prevents_all_changes(tmp_path: Path, what: str) -> None:
     (tmp_path / "a").write_bytes(b"old")
     (tmp_path / "d").mkdir()
     (tmp_path / "d" / "b").write_bytes(b"old")
@@ -99,7 +101,7 @@ def test_one_read_only_place_keeps_everything_as_it_is(tmp_path: Path, what: str
     assert (tmp_path / "a").read_bytes() == b"old"
 
 
-def test_a_disk_that_fails_leaves_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_disk_keeps_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a").write_bytes(b"old")
 
     def full(*_: object) -> None:
@@ -112,7 +114,7 @@ def test_a_disk_that_fails_leaves_the_file(tmp_path: Path, monkeypatch: pytest.M
     assert os.listdir(tmp_path) == ["a"]
 
 
-def test_a_file_comes_into_being(tmp_path: Path) -> None:
+def test_a_file_is_created(tmp_path: Path) -> None:
     text = edits.text_of(DiskTree(str(tmp_path)), "new")
     changed = edits.apply([Fix("", (Edit(Span("new", 1, 1, 1, 1), "a\n"),))], lambda _: text)
     edits.write_all(str(tmp_path), edits.encode(changed, lambda _: text), {})
@@ -121,7 +123,7 @@ def test_a_file_comes_into_being(tmp_path: Path) -> None:
     assert unified("new", None, "a\n") == "--- /dev/null\n+++ b/new\n@@ -0,0 +1 @@\n+a\n"
 
 
-def test_a_fix_is_none_where_one_of_its_edits_has_no_place() -> None:
+def test_an_edit_beyond_the_end_of_the_file_is_an_error() -> None:
     edit = Edit(Span("a", 1, 1, 1, 1), "x")
     assert Fix.of("write x", edit, safe=False) == Fix("write x", (edit,), safe=False)
     assert Fix.of("write x", edit, edit) == Fix("write x", (edit, edit))

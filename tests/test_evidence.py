@@ -22,20 +22,20 @@ HEAD = """<package format="3"><name>{name}</name><version>1.0.0</version><descri
 
 
 def cmake(name: str, depends: str, lines: str, **files: str) -> dict[str, str]:
-    """Return the files of a package of ament_cmake; names of files have __ for / and _dot_ for a dot."""
-    found = {
+    """Return the files of an ament_cmake package; names of files have __ for / and _dot_ for a dot."""
+    result = {
         f"{name}/package.xml": HEAD.format(name=name, depends=depends, kind="ament_cmake"),
         f"{name}/CMakeLists.txt": f"project({name})\nfind_package(ament_cmake REQUIRED)\n{lines}\nament_package()\n",
     }
-    found.update({f"{name}/{path.replace('__', '/').replace('_dot_', '.')}": text for path, text in files.items()})
-    return found
+    result.update({f"{name}/{path.replace('__', '/').replace('_dot_', '.')}": text for path, text in files.items()})
+    return result
 
 
 def uses(workspace: Workspace, name: str) -> list[Use]:
     return [use for use in workspace.packages[0].uses if use.package == name]
 
 
-def test_roles_come_from_where_a_file_goes() -> None:
+def test_the_role_of_a_use_is_the_role_of_its_file() -> None:
     workspace = loaded(
         cmake(
             "talker",
@@ -54,7 +54,7 @@ def test_roles_come_from_where_a_file_goes() -> None:
     assert [use.certain for use in uses(workspace, "shape_msgs")] == [False]
 
 
-def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
+def test_headers_in_the_packages_include_folder_are_its_own() -> None:
     workspace = loaded(
         cmake(
             "talker",
@@ -68,16 +68,16 @@ def test_a_folder_of_its_own_in_include_has_its_own_headers() -> None:
     assert [use.package for use in workspace.packages[0].uses if use.via == "include"] == ["nav_msgs"]
 
 
-@pytest.mark.parametrize(("lines", "found"), [("", False), ("add_subdirectory(sdk)", True), ("include(more)", True)])
-def test_a_metapackage_has_no_headers(lines: str, found: bool) -> None:
+@pytest.mark.parametrize(("lines", "expected"), [("", False), ("add_subdirectory(sdk)", True), ("include(more)", True)])
+def test_a_metapackage_provides_no_headers(lines: str, expected: bool) -> None:
     source = "#include <robot/can/socket.hpp>\n"
     driver = cmake("driver", "", "add_library(driver driver.cpp)", driver_dot_cpp=source)
     workspace = loaded({**driver, **cmake("robot", "", lines, sdk__CMakeLists_dot_txt="")})
-    assert bool(uses(workspace, "robot")) == found
+    assert bool(uses(workspace, "robot")) == expected
 
 
 @pytest.mark.parametrize(
-    ("header", "found"),
+    ("header", "expected"),
     [
         ("geometry_msgs/Pose.h", False),
         ("geometry_msgs/msg/pose.h", True),
@@ -85,35 +85,35 @@ def test_a_metapackage_has_no_headers(lines: str, found: bool) -> None:
         ("std_srvs/Empty.h", False),
     ],
 )
-def test_a_header_of_a_message_of_ros_1_is_of_no_package_of_ros_2(header: str, found: bool) -> None:
+def test_a_ros_1_message_header_belongs_to_no_package(header: str, expected: bool) -> None:
     workspace = loaded(cmake("bridge", "", "add_executable(bridge bridge.cpp)", bridge_dot_cpp=f"#include <{header}>\n"))
-    assert bool(uses(workspace, header.partition("/")[0])) is found
+    assert bool(uses(workspace, header.partition("/")[0])) is expected
 
 
-def test_what_a_hand_wrote_into_a_map_is_less_than_sure() -> None:
+def test_uses_resolved_by_the_handwritten_map_are_uncertain() -> None:
     workspace = loaded(cmake("talker", "", "find_package(CUDA REQUIRED)\nfind_package(Eigen3 REQUIRED)"))
     assert [use.certain for use in uses(workspace, "nvidia-cuda")] == [False]
     assert [use.certain for use in uses(workspace, "eigen")] == [True]
 
 
-def test_an_action_needs_action_msgs_where_the_generators_do_not_bring_it() -> None:
+def test_an_action_needs_action_msgs_unless_the_generators_provide_it() -> None:
     files = cmake(
         "robot_msgs",
         "<buildtool_depend>rosidl_default_generators</buildtool_depend>",
         "find_package(rosidl_default_generators REQUIRED)\nrosidl_generate_interfaces(robot_msgs action/Go.action)",
         action__Go_dot_action="---\n---\n",
     )
-    old, new = loaded(files, "humble"), loaded(files, "jazzy")
-    assert [need.name for need, _ in undeclared(old.packages[0], old)] == ["action_msgs"]
-    assert not undeclared(new.packages[0], new)
+    humble, jazzy = loaded(files, "humble"), loaded(files, "jazzy")
+    assert [need.name for need, _ in undeclared(humble.packages[0], humble)] == ["action_msgs"]
+    assert not undeclared(jazzy.packages[0], jazzy)
 
 
-def test_what_is_exported_is_needed_by_others_only() -> None:
+def test_an_exported_dependency_has_the_export_role_only() -> None:
     workspace = loaded(cmake("base", "", "find_package(nav_msgs REQUIRED)\nament_export_dependencies(nav_msgs rclcpp)"))
     assert [use.role for use in uses(workspace, "rclcpp")] == [Role.EXPORT]
 
 
-def test_each_need_is_answered_once() -> None:
+def test_each_need_has_one_declaration() -> None:
     workspace = loaded(
         cmake(
             "talker",
@@ -122,38 +122,38 @@ def test_each_need_is_answered_once() -> None:
             "find_package(nav_msgs REQUIRED)\nfind_package(shape_msgs QUIET)\nif(shape_msgs_FOUND)\nendif()",
         )
     )
-    found = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
-    assert found["rclcpp"] == (("rclcpp",), True)
-    assert found["std_msgs"] == ((), True)
-    assert found["nav_msgs"] == ((), False)
-    assert "shape_msgs" not in found
-    assert [need.name for need, sure in undeclared(workspace.packages[0], workspace) if sure] == ["nav_msgs"]
+    result = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
+    assert result["rclcpp"] == (("rclcpp",), True)
+    assert result["std_msgs"] == ((), True)
+    assert result["nav_msgs"] == ((), False)
+    assert "shape_msgs" not in result
+    assert [need.name for need, certain in undeclared(workspace.packages[0], workspace) if certain] == ["nav_msgs"]
 
 
-def test_a_key_brings_the_keys_of_the_packages_that_its_own_depends_on() -> None:
+def test_a_key_provides_the_keys_of_its_system_dependencies() -> None:
     workspace = loaded(cmake("talker", "<depend>libpcl-all-dev</depend>", "find_package(Eigen3 REQUIRED)"))
     assert "eigen" not in [need.name for need, _ in undeclared(workspace.packages[0], workspace)]
     assert [need.brought for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
 
 
 @pytest.mark.parametrize(("declared", "used"), [("ament_auto_cmake", "ament_cmake_auto"), ("nimbus-msgs", "nimbus_msgs")])
-def test_what_a_wrong_name_must_mean_is_told_for_certain_by_that_name_alone(declared: str, used: str) -> None:
+def test_a_need_explained_by_a_misspelt_declaration_is_uncertain(declared: str, used: str) -> None:
     lines = f"find_package({used} REQUIRED)\nadd_executable(talker talker.cpp)"
     code = {"talker_dot_cpp": f"#include <{used}/msg/state.hpp>\n"}
     workspace = loaded(cmake("talker", f"<depend>{declared}</depend>", lines, **code))
-    assert (used, False) in [(need.name, sure) for need, sure in undeclared(workspace.packages[0], workspace)]
+    assert (used, False) in [(need.name, certain) for need, certain in undeclared(workspace.packages[0], workspace)]
     assert used in intended_names(workspace.packages[0], workspace)
 
 
 @pytest.mark.parametrize(("key", "library"), [("ffmpeg-dev", "FFMPEG"), ("python3-qt5-bindings", "Qt5")])
-def test_any_key_that_installs_a_library_will_do(key: str, library: str) -> None:
+def test_any_key_that_installs_a_library_satisfies_the_need(key: str, library: str) -> None:
     workspace = loaded(cmake("talker", f"<depend>{key}</depend>", f"find_package({library} REQUIRED)"))
     assert {need.name for need, _ in undeclared(workspace.packages[0], workspace)}.isdisjoint({"ffmpeg", "qtbase5-dev"})
 
 
-def test_an_unknown_name_can_bring_some_things_only() -> None:
+def test_an_unresolved_name_may_provide_only_plausible_packages() -> None:
     workspace = loaded(cmake("talker", "", "") | cmake("base", "", ""))
-    assert not may_provide(("strange",), "base", workspace)  # a repository elsewhere needs none of this workspace
+    assert not may_provide(("strange",), "base", workspace)  # other repositories do not depend on this workspace
     assert may_provide(("strange",), "rclcpp", workspace)
     assert may_provide(("strange_msgs",), "std_msgs", workspace)
     assert not may_provide(("strange_msgs",), "rclcpp", workspace)
@@ -163,15 +163,15 @@ def test_an_unknown_name_can_bring_some_things_only() -> None:
     assert not may_provide(("rosidl_interface_packages",), "rosidl_default_generators", workspace)  # a group
 
 
-def test_a_tag_covers_what_comes_along_with_it_for_its_role() -> None:
+def test_a_tag_covers_transitive_dependencies_of_its_role() -> None:
     workspace = loaded(cmake("talker", "<build_depend>nav_msgs</build_depend><exec_depend>std_msgs</exec_depend>", ""))
     package = workspace.packages[0]
     assert provided_transitively(package, workspace, ("geometry_msgs",), Role.BUILD)
     assert not provided_transitively(package, workspace, ("geometry_msgs",), Role.EXEC)
-    assert not provided_transitively(package, workspace, ("nav_msgs",), Role.BUILD)  # only what something else brings
+    assert not provided_transitively(package, workspace, ("nav_msgs",), Role.BUILD)  # only another package may provide it
 
 
-def test_variables_of_ros_come_from_a_package() -> None:
+def test_ros_environment_variables_are_uses_of_ros_environment() -> None:
     lines = 'set(distro $ENV{ROS_DISTRO})\nmessage(STATUS "for $ENV{ROS_VERSION}")'
     assert [(use.what, use.optional) for use in uses(loaded(cmake("talker", "", lines)), "ros_environment")] == [
         ("$ENV{ROS_DISTRO}", False)
@@ -182,7 +182,7 @@ def test_variables_of_ros_come_from_a_package() -> None:
     assert uses(packed, "ros_environment") == []
 
 
-def test_a_module_within_a_package_is_imported_by_its_full_name_only() -> None:
+def test_a_submodule_is_not_a_top_level_module() -> None:
     files = {
         "talker/package.xml": HEAD.format(name="talker", depends="", kind="ament_python"),
         "talker/setup.py": "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=['talker'])\n",
@@ -191,73 +191,73 @@ def test_a_module_within_a_package_is_imported_by_its_full_name_only() -> None:
         "talker/talker/rclpy.py": "",
         "talker/talker/main.py": "import rclpy\nimport controller_manager\n",
     }
-    found = {(use.package, use.span.path.rpartition("/")[2]) for use in loaded(files).packages[0].uses}
-    assert ("controller_manager", "controller_manager.py") in found  # not itself
-    assert not {("controller_manager", "main.py"), ("rclpy", "main.py")} & found  # main.py may be started where it is
+    result = {(use.package, use.span.path.rpartition("/")[2]) for use in loaded(files).packages[0].uses}
+    assert ("controller_manager", "controller_manager.py") in result  # not itself
+    assert not {("controller_manager", "main.py"), ("rclpy", "main.py")} & result  # main.py may be started where it is
 
 
-def test_what_brings_the_best_is_no_answer_of_its_own() -> None:
+def test_a_package_that_provides_the_best_provider_is_not_a_provider() -> None:
     lines = "find_package(cv_bridge REQUIRED)\nfind_package(OpenCV REQUIRED)"
     workspace = loaded(cmake("talker", "<depend>cv_bridge</depend>", lines))
-    found = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
-    assert found["cv_bridge"] == (("cv_bridge",), True)
-    assert found["libopencv-dev"] == ((), True)
+    result = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
+    assert result["cv_bridge"] == (("cv_bridge",), True)
+    assert result["libopencv-dev"] == ((), True)
 
 
-def test_what_names_a_package_is_told_before_what_it_brings() -> None:
+def test_uses_that_name_a_package_come_before_transitive_ones() -> None:
     headers = {"a_dot_cpp": "#include <opencv2/core.hpp>\n", "b_dot_cpp": "#include <cv_bridge/cv_bridge.h>\n"}
     workspace = loaded(cmake("talker", "", "add_library(talker a.cpp b.cpp)", **headers))
-    found = {need.name: [use.package for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
-    assert found == {"ament_cmake": ["ament_cmake"], "cv_bridge": ["cv_bridge", "libopencv-dev"]}
+    result = {need.name: [use.package for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
+    assert result == {"ament_cmake": ["ament_cmake"], "cv_bridge": ["cv_bridge", "libopencv-dev"]}
 
 
-def test_what_names_a_package_by_its_folder_stays_in_its_place() -> None:
+def test_uses_by_include_folder_keep_the_order_of_the_file() -> None:
     source = '#include "boost/program_options.hpp"\n#include "boost/tokenizer.hpp"\n'
     workspace = loaded(cmake("talker", "", "add_library(talker a.cpp)", a_dot_cpp=source))
-    found = {need.name: [use.span.line for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
-    assert found["boost"] == [1, 2]
+    result = {need.name: [use.span.line for use in need.uses] for need, _ in undeclared(workspace.packages[0], workspace)}
+    assert result["boost"] == [1, 2]
 
 
-def test_each_place_of_a_need_is_answered_for_itself() -> None:
+def test_each_use_of_a_need_has_its_own_declaration() -> None:
     lines = "if(BUILD_TESTING)\nfind_package(ament_cmake_gtest REQUIRED)\nament_add_gtest(t test/t.cpp)\nendif()"
     depends = "<depend>cv_bridge</depend><test_depend>gtest</test_depend>"
     workspace = loaded(cmake("talker", depends, lines, test__t_dot_cpp="#include <gtest/gtest.h>\n"))
-    found = [need for need in needs(workspace.packages[0], workspace) if need.name == "ament_cmake_gtest"]
-    assert [(need.declared, sorted({use.via for use in need.uses})) for need in found] == [
+    result = [need for need in needs(workspace.packages[0], workspace) if need.name == "ament_cmake_gtest"]
+    assert [(need.declared, sorted({use.via for use in need.uses})) for need in result] == [
         ((), ["cmake", "macro"]),
         (("gtest",), ["include"]),
     ]
 
 
-def test_a_vendor_package_and_what_it_stands_for_have_the_same_macros() -> None:
+def test_a_vendored_key_satisfies_macros_of_the_vendor_package() -> None:
     lines = "find_package(pybind11 REQUIRED)\npybind11_add_module(talker src/talker.cpp)"
     workspace = loaded(cmake("talker", "<depend>pybind11-dev</depend>", lines))
     assert "pybind11_vendor" not in [need.name for need in needs(workspace.packages[0], workspace)]
 
 
-def test_what_hardly_anybody_brings_is_not_brought_by_a_stranger() -> None:
+def test_rarely_provided_packages_are_not_provided_by_unresolved_names() -> None:
     workspace = loaded(cmake("talker", "", "") | cmake("base", "<depend>octomap_server</depend>", ""))
     assert not may_provide(("acme_arm",), "depthimage_to_laserscan", workspace)
-    assert may_provide(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # the same family
-    assert may_provide(("depthimage2",), "depthimage_to_laserscan", workspace)  # of another generation
-    assert may_provide(("acme_depthimages",), "depthimage_to_laserscan", workspace)  # or with a longer word
-    assert may_provide(("acme_arm",), "octomap_server", workspace)  # others of the workspace bring it
-    assert may_provide(("acme_arm",), "rviz_common", workspace)  # many do
-    assert may_provide(("acme_arm",), "protobuf", workspace)  # libraries come in many ways
+    assert may_provide(("acme_laserscan",), "depthimage_to_laserscan", workspace)  # a package of the same family
+    assert may_provide(("depthimage2",), "depthimage_to_laserscan", workspace)  # another generation of the family
+    assert may_provide(("acme_depthimages",), "depthimage_to_laserscan", workspace)  # the family by a longer word
+    assert may_provide(("acme_arm",), "octomap_server", workspace)  # another package of the workspace provides it
+    assert may_provide(("acme_arm",), "rviz_common", workspace)  # many packages provide it
+    assert may_provide(("acme_arm",), "protobuf", workspace)  # many packages provide libraries
     assert not may_provide(("acme_arm",), "python3-websockets", workspace)
 
 
-def test_what_another_distribution_has_is_known_from_there() -> None:
+def test_packages_of_other_distributions_are_known() -> None:
     workspace = loaded(cmake("talker", "", ""), "lyrical")
-    assert workspace.world.standing("gazebo_ros") == "elsewhere"
+    assert workspace.world.resolution("gazebo_ros") == "elsewhere"
     assert may_provide(("gazebo_ros",), "rclpy", workspace)
     assert not may_provide(("gazebo_ros",), "rviz_common", workspace)
     assert may_provide(("gazebo_ros",), "gazebo", workspace)
-    assert may_provide(("mocap4r2_msgs",), "rclcpp", workspace)  # though it is a package of messages
-    assert may_provide(("reach",), "ros_industrial_cmake_boilerplate", workspace)  # though it is no build tool
+    assert may_provide(("mocap4r2_msgs",), "rclcpp", workspace)  # although it is a package of messages
+    assert may_provide(("reach",), "ros_industrial_cmake_boilerplate", workspace)  # although it is not a build tool
 
 
-def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
+def test_needs_of_modules_with_launch_actions_are_uncertain() -> None:
     files = {
         "talker/package.xml": HEAD.format(name="talker", depends="", kind="ament_python"),
         "talker/setup.py": "from setuptools import setup\nsetup(name='talker', version='1.0.0', packages=['talker'])\n",
@@ -265,17 +265,17 @@ def test_modules_with_parts_of_launch_files_are_less_than_sure() -> None:
         "talker/talker/nodes.py": "from launch_ros.actions import Node\nRVIZ = Node(package='rviz2', executable='rviz2')\n",
     }
     workspace = loaded(files)
-    assert [sure for need, sure in undeclared(workspace.packages[0], workspace) if need.name == "rviz2"] == [False]
+    assert [certain for need, certain in undeclared(workspace.packages[0], workspace) if need.name == "rviz2"] == [False]
 
 
-def test_of_several_that_would_do_the_best_that_is_declared_is_used() -> None:
+def test_the_best_declared_provider_counts_as_used() -> None:
     workspace = loaded(cmake("talker", "", "find_package(PCL REQUIRED)"))
     (use,) = uses(workspace, "libpcl-all-dev")
     assert used_names(("pcl_ros", "pcl_conversions"), [use]) == {"pcl_conversions"}
     assert used_names(("pcl_ros", "libpcl-all-dev"), [use]) == {"libpcl-all-dev"}
 
 
-def test_a_folder_with_launch_files_is_no_module() -> None:
+def test_a_folder_with_launch_files_is_not_a_module() -> None:
     launch = "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
     lines = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})"
     files = cmake("talker", "", lines, launch__a_dot_launch_dot_py=launch)
@@ -283,7 +283,7 @@ def test_a_folder_with_launch_files_is_no_module() -> None:
     assert not uses(loaded({**files, "talker/launch/__init__.py": ""}), "launch")
 
 
-def test_what_has_no_part_in_a_package_needs_nothing() -> None:
+def test_templates_recipes_documentation_and_copies_have_no_uses() -> None:
     files = {
         **cmake("talker", "", "find_package(acme_cmake REQUIRED)\nacme_package()"),
         "talker/conanfile.py": "import yaml\n",
@@ -300,8 +300,8 @@ def test_what_has_no_part_in_a_package_needs_nothing() -> None:
         "talker/talker/conf.py": "import yaml\n",
         "talker/talker/main.py": "import yaml\n",
     }
-    found = {use.span.path for use in loaded(files).packages[0].uses if use.via in ("import", "include", "launch")}
-    assert found == {"talker/launch/all.launch.xml", "talker/talker/conf.py", "talker/talker/main.py"}
+    result = {use.span.path for use in loaded(files).packages[0].uses if use.via in ("import", "include", "launch")}
+    assert result == {"talker/launch/all.launch.xml", "talker/talker/conf.py", "talker/talker/main.py"}
 
 
 def _python(**files: str) -> Workspace:
@@ -309,11 +309,11 @@ def _python(**files: str) -> Workspace:
     return loaded(cmake("talker", "", lines, **files))
 
 
-def test_a_module_that_may_be_missing_in_one_file_may_be_missing_in_all() -> None:
+def test_a_module_that_is_optional_in_one_file_is_optional_in_all() -> None:
     guarded = "try:\n    import serial.tools\nexcept ImportError:\n    pass\n"
     plain = "import serial\nimport serial.tools.list_ports\n"
-    found = uses(_python(scripts__a_dot_py=guarded, scripts__b_dot_py=plain), "python3-serial")
-    assert [(use.span.path, use.optional) for use in found] == [
+    result = uses(_python(scripts__a_dot_py=guarded, scripts__b_dot_py=plain), "python3-serial")
+    assert [(use.span.path, use.optional) for use in result] == [
         ("talker/scripts/a.py", True),
         ("talker/scripts/b.py", False),
         ("talker/scripts/b.py", True),
@@ -322,23 +322,23 @@ def test_a_module_that_may_be_missing_in_one_file_may_be_missing_in_all() -> Non
     assert [use.optional for use in in_test if "scripts" in use.span.path] == [False, False]
 
 
-def test_a_copy_of_a_library_is_not_taken_for_the_library() -> None:
+def test_a_vendored_copy_does_not_replace_the_library_for_others() -> None:
     lines = "add_library(r r.cpp)\nadd_library(s s.cpp)"
-    own = {
+    base_files = {
         "include__nlohmann__json_dot_hpp": "",
         "include__shapes__box_dot_hpp": "",
         "r_dot_cpp": "#include <nlohmann/json.hpp>\n",
     }
     code = "#include <nlohmann/json.hpp>\n#include <shapes/box.hpp>\n"
-    workspace = loaded({**cmake("base", "", lines, **own), **cmake("talker", "", lines, r_dot_cpp=code)})
+    workspace = loaded({**cmake("base", "", lines, **base_files), **cmake("talker", "", lines, r_dot_cpp=code)})
     base, talker = workspace.packages
     assert [use.package for use in base.uses if use.via == "include"] == []
     assert [use.providers for use in talker.uses if use.via == "include"] == [("nlohmann-json-dev", "base"), ("base",)]
 
 
-def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
-    added = "import sys\nsys.path.append('/opt/serial')\nimport serial\nimport std_msgs\n"
-    workspace = _python(scripts__a_dot_py=added, scripts__b_dot_py="import serial\n")
+def test_uses_that_missing_folders_may_provide_are_uncertain() -> None:
+    code = "import sys\nsys.path.append('/opt/serial')\nimport serial\nimport std_msgs\n"
+    workspace = _python(scripts__a_dot_py=code, scripts__b_dot_py="import serial\n")
     assert [use.optional for use in uses(workspace, "python3-serial")] == [True, False]
     files = cmake("talker", "", "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})", a_dot_py="import serial\nimport cv2\n")
     workspace = loaded({**files, ".gitmodules": '[submodule "x"]\n\tpath = talker/deps/serial\n'})
@@ -355,7 +355,7 @@ def test_what_comes_from_folders_that_are_not_there_is_not_sure() -> None:
     assert [use.certain for use in uses(loaded(files), "ament_cmake_gtest")] == [True]
 
 
-def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:
+def test_installed_programs_named_like_tests_are_not_tests() -> None:
     launch = "import launch_ros\ndef generate_launch_description():\n    return []\n"
     files = {
         "launch__test_all_dot_launch_dot_py": launch,
@@ -379,7 +379,7 @@ def test_what_is_installed_to_be_started_is_no_test_whatever_its_name() -> None:
     }
 
 
-def test_folders_of_data_are_no_modules_that_others_import() -> None:
+def test_folders_of_data_are_not_importable_modules() -> None:
     example = {
         "example/package.xml": HEAD.format(name="example", depends="", kind="ament_python"),
         "example/setup.py": "from setuptools import find_namespace_packages, setup\nsetup(packages=find_namespace_packages())\n",

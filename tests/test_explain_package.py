@@ -1,4 +1,4 @@
-"""``ros-lint explain-package``."""
+"""``ros-lint explain-package``: its sections, as text and as JSON."""
 
 import json
 
@@ -34,7 +34,7 @@ def workspace() -> Workspace:
     return Loader(MemoryTree(FILES), ("",), TargetDistro("jazzy", "--distro")).load()
 
 
-def test_every_part_has_its_line() -> None:
+def test_every_section_has_its_rows() -> None:
     out, err, code = explain_package.run(workspace(), "robot")
     assert (err, code) == ("", 0)
     lines = [line.split() for line in out.splitlines()]
@@ -45,25 +45,25 @@ def test_every_part_has_its_line() -> None:
     assert any("affect" in line for line in lines)
 
 
-def test_text_tells_the_first_places_and_json_all() -> None:
-    found = workspace()
-    assert "more, e.g." in explain_package.run(found, "robot")[0]
-    (package,) = json.loads(explain_package.run(found, "robot", "json")[0])["packages"]
+def test_text_has_the_first_uses_and_json_has_all() -> None:
+    result = workspace()
+    assert "more, e.g." in explain_package.run(result, "robot")[0]
+    (package,) = json.loads(explain_package.run(result, "robot", "json")[0])["packages"]
     places = {(row["path"], row["line"]) for row in package["uses"] if row["name"] == "rclcpp"}
     assert places >= {("robot/talker.cpp", 1), ("robot/talker.cpp", 2), ("robot/talker.cpp", 3)}
     assert [row["name"] for row in package["installs"]] == sorted(row["name"] for row in package["installs"])
 
 
-def test_a_name_that_is_mistyped() -> None:
+def test_a_similar_name_is_suggested_for_an_unknown_package() -> None:
     out, err, code = explain_package.run(workspace(), "robots")
     assert (out, code) == ("", 2)
     assert "did you mean 'robot'?" in err
 
 
-def test_either_name_of_a_package_that_colcon_calls_otherwise() -> None:
+def test_the_name_in_the_manifest_and_that_of_colcon_are_accepted() -> None:
     renamed = {**FILES, "robot/colcon.pkg": '{"name": "vendor_robot"}\n'}
-    found = Loader(MemoryTree(renamed), ("",), TargetDistro("jazzy", "--distro")).load()
+    result = Loader(MemoryTree(renamed), ("",), TargetDistro("jazzy", "--distro")).load()
     for name in ("robot", "vendor_robot"):
-        out, err, code = explain_package.run(found, name)
+        out, err, code = explain_package.run(result, name)
         assert (err, code) == ("", 0)
         assert out.startswith("robot (ros.ament_cmake, vendor_robot to colcon), robot\n")

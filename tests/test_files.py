@@ -1,4 +1,4 @@
-"""Files that are no sources: FIFOs, devices, files without end. A run ends all the same, and the memory suffices."""
+"""FIFOs, devices and huge files: a run ends, and the memory suffices."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.base import files
-from ros_lint.base.tree import DiskTree, Machine
+from ros_lint.base.tree import DiskTree, MachineTree
 from ros_lint.knowledge.store import KnowledgeError, Store
 from tests.test_bad_input import GOOD, lint, package, rules
 
@@ -44,7 +44,7 @@ def test_files_are_read_up_to_the_limit(tmp_path: Path) -> None:
         files.read(str(tmp_path))
 
 
-def test_a_file_that_grows_is_cut(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_growing_file_is_cut_at_its_size_when_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     place = tmp_path / "f"
     place.write_bytes(b"one")
     ask = os.fstat
@@ -58,7 +58,7 @@ def test_a_file_that_grows_is_cut(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert files.read(str(place)) == b"one"
 
 
-def test_a_file_that_shrinks_is_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_shrinking_file_is_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     place = tmp_path / "f"
     place.write_bytes(b"one and more")
     ask = os.fstat
@@ -73,16 +73,16 @@ def test_a_file_that_shrinks_is_read_to_its_end(tmp_path: Path, monkeypatch: pyt
 
 
 @IRREGULAR
-@pytest.mark.parametrize("tree", [DiskTree, lambda folder: Machine()])
+@pytest.mark.parametrize("tree", [DiskTree, lambda folder: MachineTree()])
 def test_only_regular_files_are_read(tmp_path: Path, make: Callable[[Path], None], tree: Callable[[str], DiskTree]) -> None:
     make(tmp_path / "f")
-    with pytest.raises(OSError, match="not a regular file|links to a place outside of the workspace"):
+    with pytest.raises(OSError, match="not a regular file|links to a place outside the workspace"):
         tree(str(tmp_path)).read(str(tmp_path / "f") if tree is not DiskTree else "f")
 
 
 @IRREGULAR
 @pytest.mark.parametrize("name", [".gitignore", "src/.gitignore", ".gitmodules", "x.repos", "src/x.rosinstall"])
-def test_lists_that_are_no_files(tmp_path: Path, make: Callable[[Path], None], name: str) -> None:
+def test_irregular_ignore_and_repository_files_are_skipped(tmp_path: Path, make: Callable[[Path], None], name: str) -> None:
     package(tmp_path / "src" / "good", "good")
     make(tmp_path / name)
     ran = lint(tmp_path)
@@ -91,7 +91,7 @@ def test_lists_that_are_no_files(tmp_path: Path, make: Callable[[Path], None], n
 
 
 @IRREGULAR
-def test_manifests_of_an_underlay_that_are_no_files(tmp_path: Path, make: Callable[[Path], None]) -> None:
+def test_irregular_manifests_of_an_underlay_are_skipped(tmp_path: Path, make: Callable[[Path], None]) -> None:
     package(tmp_path / "ws" / "good", "good")
     for name in ("other", "sensor_msgs"):
         (tmp_path / "base" / "share" / name).mkdir(parents=True)
@@ -101,7 +101,7 @@ def test_manifests_of_an_underlay_that_are_no_files(tmp_path: Path, make: Callab
     assert rules(ran, "good/") == ["undeclared-dependency"]
 
 
-def test_data_of_the_world_without_end(tmp_path: Path) -> None:
+def test_an_endless_data_file_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "jazzy.idx").write_text("")
     os.truncate(tmp_path / "jazzy.idx", 1 << 40)
     with pytest.raises(KnowledgeError, match="MB is more than the limit"):
@@ -109,7 +109,7 @@ def test_data_of_the_world_without_end(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["x = = 1\n", "return 1\n"])
-def test_python_opens_no_file_of_the_current_folder(tmp_path: Path, text: str) -> None:
+def test_the_compiler_opens_no_file_of_the_current_folder(tmp_path: Path, text: str) -> None:
     good = package(tmp_path / "ws" / "good", "good")
     (good / "launch").mkdir()
     (good / "launch" / "a.launch.py").write_text(f"def generate_launch_description():\n    pass\n{text}")
@@ -132,14 +132,14 @@ def limited(*arguments: str | Path) -> dict[str, object]:
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
-    done = subprocess.run(command, capture_output=True, timeout=60, check=False, preexec_fn=limit)
-    assert done.stderr == b""
-    out: dict[str, object] = json.loads(done.stdout)
+    process = subprocess.run(command, capture_output=True, timeout=60, check=False, preexec_fn=limit)
+    assert process.stderr == b""
+    out: dict[str, object] = json.loads(process.stdout)
     return out
 
 
 @pytest.mark.parametrize("name", ["a.cpp", "x.db3", "x.csv", "x.pt", "core", "launch/a.launch.py", "package.xml"])
-def test_a_file_larger_than_the_memory(tmp_path: Path, name: str) -> None:
+def test_a_file_larger_than_the_memory_is_not_read(tmp_path: Path, name: str) -> None:
     package(tmp_path / "good", "good")
     place = package(tmp_path / "large", "large") / name
     with (tmp_path / "large" / "CMakeLists.txt").open("a") as script:
@@ -148,9 +148,9 @@ def test_a_file_larger_than_the_memory(tmp_path: Path, name: str) -> None:
     place.write_text("// text\n" * 1000)
     os.truncate(place, 1 << 32)
     out = limited(tmp_path)
-    found = out["findings"]
-    assert isinstance(found, list)
-    assert any(finding["rule"] == "undeclared-dependency" and finding["package"] == "good" for finding in found)
+    result = out["findings"]
+    assert isinstance(result, list)
+    assert any(finding["rule"] == "undeclared-dependency" and finding["package"] == "good" for finding in result)
     assert out["crashes"] == []
     not_checked = out["not_checked"]
     assert isinstance(not_checked, list)
@@ -159,7 +159,7 @@ def test_a_file_larger_than_the_memory(tmp_path: Path, name: str) -> None:
     assert reasons == ({f"large/{name}": "4096 MB is more than the limit of 4 MB"} if source else {})
 
 
-def test_many_files_do_not_fill_the_memory(tmp_path: Path) -> None:
+def test_many_large_files_do_not_exhaust_the_memory(tmp_path: Path) -> None:
     large = package(tmp_path / "large", "large")
     with (large / "CMakeLists.txt").open("a") as script:
         script.write("find_package(OpenCV REQUIRED)\nfind_package(nobody_knows REQUIRED)\n")

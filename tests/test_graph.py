@@ -218,23 +218,23 @@ def test_paths_are_all_simple_paths_shortest_first() -> None:
         if start == end:
             continue
         wanted = sorted(map(tuple, nx.all_simple_paths(digraph(graph), start, end)), key=lambda path: (len(path), path))
-        assert list(found.found) == wanted
+        assert list(found.paths) == wanted
         assert not found.more
         few = paths(graph.needs.__getitem__, start, end, 2)
-        assert few.found == found.found[:2]
+        assert few.paths == found.paths[:2]
         assert few.more == (len(wanted) > 2)
 
 
 def test_a_way_from_a_package_to_itself_is_a_cycle() -> None:
     graph = graph_of({"a": ["b"], "b": ["c", "a"], "c": ["a"]})
-    assert paths(graph.needs.__getitem__, "a", "a", 9).found == (("a", "b", "a"), ("a", "b", "c", "a"))
+    assert paths(graph.needs.__getitem__, "a", "a", 9).paths == (("a", "b", "a"), ("a", "b", "c", "a"))
 
 
 def test_paths_end_in_a_knot_of_cycles() -> None:
     names = [f"n{number:02}" for number in range(40)]
     graph = graph_of({name: [other for other in names if other != name] for name in names})
     found = paths(graph.needs.__getitem__, "n00", "n39", 10)
-    assert len(found.found) == 10
+    assert len(found.paths) == 10
     assert found.more
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from ros_lint.base.tree import MemoryTree
 from ros_lint.engine import registry
-from ros_lint.engine.check import Context, check
+from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.report import OFF, HiddenCount, Report
 from ros_lint.engine.selection import select
 from ros_lint.workspace.loader import Loader
@@ -37,7 +37,7 @@ def report(comment: str = "", **settings: Any) -> Report:
     }
     loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "--distro", True))
     rules = registry.load()
-    return check(loader.load(), loader.suppressions(), select(rules, **settings), Context(rules, "", "", ()))
+    return check(loader.load(), loader.suppressions(), select(rules, **settings), ReportContext(rules, "", "", ()))
 
 
 def test_findings_of_rules_that_are_off_are_counted() -> None:

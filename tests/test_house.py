@@ -1,4 +1,4 @@
-"""The order of the house: what every rule must have."""
+"""Requirements that every rule and every module has to meet."""
 
 import re
 from pathlib import Path
@@ -24,7 +24,7 @@ def test_names_and_codes_are_unique() -> None:
 
 
 @pytest.mark.parametrize("rule", RULES, ids=by_name)
-def test_papers(rule: Rule) -> None:
+def test_every_rule_has_complete_documentation(rule: Rule) -> None:
     module = ROOT / "rules" / "ros_lint_rules" / f"{rule.name.replace('-', '_')}.py"
     assert module.exists(), "a rule's file is called as the rule"
     assert re.fullmatch(r"ROS[123459]\d\d", rule.code)
@@ -35,18 +35,18 @@ def test_papers(rule: Rule) -> None:
 
 
 @pytest.mark.parametrize("rule", RULES, ids=by_name)
-def test_has_cases_for_and_against(rule: Rule) -> None:
+def test_every_rule_has_cases_with_and_without_a_finding(rule: Rule) -> None:
     wants = [bool(case.wants()) for case in read_cases(FIXTURES / f"{rule.name}.md")]
     assert any(wants), "no case in which the rule reports something"
     assert not all(wants), "no case in which the rule reports nothing"
 
 
 @pytest.mark.parametrize("rule", [rule for rule in RULES if rule.fixable], ids=by_name)
-def test_a_fix_is_shown(rule: Rule) -> None:
+def test_every_rule_with_a_fix_has_a_case_with_its_diff(rule: Rule) -> None:
     assert any(case.diff for case in read_cases(FIXTURES / f"{rule.name}.md")), "no case shows the fix as a diff"
 
 
-def test_no_case_without_a_rule() -> None:
+def test_every_file_of_cases_belongs_to_a_rule() -> None:
     assert {path.stem for path in FIXTURES.glob("*.md")} == {rule.name for rule in RULES}
 
 
@@ -76,7 +76,7 @@ def test_every_module_has_a_docstring_of_one_sentence() -> None:
     assert lacking == []
 
 
-def test_the_package_has_few_rooms() -> None:
+def test_the_package_has_few_modules_at_its_top_level() -> None:
     names = {path.name.removesuffix(".py") for path in (ROOT / "ros_lint").iterdir() if not path.name.startswith("_")} - {
         "py.typed"
     }

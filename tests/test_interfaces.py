@@ -1,4 +1,4 @@
-"""Interface definitions: which types of other packages they use."""
+"""Interface definitions: types of other packages, and errors."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def collected(path: str, text: str) -> list[tuple[str, str]]:
     return [(mention.name, str(mention.span)) for mention in facts.mentions]
 
 
-def test_fields_of_messages_services_and_actions() -> None:
+def test_fields_mention_interfaces_of_other_packages() -> None:
     text = (
         "# std_msgs/Header in a comment\n"
         "std_msgs/Header header  # geometry_msgs/Pose is none either\n"
@@ -38,11 +38,11 @@ def test_fields_of_messages_services_and_actions() -> None:
 
 
 @pytest.mark.parametrize("name", ["std_msgs/msg/Header", "std_msgs/msg/sub/Header"])
-def test_too_many_slashes_hide_no_package(name: str) -> None:
+def test_a_type_with_too_many_slashes_mentions_its_package(name: str) -> None:
     assert collected("a/msg/X.msg", f"{name} header\n") == [("std_msgs/Header", "a/msg/X.msg:1:1")]
 
 
-def test_idl() -> None:
+def test_idl_files_mention_included_and_qualified_types() -> None:
     text = (
         '#include "geometry_msgs/msg/Point.idl"\n'
         "#include <std_msgs/msg/Header.idl>\n"
@@ -79,22 +79,22 @@ def problems(data: bytes, path: str = "a/msg/X.msg") -> list[tuple[str, str]]:
         (b"# coding: latin-1\nint32 a # caf\xe9\n", "1:1", "rosidl cannot read a file that is not in UTF-8"),
     ],
 )
-def test_a_file_that_rosidl_cannot_decode(data: bytes, place: str, message: str) -> None:
+def test_a_file_in_a_wrong_encoding_is_a_problem(data: bytes, place: str, message: str) -> None:
     assert problems(data) == [(place, message)]
 
 
 @pytest.mark.parametrize("data", [b"int32 a\r\nint32 b\r\n", "int32 a # é\n".encode(), b"# encoding: ascii\nint32 a\n", b""])
-def test_a_file_that_rosidl_decodes(data: bytes) -> None:
+def test_a_file_in_utf_8_is_read_whatever_it_declares(data: bytes) -> None:
     assert problems(data) == []
 
 
-def test_line_ends_of_windows_divide() -> None:
+def test_separators_with_windows_line_ends_are_recognised() -> None:
     assert problems(b"int32 a\r\n---\r\nint32 a\r\n", "a/srv/X.srv") == []
     message = "a separator line must contain nothing but '---'"
     assert problems(b"int32 a\r\n--- \r\nint32 a\r\n", "a/srv/X.srv") == [("2:1", message)]
 
 
-def test_the_messages_that_a_definition_is_made_of() -> None:
+def test_message_types_of_a_definition() -> None:
     interface = interfaces.collect(Text("a/srv/X.srv", "Own[] own\nother/Thing[<=2] thing\nint32 A=1\n---\nOwn own\n")).interface
     assert interface is not None
     assert [(name, str(span)) for name, span in interface.types] == [
@@ -105,7 +105,7 @@ def test_the_messages_that_a_definition_is_made_of() -> None:
 
 
 @pytest.mark.parametrize(("name", "better"), [("motor_state", "MotorState"), ("Motor copy", "MotorCopy"), ("servoJ", "ServoJ")])
-def test_a_name_that_rosidl_does_not_take(name: str, better: str) -> None:
+def test_an_invalid_interface_name_is_a_problem(name: str, better: str) -> None:
     interface = interfaces.collect(Text(f"a/msg/{name}.msg", "")).interface
     assert interface is not None
     assert [problem.message for problem in interface.problems] == [

@@ -1,4 +1,4 @@
-"""What must not change what is found: how files are spelt, files that cannot be read, and the names that colcon uses."""
+"""The spelling of files, unreadable files and names for colcon do not change the findings."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_lint.analysis.finding import Confidence
 from ros_lint.base.paths import join
 from ros_lint.base.tree import DiskTree, MemoryTree, Tree
 from ros_lint.engine import registry
-from ros_lint.engine import run as engine
+from ros_lint.engine.run import find_issues
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.testing import Case, read_cases
 from ros_lint.workspace.discovery.discover import discover
@@ -38,7 +38,7 @@ def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str
     target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
     underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
     loader = Loader(tree, ("",), target, underlays=underlays)
-    checked = engine.check(loader.load(), RULES, loader.suppressions(), RULES)
+    checked = find_issues(loader.load(), RULES, loader.suppressions(), RULES)
     assert not checked.crashes
     return Counter(
         (issue.rule.name, issue.package, issue.finding.subject, issue.finding.message)
@@ -85,7 +85,7 @@ def _on_lines(tag: re.Match[str]) -> str:
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
-def test_another_spelling(case: Case) -> None:
+def test_another_spelling_of_a_file_keeps_the_findings(case: Case) -> None:
     if case.source.stem.endswith("-suppression"):
         return  # the comments are what these rules are about
     other = {path: spelt(path, text) for path, text in case.files.items()}
@@ -93,7 +93,7 @@ def test_another_spelling(case: Case) -> None:
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
-def test_a_file_that_nobody_may_read(case: Case) -> None:
+def test_an_unreadable_file_adds_no_finding(case: Case) -> None:
     before = Counter(issue[:2] for issue in found(case.tree(), case).elements())
     for path in case.files:
         if path.endswith(("package.xml", "colcon.pkg", ".gitignore", ".gitmodules")) or path == "setup.py":
@@ -108,13 +108,13 @@ OF_COLCON = ("dependency-cycle", "duplicate-package")
 
 def renamed(tree: Tree, names: Callable[[Sequence[str]], Iterable[str]]) -> dict[str, str]:
     """Return a ``colcon.pkg`` for every package with a manifest: new names, given those of all these packages."""
-    packages = [each for each in discover(tree, ("",)).packages if each.manifest and "colcon.pkg" not in each.files]
+    packages = [entry for entry in discover(tree, ("",)).packages if entry.manifest and "colcon.pkg" not in entry.files]
     new = names([package.name for package in packages])
     return {join(package.path, "colcon.pkg"): json.dumps({"name": name}) for package, name in zip(packages, new, strict=True)}
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
-def test_another_name_for_colcon(case: Case) -> None:
+def test_another_name_for_colcon_keeps_the_findings(case: Case) -> None:
     more = renamed(case.tree(), lambda names: [f"renamed_{number}" for number in range(len(names))])
     # Messages differ where colcon no longer sees a cycle.
     before, after = (
@@ -125,7 +125,7 @@ def test_another_name_for_colcon(case: Case) -> None:
 
 
 @pytest.mark.parametrize("names", [lambda names: [f"{name}_2" for name in names], lambda names: [*names[1:], names[0]]])
-def test_a_workspace_with_other_names_for_colcon(names: Callable[[Sequence[str]], list[str]]) -> None:
+def test_other_names_for_colcon_keep_the_findings_of_a_workspace(names: Callable[[Sequence[str]], list[str]]) -> None:
     """New names, and each package called as the next one."""
     demo = DiskTree(str(FIXTURES / "workspaces" / "demo"))
     files = {path: text.encode() for path, text in renamed(demo, names).items()}
@@ -133,7 +133,7 @@ def test_a_workspace_with_other_names_for_colcon(names: Callable[[Sequence[str]]
     workspaces = [Loader(demo, ("",), TargetDistro("jazzy", "test")).load(changed) for changed in ({}, files)]
     own, other = ([package.colcon_name for package in workspace.packages] for workspace in workspaces)
     assert other == names(own)
-    before, after = (engine.check(workspace, RULES, (), RULES) for workspace in workspaces)
+    before, after = (find_issues(workspace, RULES, (), RULES) for workspace in workspaces)
     assert not after.crashes
     of_ament = [[issue for issue in checked.issues if issue.rule.name not in OF_COLCON] for checked in (before, after)]
     assert of_ament[1] == of_ament[0] != []

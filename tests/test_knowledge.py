@@ -1,4 +1,4 @@
-"""What is known of the released world: every line shipped, and the answers."""
+"""The data about released packages: every shipped line, and the look-ups."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ros_lint.knowledge.store import Store
 DISTROS = [distro.name for distro in distros()]
 
 
-def test_distributions_are_told_by_what_there_is() -> None:
+def test_distributions_are_those_with_an_index() -> None:
     assert DISTROS == ["humble", "jazzy", "kilted", "lyrical", "rolling"]
     assert [distro.name for distro in distros() if distro.long_term] == ["humble", "jazzy", "lyrical"]
     assert newest_lts() == "lyrical"
@@ -28,7 +28,7 @@ def test_distributions_are_told_by_what_there_is() -> None:
     assert {platform for name in DISTROS for platform in PLATFORMS[name]} <= {*rosdep.LETTERS.values()}
 
 
-def test_a_distribution_that_comes_later_is_known_by_its_letter(tmp_path: Path) -> None:
+def test_a_later_distribution_is_classified_by_its_first_letter(tmp_path: Path) -> None:
     for name in ("marvin", "nimbus", "local"):
         (tmp_path / f"{name}.idx").write_text(index.render_file(name, "", "2028-06-01", []))
     known = {distro.name: distro.long_term for distro in distros([str(tmp_path)])}
@@ -37,7 +37,7 @@ def test_a_distribution_that_comes_later_is_known_by_its_letter(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("distro", DISTROS)
-def test_every_line_of_an_index_is_read_and_written_alike(distro: str) -> None:
+def test_every_line_of_an_index_survives_parsing_and_rendering(distro: str) -> None:
     head, lines = Store().lines(f"{distro}.idx")
     packages = [index.parse(line.split("\t")) for line in lines]
     assert [index.render(package) for package in packages] == lines
@@ -46,7 +46,7 @@ def test_every_line_of_an_index_is_read_and_written_alike(distro: str) -> None:
 
 
 @pytest.mark.parametrize("distro", DISTROS)
-def test_every_package_is_found_and_nothing_else(distro: str) -> None:
+def test_exactly_the_packages_of_the_index_are_found(distro: str) -> None:
     known = Knowledge(distro).index
     names = list(known.names())
     assert len(names) == len(known) == len({*names})
@@ -68,21 +68,21 @@ def test_every_package_is_found_and_nothing_else(distro: str) -> None:
 
 
 @pytest.mark.parametrize("distro", DISTROS)
-def test_every_line_of_what_packages_install_is_read_and_written_alike(distro: str) -> None:
+def test_every_line_of_package_contents_survives_parsing_and_rendering(distro: str) -> None:
     head, lines = Store().lines(f"{distro}.prov")
-    found = [provides.parse(line.split("\t")) for line in lines]
-    assert [provides.render(each) for each in found] == lines
-    assert provides.render_file(distro, found) == "\n".join([head, *lines, ""])
-    assert {each.name for each in found} <= {*Knowledge(distro).index.names()}
+    result = [provides.parse(line.split("\t")) for line in lines]
+    assert [provides.render(entry) for entry in result] == lines
+    assert provides.render_file(distro, result) == "\n".join([head, *lines, ""])
+    assert {entry.name for entry in result} <= {*Knowledge(distro).index.names()}
 
 
-def test_every_rosdep_key_is_read_and_written_alike() -> None:
+def test_every_rosdep_key_survives_parsing_and_rendering() -> None:
     head, lines = Store().lines("rosdep.tsv")
     keys = {line.split("\t")[0]: rosdep.parse(line.split("\t")) for line in lines}
     assert rosdep.render_file(keys) == "\n".join([head, *lines, ""])
 
 
-def test_the_maps_name_only_what_there_is() -> None:
+def test_the_maps_name_only_existing_packages_and_keys() -> None:
     """A map may serve one distribution only, but a name that no distribution and no rosdep file has is a misprint."""
     known = {name for distro in DISTROS for name in Knowledge(distro).index.names()}
     known.update(Knowledge("jazzy").rosdep.names())
@@ -113,7 +113,7 @@ def test_end_of_life_names_are_in_no_active_distribution() -> None:
     assert names.end_of_life("rclcpp") == ()
 
 
-def test_a_package_as_the_index_has_it() -> None:
+def test_an_entry_of_the_index_has_version_flags_and_dependencies() -> None:
     known = Knowledge("jazzy")
     package = known.index.get("std_msgs")
     assert package is not None
@@ -126,7 +126,7 @@ def test_a_package_as_the_index_has_it() -> None:
     assert known.elsewhere("gazebo_ros") == ("humble",)
 
 
-def test_three_answers() -> None:
+def test_a_name_exists_is_missing_or_unknowable() -> None:
     known = Known(("talker",), ("listener",), complete=True)
     assert [known.ask(name) for name in ("talker", "listener", "speaker")] == ["exists", "unknowable", "missing"]
     assert Known(("talker",)).ask("speaker") == "unknowable"
@@ -135,15 +135,15 @@ def test_three_answers() -> None:
 
 
 @pytest.mark.parametrize(("origin", "answer"), [("=", "missing"), ("b", "missing"), ("~", "unknowable")])
-def test_absence_is_claimed_from_solid_lines_only(origin: str, answer: str) -> None:
-    found = provides.parse(["demo", origin, "X:talker listener?", "Y"])
-    assert found.known("executables").ask("speaker") == answer
-    assert found.known("executables").ask("listener") == "unknowable"
-    assert found.known("modules").ask("demo") == "exists"
+def test_a_name_is_missing_only_in_a_complete_list(origin: str, answer: str) -> None:
+    result = provides.parse(["demo", origin, "X:talker listener?", "Y"])
+    assert result.known("executables").ask("speaker") == answer
+    assert result.known("executables").ask("listener") == "unknowable"
+    assert result.known("modules").ask("demo") == "exists"
     assert Knowledge("jazzy").provided("no_such_package", "executables").ask("x") == "unknowable"
 
 
-def test_what_is_known_before_and_after_tells_of_a_distribution_between(tmp_path: Path) -> None:
+def test_lists_of_earlier_and_later_distributions_complete_one_between(tmp_path: Path) -> None:
     lines = {
         "humble": ["both\t=\tX:talker old?", "later\t~\tX:talker", "silent\tb\tX:talker"],
         "jazzy": ["both\t~\tX:talker", "later\t~\tX:talker"],
@@ -163,8 +163,8 @@ def test_what_is_known_before_and_after_tells_of_a_distribution_between(tmp_path
     assert asked("both", "talker", "old", "newer", "speaker") == ["exists", "unknowable", "unknowable", "missing"]
     assert asked("later", "talker", "speaker") == ["exists", "unknowable"]
     assert asked("silent", "talker", "speaker") == ["unknowable", "missing"]
-    assert not jazzy.offered_elsewhere("both", "executables", "speaker")
-    assert jazzy.offered_elsewhere("later", "executables", "speaker")
+    assert not jazzy.may_exist_elsewhere("both", "executables", "speaker")
+    assert jazzy.may_exist_elsewhere("later", "executables", "speaker")
 
 
 def test_a_distribution_without_an_index_is_not_covered() -> None:
@@ -174,12 +174,12 @@ def test_a_distribution_without_an_index_is_not_covered() -> None:
         assert known.resolves("eigen") is (True if name == "iron" else None)
 
 
-def test_rosdep_keys_are_asked_for_the_platform_of_the_distribution() -> None:
+def test_rosdep_keys_resolve_for_the_platform_of_the_distribution() -> None:
     humble, jazzy = Knowledge("humble"), Knowledge("jazzy")
     assert (humble.resolves("eigen"), jazzy.resolves("eigen")) == (True, True)
     assert (humble.resolves("gazebo"), jazzy.resolves("gazebo")) == (True, False)
     assert jazzy.resolves("ament_python") is None
-    assert jazzy.resolving("gazebo") == ("humble",)
+    assert jazzy.distros_resolving("gazebo") == ("humble",)
     assert jazzy.rosdep.installing("uuid-dev") == ("uuid",)
     assert "python3-numpy" in jazzy.rosdep
     assert jazzy.platform == "ubuntu:noble"
@@ -202,18 +202,18 @@ def test_rosdep_keys_are_asked_for_the_platform_of_the_distribution() -> None:
         ("unistd.h", "-"),
     ],
 )
-def test_headers_by_the_longest_prefix(header: str, first: str) -> None:
+def test_headers_are_mapped_by_their_longest_prefix(header: str, first: str) -> None:
     assert Names(Store()).header(header)[0] == first
 
 
-def test_headers_that_say_nothing() -> None:
+def test_ambiguous_headers_have_no_provider() -> None:
     names = Names(Store())
     assert names.header("my_node.hpp") == names.header("ros_utils.h") == names.header("rclcpp/rclcpp.hpp") == ()
     assert names.shares("moveit")
     assert not names.shares("rclcpp")
 
 
-def test_python_modules() -> None:
+def test_python_modules_are_mapped_to_keys_and_packages() -> None:
     names = Names(Store())
     assert names.module("cv2")[0] == "python3-opencv"
     assert names.module("google.protobuf.message") == ("python3-protobuf",)
@@ -229,14 +229,14 @@ def test_python_modules() -> None:
     assert names.module("adafruit_pca9685") == ()  # of adafruit-circuitpython-pca9685, which has no key
 
 
-def test_headers_that_tell_their_key() -> None:
+def test_file_names_of_headers_are_mapped_to_keys() -> None:
     names = Names(Store())
     assert names.header("gst/app/gstappsink.h")[0] == "libgstreamer1.0-dev"
-    assert names.header_sure("gst/gst.h")  # the released packages that use it declare it, too
-    assert not names.header_sure("GLFW/glfw3.h")  # too few use it to tell
+    assert names.is_header_usually_declared("gst/gst.h")  # the released packages that use it declare it, too
+    assert not names.is_header_usually_declared("GLFW/glfw3.h")  # too few use it to tell
 
 
-def test_cmake_names() -> None:
+def test_cmake_names_are_mapped_to_keys_and_packages() -> None:
     names = Names(Store())
     assert names.cmake("Eigen3")[0] == "eigen"
     assert names.cmake("Threads") == names.cmake("UnixCommands") == (NOTHING_NEEDED,)
@@ -245,32 +245,32 @@ def test_cmake_names() -> None:
     assert names.cmake_any_case("opencv") == names.cmake("OpenCV")
 
 
-def test_loading_needs_nothing_heavy() -> None:
+def test_loading_imports_no_slow_modules() -> None:
     code = (
         "import sys; from ros_lint.knowledge import Knowledge; known = Knowledge('jazzy'); known.index.get('rclcpp');"
         "known.rosdep.get('eigen'); known.names.header('Eigen/Dense'); known.provided('rclcpp', 'executables');"
         "print(sorted({'yaml', 'json', 'networkx', 'libcst', 'importlib.metadata', 'dataclasses', 'urllib.request',"
         " 'importlib.resources', 'difflib'} & set(sys.modules)))"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert process.stdout.strip() == "[]"
 
 
-def test_what_brings_a_name_is_what_walks_to_it() -> None:
+def test_the_providers_of_a_name_are_the_packages_whose_closure_has_it() -> None:
     jazzy = index.load(Store(), "jazzy")
-    brought = {name: jazzy.brought((name,)) for name in jazzy.names()}
+    brought = {name: jazzy.closure((name,)) for name in jazzy.names()}
     for name in ("rviz2", "octomap_server", "python3-yaml", "eigen", "rclcpp"):
-        having = sum(name in found for other, found in brought.items() if other != name)
-        assert jazzy.bringing(name, len(jazzy)) == having
-        assert jazzy.bringing(name, 3) > 3 or having <= 3
+        having = sum(name in result for other, result in brought.items() if other != name)
+        assert jazzy.count_providers(name, len(jazzy)) == having
+        assert jazzy.count_providers(name, 3) > 3 or having <= 3
 
 
-def test_plugins_of_one_base_stand_together() -> None:
+def test_plugins_of_one_base_class_share_an_entry() -> None:
     line = "demo\t=\tP:nav=demo::A,demo::B rviz=demo/C"
-    found = provides.parse(line.split("\t"))
-    assert found.known("plugins").names == ("nav=demo::A", "nav=demo::B", "rviz=demo/C")
-    assert provides.render(found) == line
+    result = provides.parse(line.split("\t"))
+    assert result.known("plugins").names == ("nav=demo::A", "nav=demo::B", "rviz=demo/C")
+    assert provides.render(result) == line
 
 
-def test_launch_files_are_followed_for_the_distributions_that_there_are_data_of() -> None:
+def test_launch_files_are_interpreted_for_the_distributions_with_an_index() -> None:
     assert tuple(distro.name for distro in distros()) == DISTRIBUTIONS

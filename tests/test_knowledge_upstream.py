@@ -1,4 +1,4 @@
-"""From upstream's manifests, indexes and rules of rosdep to the data: manifests against catkin_pkg, the rest line by line."""
+"""Data generated from manifests (compared with catkin_pkg), indexes of rosdistro and rules of rosdep."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ BODIES = [
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # catkin_pkg and pyparsing
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("distro", ["humble", "jazzy"])
-def test_a_manifest_gives_what_catkin_pkg_reads(body: str, distro: str) -> None:
+def test_the_entry_of_a_manifest_agrees_with_catkin_pkg(body: str, distro: str) -> None:
     text = MANIFEST.format(name="demo", body=body)
     ours = describe(manifests.collect(Text("package.xml", text)), context(distro))
     theirs = parse_package_string(text)
@@ -138,7 +138,7 @@ overlaid\t1.2.3\tk
 
 
 @pytest.mark.parametrize("packed", [False, True])
-def test_upstreams_files_become_an_index(packed: bool, tmp_path: Path) -> None:
+def test_files_of_rosdistro_become_an_index(packed: bool, tmp_path: Path) -> None:
     to = tmp_path / "data"
     (written,) = command.refresh(_upstream(tmp_path / "up", packed=packed), [], str(to), date="2026-09-01")
     assert (to / "jazzy.idx").read_text() == EXPECTED
@@ -151,13 +151,13 @@ def test_upstreams_files_become_an_index(packed: bool, tmp_path: Path) -> None:
     assert known.index.runtime("arm") == ()
 
 
-def test_an_index_by_address(tmp_path: Path) -> None:
+def test_an_index_is_read_from_a_url(tmp_path: Path) -> None:
     address = Path(_upstream(tmp_path)).as_uri()
     assert {source.cache for source in upstream.sources(address).values()} == {(tmp_path / "cache.yaml").as_uri()}
     assert len(list(upstream.packages(upstream.sources(address)["jazzy"]))) == 9
 
 
-def test_a_second_refresh_says_what_has_changed(tmp_path: Path) -> None:
+def test_a_second_refresh_prints_the_numbers_of_changed_lines(tmp_path: Path) -> None:
     source = _upstream(tmp_path / "up")
     command.refresh(source, ["jazzy"], str(tmp_path), date="2026-09-01")
     file = tmp_path / "up/jazzy/distribution.yaml"
@@ -167,7 +167,7 @@ def test_a_second_refresh_says_what_has_changed(tmp_path: Path) -> None:
     assert str(written) == f"{tmp_path}/jazzy.idx: 9 lines, 1 added, 1 removed, 2 changed"
 
 
-def test_the_command_says_what_it_wrote(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_prints_the_files_that_it_wrote(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     options = {"action": "refresh", "source": _upstream(tmp_path / "up"), "distro": ["jazzy"], "rosdep": [], "to": ""}
     assert command.run(options) == 0
     assert "ros-lint/index/jazzy.idx: 9 lines" in capsys.readouterr().out
@@ -189,7 +189,7 @@ def test_the_command_says_what_it_wrote(tmp_path: Path, capsys: pytest.CaptureFi
         ("jazzy/distribution.yaml", "{repositories: []}", "has no mapping 'repositories'"),
     ],
 )
-def test_what_cannot_be_refreshed_is_named_and_leaves_the_old(
+def test_an_unreadable_source_is_reported_and_keeps_the_old_data(
     file: str, content: str | None, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source = _upstream(tmp_path / "up")
@@ -201,22 +201,20 @@ def test_what_cannot_be_refreshed_is_named_and_leaves_the_old(
         path.write_bytes(content.encode("latin-1"))
     options = {"action": "refresh", "source": source, "distro": ["jazzy"], "rosdep": [], "to": str(to)}
     assert command.run(options) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("ros-lint: ")
-    assert says in said
+    output = capsys.readouterr().err
+    assert output.startswith("ros-lint: ")
+    assert says in output
     assert [path.name for path in to.iterdir()] == ["jazzy.idx"]
     assert (to / "jazzy.idx").read_text() == EXPECTED
 
 
-def test_an_unknown_distribution_is_answered_with_those_that_there_are(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unknown_distribution_is_reported_with_the_available_ones(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     options = {"action": "refresh", "source": _upstream(tmp_path), "distro": ["jazy"], "rosdep": [], "to": str(tmp_path)}
     assert command.run(options) == 2
     assert "has no distribution 'jazy'; available: foxy, jazzy, noetic" in capsys.readouterr().err
 
 
-def test_only_addresses_of_files_and_the_web_are_followed() -> None:
+def test_only_file_and_http_urls_are_read() -> None:
     with pytest.raises(KnowledgeError, match="only http, https and file"):
         upstream.read("ftp://example.org/index-v4.yaml")
 
@@ -233,12 +231,12 @@ one_word: {ubuntu: name}
 """
 
 
-def test_rosdep_rules_are_read_as_rosdep_reads_them() -> None:
+def test_rosdep_rules_resolve_as_in_rosdep() -> None:
     """What rosdep's own resolver says of these rules (REP 111), written down."""
-    found = rosdep_rules.keys([("osx", {"only_osx": {"osx": {}}, "both": {"osx": {"homebrew": {"packages": ["q"]}}}}),
+    result = rosdep_rules.keys([("osx", {"only_osx": {"osx": {}}, "both": {"osx": {"homebrew": {"packages": ["q"]}}}}),
                                ("base", {**yaml.safe_load(RULES), "both": {"ubuntu": ["b"]}}),
                                ("python", {"apt_everywhere": {"fedora": ["late"]}})])  # fmt: skip
-    lines = {name: rosdep.render(key).split("\t")[1:] for name, key in found.items()}
+    lines = {name: rosdep.render(key).split("\t")[1:] for name, key in result.items()}
     assert lines == {
         "apt_everywhere": ["jnrbt", "a b"],
         "by_version": ["jr", "j rest"],
@@ -261,13 +259,13 @@ def test_rosdep_rules_are_refreshed_with_an_index(tmp_path: Path) -> None:
     written = command.refresh(
         _upstream(tmp_path / "up"), ["jazzy"], str(tmp_path / "to"), [str(tmp_path / "rules.yaml")], "2026-09-01"
     )
-    assert [Path(each.path).name for each in written] == ["jazzy.idx", "rosdep.tsv"]
+    assert [Path(entry.path).name for entry in written] == ["jazzy.idx", "rosdep.tsv"]
     assert Knowledge("jazzy", [str(tmp_path / "to")]).resolves("by_version") is False
 
 
-def test_the_command_line_leads_to_the_command(tmp_path: Path) -> None:
+def test_the_command_line_runs_the_command(tmp_path: Path) -> None:
     to = str(tmp_path)
     words = [sys.executable, "-m", "ros_lint", "index", "refresh", "--from", _upstream(tmp_path), "--distro", "jazzy", "--to", to]
-    done = subprocess.run(words, capture_output=True, text=True, check=True)
-    assert done.stdout.startswith(f"{to}/jazzy.idx: 9 lines")
+    process = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert process.stdout.startswith(f"{to}/jazzy.idx: 9 lines")
     assert (tmp_path / "jazzy.idx").read_text().splitlines()[1:] == EXPECTED.splitlines()[1:]

@@ -8,8 +8,8 @@ import pytest
 
 from ros_lint.base.tree import MemoryTree
 from ros_lint.cli import main as cli
-from ros_lint.cli.commands.launch.launch import Asked, answer, understood
-from ros_lint.cli.commands.launch.lookup import LookUp
+from ros_lint.cli.commands.launch.launch import LaunchRequest, answer, parse_launch_request
+from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.session import UsageError
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
@@ -34,26 +34,27 @@ def xml(body: str) -> str:
 def ask(
     files: Mapping[str, str], *words: str, form: str = "tree", underlay: Mapping[str, str] | None = None
 ) -> tuple[str, str, int]:
-    """Return what the command says about a workspace in memory."""
+    """Return standard output, standard error and exit code of the command for a workspace in memory."""
     tree = MemoryTree(files)
-    below = MemoryTree({f"opt/{path}": content for path, content in (underlay or {}).items()})
-    underlays = (in_tree(below, "opt", "jazzy"),) if underlay else ()
+    underlay_tree = MemoryTree({f"opt/{path}": content for path, content in (underlay or {}).items()})
+    underlays = (in_tree(underlay_tree, "opt", "jazzy"),) if underlay else ()
     loader = Loader(tree, ("",), TargetDistro("jazzy", "--distro"), underlays=underlays)
-    asked = understood(words, lambda path: path in files)
+    request = parse_launch_request(words, lambda path: path in files)
     workspace = loader.load()
-    return answer(workspace, LookUp(workspace, tree), asked, "" if asked.package else asked.file, form)
+    return answer(workspace, LaunchFileLookup(workspace, tree), request, "" if request.package else request.file, form)
 
 
-def launch(body: str, *given: str) -> list[str]:
-    """Return the lines about one launch file, without its name and the count."""
-    out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", *given)
+def launch(body: str, *arguments: str) -> list[str]:
+    """Return the output lines for one launch file, without its name and the summary."""
+    output, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", *arguments)
     assert (err, code) == ("", 0)
-    return [line.strip() for line in out.splitlines()[1:-2]]
+    return [line.strip() for line in output.splitlines()[1:-2]]
 
 
-def test_words() -> None:
-    assert understood(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == Asked("", "a.py", {"x": "1", "y": "", "z": "a:=b"})
-    assert understood(["p", "x:=1", "a.py"], lambda _: False) == Asked("p", "a.py", {"x": "1"})
+def test_command_line_words_are_parsed() -> None:
+    arguments = {"x": "1", "y": "", "z": "a:=b"}
+    assert parse_launch_request(["a.py", "x:=1", "y:=", "z:=a:=b"], lambda _: True) == LaunchRequest("", "a.py", arguments)
+    assert parse_launch_request(["p", "x:=1", "a.py"], lambda _: False) == LaunchRequest("p", "a.py", {"x": "1"})
 
 
 @pytest.mark.parametrize(
@@ -66,12 +67,12 @@ def test_words() -> None:
         (["there.py", ":=1"], "argument without a name: ':=1'"),
     ],
 )
-def test_words_without_sense(words: list[str], message: str) -> None:
+def test_invalid_command_line_words_are_rejected(words: list[str], message: str) -> None:
     with pytest.raises(UsageError, match=message.replace("?", r"\?")):
-        understood(words, lambda path: path == "there.py")
+        parse_launch_request(words, lambda path: path == "there.py")
 
 
-def test_what_groups_set_holds_for_the_nodes_in_them() -> None:
+def test_settings_of_a_group_apply_to_its_nodes() -> None:
     assert launch(
         '<group><push_ros_namespace namespace="left"/><set_parameter name="rate" value="5"/><set_remap from="a" to="b"/>'
         '<set_env name="X" value="1"/><node pkg="p" exec="x" name="n"><param name="own" value="2"/><env name="Y" value="3"/>'
@@ -88,7 +89,7 @@ def test_what_groups_set_holds_for_the_nodes_in_them() -> None:
     ]
 
 
-def test_what_an_unscoped_group_sets_goes_on() -> None:
+def test_settings_of_an_unscoped_group_stay_in_effect() -> None:
     assert launch('<group scoped="false"><set_env name="X" value="1"/></group><executable cmd="ls -l" cwd="/tmp"/>') == [
         "process ls -l",
         "environment X = 1",
@@ -96,13 +97,13 @@ def test_what_an_unscoped_group_sets_goes_on() -> None:
     ]
 
 
-def test_what_is_appended_to_a_variable() -> None:
+def test_appended_environment_variables_are_shown() -> None:
     assert launch(
         '<set_env name="X" value="1"/><append_env name="X" value="2"/><append_env name="Y" value="3"/><executable cmd="ls"/>'
     ) == ["process ls", "environment X = 1:2", "environment Y = ?:3"]
 
 
-def test_a_variable_that_is_set_is_known() -> None:
+def test_a_variable_set_by_the_file_is_known() -> None:
     assert launch('<set_env name="X" value="1"/><node pkg="p" exec="x$(env X)"/><node pkg="p" exec="y$(env Z 2)"/>') == [
         "node p x1",
         "environment X = 1",
@@ -111,23 +112,23 @@ def test_a_variable_that_is_set_is_known() -> None:
     ]
 
 
-def test_lists_of_parameters_are_filled_in() -> None:
+def test_configurations_in_parameter_lists_are_replaced() -> None:
     assert launch(
         '<arg name="a" default="1"/><node pkg="p" exec="x"><param name="l" value="$(var a);x,y" value-sep=";"/></node>'
     ) == ["argument a = 1", "node p x", "parameter l = [1, 'x,y']"]
 
 
-def test_what_it_depends_on() -> None:
+def test_unknown_conditions_are_shown() -> None:
     assert launch('<node pkg="p" exec="x" if="$(env SIM)"/>') == ["node p x", "if $(env SIM)"]
     assert launch('<node pkg="p" exec="x" unless="$(env SIM)"/>') == ["node p x", "unless $(env SIM)"]
 
 
-def test_conditions_of_logic_are_said_as_they_are_written() -> None:
+def test_logical_conditions_are_shown_as_written() -> None:
     condition = "$(and $(env SIM) $(not $(equals $(env SHAPE) 'a b')))"
     assert launch(f'<node pkg="p" exec="x" if="{condition}"/>') == ["node p x", f"if {condition}"]
 
 
-def test_a_branch_of_which_nothing_is_known_is_perhaps() -> None:
+def test_a_branch_with_an_unknown_condition_is_uncertain() -> None:
     python = """
 from launch import LaunchDescription
 from launch_ros.actions import Node
@@ -137,16 +138,16 @@ def generate_launch_description():
     node = Node(package="p", executable="x", parameters=[answer(), answer()])
     return LaunchDescription([node] if answer() else [])
 """
-    out, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
-    assert [line.strip() for line in out.splitlines()[1:5]] == [
+    output, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
+    assert [line.strip() for line in output.splitlines()[1:5]] == [
         "node p x",
-        "conditional: the condition is not known",
+        "conditional: the condition is unknown",
         "unknown parameters",
         "? it is computed in a way that ros-lint cannot follow",
     ]
 
 
-def test_components_and_their_containers() -> None:
+def test_components_are_shown_with_their_containers() -> None:
     assert launch(
         '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="n">'
         '<composable_node pkg="p" plugin="p::A" name="a"/></node_container>'
@@ -165,7 +166,7 @@ def test_components_and_their_containers() -> None:
     ]
 
 
-def test_why_something_is_not_known() -> None:
+def test_reasons_of_unknown_values_are_shown() -> None:
     lines = launch('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
     assert lines == [
         "node p ?",
@@ -180,16 +181,16 @@ INNER = xml(
 )
 
 
-def included(body: str, *given: str) -> tuple[str, str, int]:
+def included(body: str, *arguments: str) -> tuple[str, str, int]:
     outer = xml(f'<include file="$(find-pkg-share p)/launch/inner.launch.xml">{body}</include>')
     files = package("p", {"launch/a.launch.xml": outer, "launch/inner.launch.xml": INNER})
-    return ask(files, "p/launch/a.launch.xml", *given)
+    return ask(files, "p/launch/a.launch.xml", *arguments)
 
 
-def test_an_include_is_followed() -> None:
-    out, err, code = included('<arg name="robot" value="r"/>')
+def test_an_include_is_expanded() -> None:
+    output, err, code = included('<arg name="robot" value="r"/>')
     assert (err, code) == ("", 0)
-    assert out.splitlines() == [
+    assert output.splitlines() == [
         "p/launch/a.launch.xml",
         "  include $(find-pkg-share p)/launch/inner.launch.xml",
         "    argument robot = r",
@@ -199,7 +200,7 @@ def test_an_include_is_followed() -> None:
     ]
 
 
-def test_an_include_without_a_required_argument() -> None:
+def test_an_include_without_a_required_argument_is_reported() -> None:
     _, err, code = included("")
     assert (err, code) == (
         "ros-lint: p/launch/a.launch.xml:2:2: the argument 'robot' is not passed here and has no default at "
@@ -209,21 +210,21 @@ def test_an_include_without_a_required_argument() -> None:
     assert included("", "robot:=r")[1:] == ("", 0)
 
 
-def test_a_value_that_is_no_choice() -> None:
+def test_a_value_that_is_not_a_choice_is_reported() -> None:
     _, err, code = included('<arg name="robot" value="r"/><arg name="mode" value="c"/>')
     refused = "'c' is not a valid choice for the argument 'mode'; use one of a, b"
     assert (err, code) == (f"ros-lint: p/launch/inner.launch.xml:2:21: {refused}\n", 1)
     assert included('<arg name="robot" value="r"/><arg name="mode" value="b"/>')[1:] == ("", 0)
 
 
-def test_a_required_argument_of_the_file_itself() -> None:
+def test_a_missing_required_argument_is_reported() -> None:
     files = package("p", {"launch/a.launch.xml": INNER})
     _, err, code = ask(files, "p", "a.launch.xml")
     assert (err, code) == ("ros-lint: p/launch/a.launch.xml:2:2: the argument 'robot' has no default; pass robot:=VALUE\n", 1)
     assert ask(files, "p", "a.launch.xml", "robot:=r")[1:] == ("", 0)
 
 
-def test_an_argument_that_nobody_takes() -> None:
+def test_an_undeclared_argument_is_rejected() -> None:
     files = package("p", {"launch/a.launch.xml": INNER})
     with pytest.raises(UsageError, match=r"a.launch.xml has no argument 'robt'; did you mean '?robot'?\?"):
         ask(files, "p", "a.launch.xml", "robt:=r")
@@ -231,17 +232,17 @@ def test_an_argument_that_nobody_takes() -> None:
         ask(files, "p", "a.launch.xml", "colour:=r", "robot:=r")
 
 
-def test_an_argument_that_a_file_out_of_sight_may_take() -> None:
+def test_an_undeclared_argument_is_accepted_if_an_unread_file_may_declare_it() -> None:
     body = '<include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py"/>'
     _, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", "map:=m")
     assert (err, code) == ("ros-lint: no launch file that can be read uses the argument 'map'; it declares none\n", 0)
 
 
-def test_an_argument_that_is_used_but_not_declared() -> None:
+def test_an_argument_that_is_read_but_not_declared_is_accepted() -> None:
     assert launch('<node pkg="p" exec="$(var which)"/>', "which:=w") == ["node p w"]
 
 
-def test_includes_in_a_circle() -> None:
+def test_cyclic_includes_are_reported() -> None:
     a = xml('<include file="$(dirname)/b.launch.xml"/>')
     b = xml('<include file="$(find-pkg-share p)/launch/a.launch.xml"/>')
     files = package("p", {"launch/a.launch.xml": a, "launch/b.launch.xml": b})
@@ -252,50 +253,50 @@ def test_includes_in_a_circle() -> None:
     )
 
 
-def test_a_file_that_includes_itself_until_a_condition_ends_it() -> None:
+def test_a_recursive_include_with_an_end_condition_is_expanded() -> None:
     body = (
         '<arg name="n" default="2"/><node pkg="p" exec="x$(var n)"/>'
         '<include file="$(dirname)/a.launch.xml" if="$(eval \'$(var n) > 0\')">'
         '<arg name="n" value="$(eval \'$(var n) - 1\')"/></include>'
     )
-    out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
+    output, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
     assert (err, code) == ("", 0)
-    assert [line.split()[-1] for line in out.splitlines() if "node" in line and "include" not in line] == ["x2", "x1", "x0"]
+    assert [line.split()[-1] for line in output.splitlines() if "node" in line and "include" not in line] == ["x2", "x1", "x0"]
 
 
-def test_a_file_that_is_refused() -> None:
+def test_a_rejected_file_is_reported() -> None:
     files = package("p", {"launch/a.launch.xml": xml('<nod pkg="p" exec="x"/>')})
     _, err, code = ask(files, "p", "a.launch.xml")
     assert (err, code) == ("ros-lint: p/launch/a.launch.xml:2:2: there is no tag <nod>\n", 1)
 
 
-def test_an_include_that_is_not_there() -> None:
+def test_a_missing_included_file_is_reported() -> None:
     files = package("p", {"launch/a.launch.xml": xml('<include file="$(find-pkg-share p)/launch/b.launch.xml"/>')})
-    out, err, code = ask(files, "p", "a.launch.xml")
-    assert "not followed: 'p' does not install 'launch/b.launch.xml'" in out
+    output, err, code = ask(files, "p", "a.launch.xml")
+    assert "not followed: 'p' does not install 'launch/b.launch.xml'" in output
     assert code == 1
     assert err.endswith("$(find-pkg-share p)/launch/b.launch.xml: 'p' does not install 'launch/b.launch.xml'\n")
 
 
-def test_includes_of_an_underlay_are_followed() -> None:
+def test_includes_of_an_underlay_are_expanded() -> None:
     underlay = {
         "share/ament_index/resource_index/packages/below": "",
         "share/below/package.xml": manifest_text("below"),
         "share/below/launch/b.launch.xml": xml('<node pkg="below" exec="x"/>'),
     }
     files = package("p", {"launch/a.launch.xml": xml('<include file="$(find-pkg-share below)/launch/b.launch.xml"/>')})
-    out, err, code = ask(files, "p", "a.launch.xml", underlay=underlay)
+    output, err, code = ask(files, "p", "a.launch.xml", underlay=underlay)
     assert (err, code) == ("", 0)
-    assert "    node below x" in out.splitlines()
-    out, _, code = ask(files, "below", "b.launch.xml", underlay=underlay)
-    assert (out.splitlines()[0], out.splitlines()[1], code) == ("opt/share/below/launch/b.launch.xml", "  node below x", 0)
+    assert "    node below x" in output.splitlines()
+    output, _, code = ask(files, "below", "b.launch.xml", underlay=underlay)
+    assert (output.splitlines()[0], output.splitlines()[1], code) == ("opt/share/below/launch/b.launch.xml", "  node below x", 0)
 
 
-def test_an_include_of_a_released_package_is_not_followed() -> None:
+def test_an_include_of_a_released_package_is_not_expanded() -> None:
     body = '<include file="$(find-pkg-share nav2_bringup)/launch/bringup_launch.py"/>'
-    out, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
+    output, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
     assert (err, code) == ("", 0)
-    assert "not followed: 'nav2_bringup' is neither in the workspace nor in an underlay" in out
+    assert "not followed: 'nav2_bringup' is neither in the workspace nor in an underlay" in output
 
 
 @pytest.mark.parametrize(
@@ -310,7 +311,7 @@ def test_an_include_of_a_released_package_is_not_followed() -> None:
         (("p/launch/helper.py",), r"p/launch/helper.py: not a launch file: it has no generate_launch_description\(\)"),
     ],
 )
-def test_a_launch_file_that_cannot_be_found(words: tuple[str, ...], message: str) -> None:
+def test_an_unknown_launch_file_is_rejected(words: tuple[str, ...], message: str) -> None:
     files = package(
         "p",
         {
@@ -326,28 +327,28 @@ def test_a_launch_file_that_cannot_be_found(words: tuple[str, ...], message: str
         ask(files, *words)
 
 
-def test_json_holds_the_same() -> None:
+def test_json_contains_the_same_as_the_tree() -> None:
     inner = xml('<node pkg="p" exec="x" if="$(env SIM)"/>')
     include = '<include file="$(dirname)/inner.launch.xml"/>'
     outer = xml(f'<arg name="v" default="1"/>{include}<node pkg="p" exec="y$(var v)" name="n"/>')
     files = package("p", {"launch/a.launch.xml": outer, "launch/inner.launch.xml": inner})
-    out, _, code = ask(files, "p", "a.launch.xml", "v:=2", form="json")
-    document = json.loads(out)
+    output, _, code = ask(files, "p", "a.launch.xml", "v:=2", form="json")
+    document = json.loads(output)
     assert (code, document["schema_version"], document["file"]) == (0, 1, "p/launch/a.launch.xml")
-    assert [(one["name"], one["values"], one["given"]) for one in document["arguments"]] == [("v", ["2"], True)]
-    inside, node = document["starts"]
-    assert (inside["kind"], inside["follows"]) == ("include", "p/launch/inner.launch.xml")
-    assert [(one["target"], one["certain"], one["when"]) for one in inside["starts"]] == [(["x"], False, ["if $(env SIM)"])]
+    assert [(item["name"], item["values"], item["given"]) for item in document["arguments"]] == [("v", ["2"], True)]
+    nested, node = document["starts"]
+    assert (nested["kind"], nested["follows"]) == ("include", "p/launch/inner.launch.xml")
+    assert [(item["target"], item["certain"], item["when"]) for item in nested["starts"]] == [(["x"], False, ["if $(env SIM)"])]
     assert (node["target"], node["name"], node["namespace"], node["line"]) == (["y2"], ["n"], ["/"], 2)
 
 
-def test_mermaid_has_every_file_and_node() -> None:
+def test_mermaid_contains_every_file_and_node() -> None:
     inner = xml('<node pkg="p" exec="x" if="$(env SIM)"/>')
     files = package(
         "p", {"launch/a.launch.xml": xml('<include file="$(dirname)/inner.launch.xml"/>'), "launch/inner.launch.xml": inner}
     )
-    out, _, _ = ask(files, "p", "a.launch.xml", form="mermaid")
-    assert out.splitlines() == [
+    output, _, _ = ask(files, "p", "a.launch.xml", form="mermaid")
+    assert output.splitlines() == [
         "flowchart LR",
         '  n0["a.launch.xml"]',
         '  n1["inner.launch.xml"]',
@@ -357,7 +358,9 @@ def test_mermaid_has_every_file_and_node() -> None:
     ]
 
 
-def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_command_runs_from_the_command_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     for path, content in package("p", {"launch/a.launch.xml": INNER}).items():
         place = tmp_path / "src" / path
         place.parent.mkdir(parents=True, exist_ok=True)

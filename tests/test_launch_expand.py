@@ -1,4 +1,4 @@
-"""What launch files start with given arguments, through their includes."""
+"""Expansion of launch files with arguments, through their includes."""
 
 from collections.abc import Mapping
 
@@ -20,9 +20,9 @@ def python(actions: str, path: str = "pkg/launch/a.launch.py") -> LaunchFile:
     )[1]
 
 
-def run(file: LaunchFile, given: Mapping[str, str] | None = None, **files: LaunchFile) -> Expansion:
-    by_path = {f"/x/{name}.launch.xml": one for name, one in files.items()}
-    return expand(file, given or {}, by_path.get)
+def run(file: LaunchFile, arguments: Mapping[str, str] | None = None, **files: LaunchFile) -> Expansion:
+    by_path = {f"/x/{name}.launch.xml": started for name, started in files.items()}
+    return expand(file, arguments or {}, by_path.get)
 
 
 def short(started: Started) -> str:
@@ -30,14 +30,14 @@ def short(started: Started) -> str:
     return " ".join(word for word in words if word) + ("" if started.certain else " ?")
 
 
-def said(expansion: Expansion) -> list[str]:
-    return [short(one) for one in expansion.started if one.kind != "include"]
+def summaries(expansion: Expansion) -> list[str]:
+    return [short(started) for started in expansion.started if started.kind != "include"]
 
 
-def test_defaults_and_given_arguments() -> None:
+def test_passed_arguments_override_defaults() -> None:
     file = xml('<arg name="which" default="one"/><node pkg="p" exec="$(var which)"/>')
-    assert said(run(file)) == ["node p one"]
-    assert said(run(file, {"which": "two"})) == ["node p two"]
+    assert summaries(run(file)) == ["node p one"]
+    assert summaries(run(file, {"which": "two"})) == ["node p two"]
 
 
 def test_conditions_have_three_values() -> None:
@@ -47,29 +47,29 @@ def test_conditions_have_three_values() -> None:
         '<node pkg="p" exec="b" unless="$(var sim)"/>'
         '<node pkg="p" exec="c" if="$(env NOT_KNOWN)"/>'
     )
-    assert said(run(file)) == ["node p b", "node p c ?"]
-    assert said(run(file, {"sim": "true"})) == ["node p a", "node p c ?"]
+    assert summaries(run(file)) == ["node p b", "node p c ?"]
+    assert summaries(run(file, {"sim": "true"})) == ["node p a", "node p c ?"]
 
 
-def test_logic_in_logic_is_worked_out() -> None:
+def test_nested_logic_is_evaluated() -> None:
     file = xml(
         '<arg name="a" default="true"/><arg name="mock" default="false"/>'
         '<node pkg="p" exec="x" if="$(and $(var a) $(not $(var mock)))"/>'
         """<node pkg="p" exec="y" if="$(or $(equals $(var mock) 'it\\'s') $(if $(not $(var a)) true false))"/>"""
     )
-    assert said(run(file)) == ["node p x"]
-    assert said(run(file, {"mock": "true"})) == []
-    assert said(run(file, {"a": "false"})) == ["node p y"]
+    assert summaries(run(file)) == ["node p x"]
+    assert summaries(run(file, {"mock": "true"})) == []
+    assert summaries(run(file, {"a": "false"})) == ["node p y"]
     node = python(
         "DeclareLaunchArgument('a', default_value='true'), DeclareLaunchArgument('b', default_value='false'),"
         "Node(package='p', executable='x', condition=IfCondition("
         "AndSubstitution(LaunchConfiguration('a'), NotSubstitution(LaunchConfiguration('b')))))"
     )
-    assert said(run(node)) == ["node p x"]
-    assert said(run(node, {"b": "true"})) == []
+    assert summaries(run(node)) == ["node p x"]
+    assert summaries(run(node, {"b": "true"})) == []
 
 
-def test_an_executable_by_branch_is_the_one_of_that_branch() -> None:
+def test_an_executable_chosen_by_a_branch_belongs_to_that_branch() -> None:
     file = collect(
         "pkg/launch/a.launch.py",
         """
@@ -90,11 +90,11 @@ def generate_launch_description():
     return LaunchDescription([DeclareLaunchArgument("sim", default_value="false"), OpaqueFunction(function=setup)])
 """,
     )[1]
-    assert said(expand(file, {}, lambda _: None, "jazzy")) == ["node real driver", "node p new"]
-    assert said(expand(file, {"sim": "true"}, lambda _: None, "foxy")) == ["node fake simulator", "node p old"]
+    assert summaries(expand(file, {}, lambda _: None, "jazzy")) == ["node real driver", "node p new"]
+    assert summaries(expand(file, {"sim": "true"}, lambda _: None, "foxy")) == ["node fake simulator", "node p old"]
 
 
-def test_comparisons_with_and_and_or_are_worked_out() -> None:
+def test_comparisons_joined_by_and_and_or_are_evaluated() -> None:
     file = collect(
         "pkg/launch/a.launch.py",
         """
@@ -117,31 +117,31 @@ def generate_launch_description():
     return LaunchDescription([*arguments, OpaqueFunction(function=setup)])
 """,
     )[1]
-    assert said(run(file)) == ["node p driver", "node p motors"]
-    assert said(run(file, {"sim": "True", "robot": ""})) == ["node p simulator"]
+    assert summaries(run(file)) == ["node p driver", "node p motors"]
+    assert summaries(run(file, {"sim": "True", "robot": ""})) == ["node p simulator"]
 
 
-def test_a_required_argument_is_not_known() -> None:
+def test_a_required_argument_that_is_not_passed_is_unknown() -> None:
     file = xml('<arg name="sim"/><node pkg="p" exec="a" if="$(var sim)"/><node pkg="p" exec="b"/>')
-    assert said(run(file)) == ["node p a ?", "node p b"]
+    assert summaries(run(file)) == ["node p a ?", "node p b"]
 
 
-def test_python_is_followed_in_the_same_way() -> None:
+def test_python_launch_files_are_expanded_like_xml() -> None:
     file = python(
         "DeclareLaunchArgument('sim', default_value='true'), "
         "Node(package='p', executable='a', condition=IfCondition(LaunchConfiguration('sim'))), "
         "Node(package='p', executable=['b_', LaunchConfiguration('sim')])"
     )
-    assert said(run(file)) == ["node p a", "node p b_true"]
-    assert said(run(file, {"sim": "false"})) == ["node p b_false"]
+    assert summaries(run(file)) == ["node p a", "node p b_true"]
+    assert summaries(run(file, {"sim": "false"})) == ["node p b_false"]
 
 
 def test_groups_keep_their_values_and_namespaces_unless_unscoped() -> None:
     body = '<arg name="v" default="out"/><group{}><push-ros-namespace namespace="n"/><let name="v" value="in"/></group>'
     node = '<node pkg="p" exec="$(var v)"/>'
-    for scoped, wanted, namespace in (("", "out", ("",)), (' scoped="false"', "in", ("n",))):
+    for scoped, expected, namespace in (("", "out", ("",)), (' scoped="false"', "in", ("n",))):
         (started,) = run(xml(body.format(scoped) + node)).started
-        assert (started.target, started.namespace) == ((wanted,), namespace)
+        assert (started.target, started.namespace) == ((expected,), namespace)
 
 
 def test_namespaces_are_joined() -> None:
@@ -149,47 +149,47 @@ def test_namespaces_are_joined() -> None:
         '<group><push-ros-namespace namespace="a"/><group><push-ros-namespace namespace="b"/>'
         '<node pkg="p" exec="x" namespace="c"/><node pkg="p" exec="y" namespace="/d"/></group></group><node pkg="p" exec="z"/>'
     )
-    assert [one.namespace for one in run(file).started] == [("a/b/c",), ("/d",), ("",)]
+    assert [started.namespace for started in run(file).started] == [("a/b/c",), ("/d",), ("",)]
 
 
-def test_includes_share_values_and_say_what_is_missing() -> None:
+def test_includes_share_values_and_report_missing_arguments() -> None:
     inner = xml('<arg name="robot"/><arg name="speed" default="1"/><node pkg="p" exec="$(var robot)_$(var speed)"/>')
     outer = '<include file="/x/inner.launch.xml">{}</include>'
-    found = run(xml(outer.format('<arg name="robot" value="r"/>')), inner=inner)
-    assert (said(found), found.missing, found.complete) == (["node p r_1"], (), True)
-    assert [one.depth for one in found.started] == [0, 1]
-    found = run(xml(outer.format('<arg name="speed" value="2"/>')), inner=inner)
-    assert [one.name for one in found.missing] == ["robot"]
+    expansion = run(xml(outer.format('<arg name="robot" value="r"/>')), inner=inner)
+    assert (summaries(expansion), expansion.missing, expansion.complete) == (["node p r_1"], (), True)
+    assert [started.depth for started in expansion.started] == [0, 1]
+    expansion = run(xml(outer.format('<arg name="speed" value="2"/>')), inner=inner)
+    assert [started.name for started in expansion.missing] == ["robot"]
 
 
-def test_what_an_unscoped_include_sets_stays_set() -> None:
+def test_values_set_by_an_unscoped_include_stay_set() -> None:
     inner = xml('<push-ros-namespace namespace="n"/><let name="v" value="inner"/>')
     file = xml('<include file="/x/inner.launch.xml"/><node pkg="p" exec="$(var v)"/>')
-    (started,) = (one for one in run(file, inner=inner).started if one.kind == "node")
+    (started,) = (started for started in run(file, inner=inner).started if started.kind == "node")
     assert (started.target, started.namespace) == (("inner",), ("n",))
 
 
-def test_an_include_under_an_unknown_condition_is_perhaps() -> None:
+def test_an_include_under_an_unknown_condition_is_uncertain() -> None:
     inner = xml('<node pkg="p" exec="x"/>')
     file = xml('<include file="/x/inner.launch.xml" if="$(env NOT_KNOWN)"/>')
-    assert said(run(file, inner=inner)) == ["node p x ?"]
+    assert summaries(run(file, inner=inner)) == ["node p x ?"]
 
 
-def test_includes_in_a_circle_come_to_an_end() -> None:
+def test_expansion_of_cyclic_includes_ends() -> None:
     inner = xml('<node pkg="p" exec="x"/><include file="/x/inner.launch.xml"/>')
-    found = run(xml('<include file="/x/inner.launch.xml"/>'), inner=inner)
-    assert said(found) == ["node p x"]
-    assert not found.complete
+    expansion = run(xml('<include file="/x/inner.launch.xml"/>'), inner=inner)
+    assert summaries(expansion) == ["node p x"]
+    assert not expansion.complete
 
 
-def test_branches_that_grow_without_end_are_cut() -> None:
+def test_expansion_of_exponentially_many_branches_is_limited() -> None:
     files = {f"f{n}": xml(f'<include file="/x/f{n + 1}.launch.xml"/>' * 4) for n in range(12)}
-    found = run(files["f0"], **files)
-    assert not found.complete
+    expansion = run(files["f0"], **files)
+    assert not expansion.complete
 
 
 def opaque(body: str, *arguments: str) -> LaunchFile:
-    """Return a launch file with a function that launch calls."""
+    """Return a launch file with an OpaqueFunction."""
     indented = "".join(f"    {line}\n" for line in body.splitlines())
     return collect(
         "pkg/launch/a.launch.py",
@@ -200,19 +200,19 @@ def opaque(body: str, *arguments: str) -> LaunchFile:
     )[1]
 
 
-def test_a_dictionary_says_what_belongs_to_the_value_of_an_argument() -> None:
+def test_a_dictionary_is_indexed_by_the_value_of_an_argument() -> None:
     file = opaque(
         "kind = LaunchConfiguration('kind').perform(context)\n"
         "programs = {'arm': 'move', 'base': 'drive'}\n"
         "return [Node(package='p', executable=programs[kind]), Node(package='q', executable=programs.get(kind, 'stand'))]",
         "DeclareLaunchArgument('kind', default_value='base')",
     )
-    assert said(run(file)) == ["node p drive", "node q drive"]
-    assert said(run(file, {"kind": "arm"})) == ["node p move", "node q move"]
-    assert said(run(file, {"kind": "head"})) == ["node q stand"]
+    assert summaries(run(file)) == ["node p drive", "node q drive"]
+    assert summaries(run(file, {"kind": "arm"})) == ["node p move", "node q move"]
+    assert summaries(run(file, {"kind": "head"})) == ["node q stand"]
 
 
-def test_methods_of_the_value_of_an_argument_wait_for_it() -> None:
+def test_text_methods_of_an_argument_are_applied_once_it_has_a_value() -> None:
     file = opaque(
         "mode = LaunchConfiguration('mode').perform(context).lower()\n"
         "found = [Node(package='p', executable='on' if mode == 'on' else 'off')]\n"
@@ -221,43 +221,48 @@ def test_methods_of_the_value_of_an_argument_wait_for_it() -> None:
         "return found",
         "DeclareLaunchArgument('mode', default_value='ON')",
     )
-    assert said(run(file)) == ["node p on", "node q on"]
-    assert said(run(file, {"mode": "Full"})) == ["node p off"]
+    assert summaries(run(file)) == ["node p on", "node q on"]
+    assert summaries(run(file, {"mode": "Full"})) == ["node p off"]
 
 
-def test_lists_that_are_summed() -> None:
+def test_added_lists_are_concatenated() -> None:
     file = opaque(
         "names = LaunchConfiguration('names').perform(context).split(' ')\n"
         "both = sum([[Node(package='p', executable='a')], [Node(package='p', executable='b')]], [])\n"
         "return both + sum(([Node(package='q', executable='c')] for name in names), [])",
         "DeclareLaunchArgument('names', default_value='x')",
     )
-    assert said(run(file)) == ["node p a", "node p b", "node q c ?"]
+    assert summaries(run(file)) == ["node p a", "node p b", "node q c ?"]
     assert not file.opaque
 
 
-def test_timers_and_events_see_what_is_set_after_them() -> None:
-    """They come when everything has been gone through (launch 3.7.1)."""
+def test_timers_and_events_use_values_set_after_them() -> None:
+    """They run after all other actions (launch 3.7.1)."""
     declared = "DeclareLaunchArgument('which', default_value='one')"
     node = "Node(package='p', executable=LaunchConfiguration('which'))"
-    before = "Node(package='q', executable='first')"
-    after = "Node(package='q', executable='last')"
+    prologue = "Node(package='q', executable='first')"
+    epilogue = "Node(package='q', executable='last')"
     timer = f"TimerAction(period=2.0, actions=[{node}, TimerAction(period=1.0, actions=[{node}])])"
-    found = run(python(f"{before}, {timer}, {declared}, {timer}, {after}"))
-    assert said(found) == ["node q first", *["node p one"] * 4, "node q last"]
-    assert [one.later for one in found.started] == [False, *[True] * 4, False]
-    assert said(run(python(f"GroupAction([{timer}, SetLaunchConfiguration('which', 'two')]), {declared}"))) == ["node p one"] * 2
-    asked = """OpaqueFunction(function=lambda context: [
+    expansion = run(python(f"{prologue}, {timer}, {declared}, {timer}, {epilogue}"))
+    assert summaries(expansion) == ["node q first", *["node p one"] * 4, "node q last"]
+    assert [started.later for started in expansion.started] == [False, *[True] * 4, False]
+    assert (
+        summaries(run(python(f"GroupAction([{timer}, SetLaunchConfiguration('which', 'two')]), {declared}")))
+        == ["node p one"] * 2
+    )
+    question = """OpaqueFunction(function=lambda context: [
         TimerAction(period=2.0, actions=[Node(package='p', executable=LaunchConfiguration('which').perform(context))]),
     ])"""
-    assert said(run(python(f"{declared}, {asked}, SetLaunchConfiguration('which', 'two')"))) == ["node p one"]
+    assert summaries(run(python(f"{declared}, {question}, SetLaunchConfiguration('which', 'two')"))) == ["node p one"]
 
 
-def test_what_a_timer_starts_in_an_included_file_comes_by_it() -> None:
+def test_actions_of_a_timer_in_an_included_file_name_the_include() -> None:
     inner = python("TimerAction(period=1.0, actions=[Node(package='p', executable='a')])", "/x/inner.launch.py")
     outer = xml('<include file="/x/inner.launch.py"/><node pkg="p" exec="b"/>')
-    found = expand(outer, {}, {"/x/inner.launch.py": inner}.get)
-    assert [(one.depth, one.via is not None, one.target) for one in found.started if one.kind == "node"] == [
+    expansion = expand(outer, {}, {"/x/inner.launch.py": inner}.get)
+    assert [
+        (started.depth, started.via is not None, started.target) for started in expansion.started if started.kind == "node"
+    ] == [
         (1, True, ("a",)),
         (0, False, ("b",)),
     ]

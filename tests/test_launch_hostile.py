@@ -1,4 +1,4 @@
-"""Launch files that are made to hang, to fill the memory or to run something: read in time, said to be open, never run."""
+"""Launch files that try to hang, to fill the memory or to run code: read in time, reported as opaque, never run."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from launch_ros.actions import Node
 NODE = "    return LaunchDescription([Node(package='a', executable='b')])\n"
 
 
-def _program(body: str, before: str = "", result: str = NODE) -> str:
+def _program(body: str, prologue: str = "", result: str = NODE) -> str:
     inner = "".join(f"    {line}\n" for line in body.splitlines())
-    return f"{HEAD}{before}\ndef generate_launch_description():\n{inner}{result}"
+    return f"{HEAD}{prologue}\ndef generate_launch_description():\n{inner}{result}"
 
 
 MANIFEST = """<package format="3"><name>a</name><version>0.1.0</version><description>d</description>
@@ -135,21 +135,21 @@ BOUNDED = {
 
 
 def _read(program: str, language: launch.Language = "python", path: str = "a.launch.py") -> LaunchFile:
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    prologue = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.process_time()
-    found = collect(Text(path, program), language)
+    result = collect(Text(path, program), language)
     assert time.process_time() - start < SECONDS
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < KILOBYTES
-    return found
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - prologue < KILOBYTES
+    return result
 
 
 @pytest.mark.parametrize("name", OPEN)
-def test_what_cannot_be_followed_to_its_end_is_said_to_be_open(name: str) -> None:
+def test_programs_that_exceed_a_limit_are_opaque(name: str) -> None:
     assert _read(OPEN[name]).opaque
 
 
 @pytest.mark.parametrize("name", BOUNDED)
-def test_what_is_huge_stays_small(name: str) -> None:
+def test_huge_values_are_limited(name: str) -> None:
     _read(BOUNDED[name])
 
 
@@ -166,7 +166,7 @@ def test_what_is_huge_stays_small(name: str) -> None:
         ("yaml", "launch:\n- " + "[" * 20_000 + "]" * 20_000),
     ],
 )
-def test_the_whole_run_ends_soon(language: str, program: str) -> None:
+def test_check_of_hostile_files_ends_in_time(language: str, program: str) -> None:
     tree = {"a/package.xml": MANIFEST, "a/CMakeLists.txt": BUILD, f"a/launch/a.launch.{language}": program}
     start = time.process_time()
     workspace = loaded(tree)
@@ -177,19 +177,19 @@ def test_the_whole_run_ends_soon(language: str, program: str) -> None:
     assert time.process_time() - start < SECONDS
 
 
-def test_xml_values_that_double() -> None:
+def test_doubling_xml_values_are_limited() -> None:
     arguments = "".join(f'<arg name="x{i}" default="$(var x{i + 1})$(var x{i + 1})"/>' for i in range(40))
     file = _read(f'<launch>{arguments}<node pkg="a" exec="$(var x0)"/></launch>', "xml", "a.launch.xml")
-    assert [(one.kind, one.package) for one in file.references] == [("package", "a")]
+    assert [(reference.kind, reference.package) for reference in file.references] == [("package", "a")]
 
 
-def test_yaml_aliases_that_double() -> None:
+def test_doubling_yaml_aliases_are_rejected() -> None:
     lists = "".join(f"- group: &x{i} [*x{i - 1}, *x{i - 1}]\n" for i in range(1, 40))
     file = _read(f"launch:\n- group: &x0 [log: {{message: a}}]\n{lists}", "yaml", "a.launch.yaml")
     assert file.problems or file.opaque
 
 
-def test_includes_that_double() -> None:
+def test_doubling_includes_are_limited() -> None:
     """Each file includes the next one twice."""
 
     def file(number: int) -> LaunchFile:
@@ -198,9 +198,9 @@ def test_includes_that_double() -> None:
 
     files = [file(number) for number in range(40)]
     start = time.process_time()
-    found = expand(files[0], {}, lambda path: files[int(path.rpartition("/")[2].partition(".")[0])])
+    result = expand(files[0], {}, lambda path: files[int(path.rpartition("/")[2].partition(".")[0])])
     assert time.process_time() - start < SECONDS
-    assert not found.complete
+    assert not result.complete
 
 
 TRAP = """
@@ -255,16 +255,16 @@ def test_nothing_of_the_workspace_is_imported_or_run(tmp_path: Path) -> None:
         path.write_text(text)
     opened = open_workspace({"paths": [str(tmp_path / "ws")], "no_cache": True}, {}, lambda *_: None)
     workspace = opened.loader.load()
-    (found,) = workspace.packages
-    assert {file.language for file in found.launch if not file.helper} == {"python", "xml"}
-    assert {reference.package for file in found.launch for reference in file.references} == {"a"}
-    for file in found.launch:
+    (result,) = workspace.packages
+    assert {file.language for file in result.launch if not file.helper} == {"python", "xml"}
+    assert {reference.package for file in result.launch for reference in file.references} == {"a"}
+    for file in result.launch:
         expand(file, {}, include_resolver(workspace).included)
     assert not Path(sprung).exists()
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_the_trap_would_spring(tmp_path: Path) -> None:
+def test_the_trap_creates_its_file_if_it_is_run(tmp_path: Path) -> None:
     sprung = tmp_path / "sprung"
     with pytest.raises(FileExistsError):
         exec(TRAP.format(path=str(sprung)), {"__file__": __file__})

@@ -1,22 +1,22 @@
-"""Launch files in Python: which they are, and what they refer to."""
+"""Launch files in Python: detection and references."""
 
 import pytest
 
 from ros_lint.base.text import read
 from ros_lint.collectors.launch import collect as launch_files
 from ros_lint.collectors.launch import detect as launch
-from tests.launch_cases import collect, said, short
+from tests.launch_cases import collect, summaries, summary
 
 HEAD = "def generate_launch_description():\n"
 
 
-def python(body: str, before: str = "") -> list[str]:
+def python(body: str, prologue: str = "") -> list[str]:
     indented = "".join(f"    {line}\n" for line in body.splitlines())
-    return said(*collect("a.launch.py", f"{before}\n{HEAD}{indented}"))
+    return summaries(*collect("a.launch.py", f"{prologue}\n{HEAD}{indented}"))
 
 
 @pytest.mark.parametrize(
-    ("path", "text", "wanted"),
+    ("path", "text", "expected"),
     [
         ("a.launch.py", HEAD + "    pass", "python"),
         ("start.py", "import os\n" + HEAD, "python"),
@@ -28,17 +28,17 @@ def python(body: str, before: str = "") -> list[str]:
         ("setup.py", "data_files=[('share/a/launch', ['launch/a.py'])]", None),
     ],
 )
-def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None:
-    assert launch.is_launch_file(path, text) == wanted
+def test_launch_files_are_recognised_by_content(path: str, text: str, expected: str | None) -> None:
+    assert launch.is_launch_file(path, text) == expected
 
 
 def test_comments_need_not_be_in_utf_8() -> None:
-    """Python takes them as they are where it imports a file, which launch does, and refuses texts that are none."""
+    """launch imports the file, and Python accepts any bytes in comments when it imports, but not in strings."""
     body = b"    return [Node(package='a', executable='b')]  # caf\xe9\n"
     text = read("a.launch.py", f"from launch_ros.actions import Node\n# \n{HEAD}".encode().replace(b"# ", b"# \xa3\xba") + body)
-    found = launch_files.collect(text, "python")
-    assert said(text, found) == ["node a b"]
-    assert not found.opaque
+    launch_file = launch_files.collect(text, "python")
+    assert summaries(text, launch_file) == ["node a b"]
+    assert not launch_file.opaque
     refused = launch_files.collect(read("a.launch.py", HEAD.encode() + body.replace(b"'b'", b"'\xe9'")), "python")
     assert [problem.kind for problem in refused.problems] == ["syntax"]
     assert refused.opaque
@@ -56,13 +56,13 @@ def test_comments_need_not_be_in_utf_8() -> None:
         ("@given('a')\ndef generate_launch_description(kind):\n pass", False, False),
     ],
 )
-def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:
-    _, found = collect("a.py", text)
-    assert (found.test, found.helper) == (test, helper)
+def test_test_files_and_helpers_are_distinguished(text: str, test: bool, helper: bool) -> None:
+    _, launch_file = collect("a.py", text)
+    assert (launch_file.test, launch_file.helper) == (test, helper)
 
 
 @pytest.mark.parametrize(
-    ("body", "wanted"),
+    ("body", "expected"),
     [
         ("return [Node(package='a', executable='b')]", ["node a b"]),
         ("return [launch_ros.actions.LifecycleNode(executable='b', package='a')]", ["node a b"]),
@@ -137,8 +137,8 @@ def test_what_it_is_for(text: str, test: bool, helper: bool) -> None:
         ),
     ],
 )
-def test_programs(body: str, wanted: list[str]) -> None:
-    assert python(body, "E = 'b'\nD = {'p': 'a', 'e': E}\n") == wanted
+def test_references_to_programs(body: str, expected: list[str]) -> None:
+    assert python(body, "E = 'b'\nD = {'p': 'a', 'e': E}\n") == expected
 
 
 @pytest.mark.parametrize(
@@ -165,16 +165,16 @@ def test_programs(body: str, wanted: list[str]) -> None:
     ],
 )
 @pytest.mark.parametrize("source", ["PythonLaunchDescriptionSource({})", "AnyLaunchDescriptionSource({})", "{}"])
-def test_includes(path: str, source: str) -> None:
+def test_references_to_included_files(path: str, source: str) -> None:
     body = (
         "from os.path import join\nshare = get_package_share_directory('a')\nfolder = os.path.join(share, 'launch')\n"
         f"return [IncludeLaunchDescription({source.format(path)})]"
     )
-    found = [line for line in python(body) if line.startswith("include")]
-    assert found == ([] if path.startswith("ThisIs") else ["include a launch/b.launch.py"])
+    launch_file = [line for line in python(body) if line.startswith("include")]
+    assert launch_file == ([] if path.startswith("ThisIs") else ["include a launch/b.launch.py"])
 
 
-def test_paths_by_name() -> None:
+def test_paths_are_found_in_named_values() -> None:
     body = (
         "share = get_package_share_directory('a')\n"
         "params = os.path.join(share, 'config', 'p.yaml')\n"
@@ -184,7 +184,7 @@ def test_paths_by_name() -> None:
 
 
 @pytest.mark.parametrize(
-    ("body", "wanted"),
+    ("body", "expected"),
     [
         ("doc = xacro.parse(open(path))", ["file a urdf/x.urdf"]),
         ("with open(path, 'r') as file:\n    text = file.read()", ["file a urdf/x.urdf"]),
@@ -195,13 +195,13 @@ def test_paths_by_name() -> None:
         ("try:\n    pass\nexcept OSError:\n    pass\ntext = open(path).read()", ["file a urdf/x.urdf"]),
     ],
 )
-def test_files_that_are_read_at_once(body: str, wanted: list[str]) -> None:
+def test_files_read_during_the_launch_are_references(body: str, expected: list[str]) -> None:
     path = "path = os.path.join(get_package_share_directory('a'), 'urdf', 'x.urdf')\n"
-    assert python(f"{path}{body}\nreturn []") == wanted
+    assert python(f"{path}{body}\nreturn []") == expected
 
 
-def test_a_file_that_is_read_for_one_value_of_an_argument_is_the_one_of_that_value() -> None:
-    before = (
+def test_a_file_read_in_a_branch_is_conditional() -> None:
+    prologue = (
         "def start(context):\n"
         "    robot = LaunchConfiguration('robot').perform(context)\n"
         "    if robot == 'arm':\n"
@@ -209,10 +209,10 @@ def test_a_file_that_is_read_for_one_value_of_an_argument_is_the_one_of_that_val
         "    return []\n"
     )
     body = "return [DeclareLaunchArgument('robot', default_value='base'), OpaqueFunction(function=start)]"
-    assert python(body, before) == ["file? a arm.yaml", "package? a"]
+    assert python(body, prologue) == ["file? a arm.yaml", "package? a"]
 
 
-def test_a_path_of_nothing_is_no_path() -> None:
+def test_an_empty_path_is_not_a_reference() -> None:
     body = (
         "name = {}.get('plugin') if os.environ.get('X') else 'aruco'\n"
         "params = os.path.join(get_package_share_directory('a'), name, 'p.yaml')\n"
@@ -222,7 +222,7 @@ def test_a_path_of_nothing_is_no_path() -> None:
 
 
 @pytest.mark.parametrize(
-    ("body", "wanted"),
+    ("body", "expected"),
     [
         ("n = Node(package='a', executable='b')\nreturn []", []),
         ("n = Node(package='a', executable='b')\nreturn [n]", ["node a b"]),
@@ -235,24 +235,24 @@ def test_a_path_of_nothing_is_no_path() -> None:
         ("i = IncludeLaunchDescription(os.path.join(get_package_share_directory('a'), 'b'))", ["package a"]),
     ],
 )
-def test_actions_that_are_never_launched_start_nothing(body: str, wanted: list[str]) -> None:
-    """What is looked up at once fails all the same when it is missing; substitutions wait until they are used."""
-    assert python(body) == wanted
+def test_actions_that_are_not_launched_start_nothing(body: str, expected: list[str]) -> None:
+    """Eager look-ups still count, because they fail if the package is missing; lazy substitutions do not."""
+    assert python(body) == expected
 
 
-def test_keywords_of_old_are_understood_and_told() -> None:
-    made = "    return [Node(package='a', node_executable='b', node_name='c')]\n"
-    text = f"from launch_ros.actions import Node\n{HEAD}{made}"
-    source, found = collect("a.launch.py", text)
-    assert said(source, found) == ["node a b"]
-    assert [problem.message for problem in found.problems] == [
+def test_removed_keywords_are_read_and_reported() -> None:
+    names = "    return [Node(package='a', node_executable='b', node_name='c')]\n"
+    text = f"from launch_ros.actions import Node\n{HEAD}{names}"
+    source, launch_file = collect("a.launch.py", text)
+    assert summaries(source, launch_file) == ["node a b"]
+    assert [problem.message for problem in launch_file.problems] == [
         "Node(node_executable=) was removed in Galactic; use executable=",
         "Node(node_name=) was removed in Galactic; use name=",
     ]
-    assert source.slice(found.problems[0].span) == "node_executable"
+    assert source.slice(launch_file.problems[0].span) == "node_executable"
 
 
-def test_the_main_guard_is_not_run_by_launch() -> None:
+def test_the_main_guard_is_not_interpreted() -> None:
     assert python("return []", "if __name__ == '__main__':\n    Node(package='a', executable='b').x()\n") == []
 
 
@@ -271,9 +271,9 @@ def test_the_main_guard_is_not_run_by_launch() -> None:
         ("return [ExecuteProcess(cmd=['ros2', 'run', x, 'b'])]", "the target of 'ros2 run' is computed"),
     ],
 )
-def test_what_is_computed_hides_what_is_used(body: str, reason: str) -> None:
-    _, found = collect("a.launch.py", f"{HEAD}    {body}\n")
-    assert [opaque.reason for opaque in found.opaque] == [reason]
+def test_computed_names_are_opaque(body: str, reason: str) -> None:
+    _, launch_file = collect("a.launch.py", f"{HEAD}    {body}\n")
+    assert [opaque.reason for opaque in launch_file.opaque] == [reason]
 
 
 @pytest.mark.parametrize(
@@ -286,12 +286,12 @@ def test_what_is_computed_hides_what_is_used(body: str, reason: str) -> None:
         (HEAD + "    print 'x'\n", 2),
     ],
 )
-def test_what_is_no_python(text: str, line: int) -> None:
-    source, found = collect("a.launch.py", text)
-    assert [problem.kind for problem in found.problems] == ["syntax"]
-    assert found.problems[0].span.line in (line, line + 1)
-    assert source.slice(found.problems[0].span) == ""
-    assert found.opaque
+def test_syntax_errors_are_problems(text: str, line: int) -> None:
+    source, launch_file = collect("a.launch.py", text)
+    assert [problem.kind for problem in launch_file.problems] == ["syntax"]
+    assert launch_file.problems[0].span.line in (line, line + 1)
+    assert source.slice(launch_file.problems[0].span) == ""
+    assert launch_file.opaque
 
 
 @pytest.mark.parametrize(
@@ -302,28 +302,30 @@ def test_what_is_no_python(text: str, line: int) -> None:
         "str(Path(__file__).parent / 'b.launch.py')",
     ],
 )
-def test_a_neighbour_hides_nothing(path: str) -> None:
-    _, found = collect("a.launch.py", f"{HEAD}    return [IncludeLaunchDescription({path})]\n")
-    assert (found.references, found.opaque) == ((), ())
+def test_an_include_of_a_neighbouring_file_is_not_opaque(path: str) -> None:
+    _, launch_file = collect("a.launch.py", f"{HEAD}    return [IncludeLaunchDescription({path})]\n")
+    assert (launch_file.references, launch_file.opaque) == ((), ())
 
 
-def test_places_are_exact_beyond_ascii() -> None:
-    source, found = collect("a.launch.py", HEAD + "    return ['ü', Node(package='a', executable='''ö''')]\n")
-    (node,) = found.references
+def test_places_after_non_ascii_characters_are_exact() -> None:
+    source, launch_file = collect("a.launch.py", HEAD + "    return ['ü', Node(package='a', executable='''ö''')]\n")
+    (node,) = launch_file.references
     assert (source.slice(node.span), source.slice(node.package_span), node.exact) == ("ö", "a", True)
 
 
-def test_a_text_that_is_added_to_is_where_it_was_written() -> None:
+def test_the_place_of_an_extended_text_is_its_first_literal() -> None:
     body = (
         "    world = os.path.join(get_package_share_directory('a'), 'worlds', 'w.sdf')\n    world += ' -r'\n"
         "    return [ExecuteProcess(cmd=['gz', 'sim', world])]\n"
     )
-    source, found = collect("a.launch.py", HEAD + body)
-    assert {source.slice(each.span)[:12] for each in found.references if each.kind == "file"} == {"os.path.join"}
+    source, launch_file = collect("a.launch.py", HEAD + body)
+    assert {source.slice(reference.span)[:12] for reference in launch_file.references if reference.kind == "file"} == {
+        "os.path.join"
+    }
 
 
 @pytest.mark.parametrize(
-    ("body", "wanted"),
+    ("body", "expected"),
     [
         ("if has_resource('packages', 'a'):\n    return [@]", {"b": True}),
         ("if has_resource('packages', 'a') and x:\n    ld.add_action(@)\nreturn ld", {"b": True}),
@@ -361,15 +363,15 @@ def test_a_text_that_is_added_to_is_where_it_was_written() -> None:
         ),
     ],
 )  # fmt: skip
-def test_what_a_file_does_without(body: str, wanted: dict[str, bool]) -> None:
+def test_look_ups_that_tolerate_missing_packages_are_optional(body: str, expected: dict[str, bool]) -> None:
     indented = "".join(f"    {line}\n" for line in body.replace("@", "Node(package='b', executable='c')").splitlines())
-    _, found = collect("a.launch.py", f"{HEAD}    ld = LaunchDescription()\n{indented}")
-    packages = {reference.package for reference in found.references}
-    assert {p: all(r.optional for r in found.references if r.package == p) for p in packages} == wanted
+    _, launch_file = collect("a.launch.py", f"{HEAD}    ld = LaunchDescription()\n{indented}")
+    packages = {reference.package for reference in launch_file.references}
+    assert {p: all(r.optional for r in launch_file.references if r.package == p) for p in packages} == expected
 
 
 @pytest.mark.parametrize(
-    ("body", "wanted"),
+    ("body", "expected"),
     [
         (
             "s = get_package_share_directory('a')\nt = get_package_share_directory('b')\n"
@@ -407,18 +409,18 @@ def test_what_a_file_does_without(body: str, wanted: dict[str, bool]) -> None:
         ),
     ],
 )
-def test_where_a_package_is_looked_up(body: str, wanted: dict[str, int]) -> None:
+def test_the_span_of_a_package_is_its_look_up(body: str, expected: dict[str, int]) -> None:
     indented = "".join(f"    {line}\n" for line in body.splitlines())
-    _, found = collect("a.launch.py", f"import os\nX = os.environ['X']\n{HEAD}{indented}")
-    assert {short(reference): reference.package_span.line - 3 for reference in found.references} == wanted
+    _, launch_file = collect("a.launch.py", f"import os\nX = os.environ['X']\n{HEAD}{indented}")
+    assert {summary(reference): reference.package_span.line - 3 for reference in launch_file.references} == expected
 
 
-def test_a_package_that_only_a_default_names() -> None:
+def test_a_package_named_by_a_default_is_marked() -> None:
     text = (
         '<launch><arg name="kit" default="a"/><arg name="file" default="$(find-pkg-share b)/x.yaml"/>'
         '<include file="$(find-pkg-share $(var kit)_description)/y.launch.xml"/>'
         '<node pkg="c" exec="d" args="$(var file)"/></launch>'
     )
-    _, found = collect("a.launch.xml", text)
-    named = {reference.package: reference.package_from_default for reference in found.references}
+    _, launch_file = collect("a.launch.xml", text)
+    named = {reference.package: reference.package_from_default for reference in launch_file.references}
     assert named == {"a_description": True, "b": False, "c": False}

@@ -10,7 +10,7 @@ from ros_lint.collectors.launch.expand import expand
 from ros_lint.collectors.launch.python import collect as launch_py
 from ros_lint.collectors.symbolic_text import UNKNOWN, prefix
 from ros_lint.facts.launch import LaunchFile
-from tests.launch_cases import said
+from tests.launch_cases import summaries
 
 FRAME = """\
 from launch import LaunchDescription
@@ -33,7 +33,7 @@ def collect(body: str, functions: str = "") -> tuple[Text, LaunchFile]:
 
 
 @pytest.mark.parametrize(
-    ("text", "given", "wanted"),
+    ("text", "given", "expected"),
     [
         ("IfElseSubstitution(LaunchConfiguration('x'), 'b', 'c')", {"x": "true"}, "b"),
         ("IfElseSubstitution(LaunchConfiguration('x'), 'b', 'c')", {"x": "false"}, "c"),
@@ -48,14 +48,14 @@ def collect(body: str, functions: str = "") -> tuple[Text, LaunchFile]:
         ("normalize_to_list_of_substitutions(LaunchConfiguration('x'))", {"x": "b"}, "b"),
     ],
 )
-def test_substitutions(text: str, given: dict[str, str], wanted: str) -> None:
+def test_substitutions_give_symbolic_texts(text: str, given: dict[str, str], expected: str) -> None:
     _, file = collect(f"return LaunchDescription([Node(package='a', executable={text})])")
     (started,) = expand(file, given).started
-    assert started.target == (wanted,)
+    assert started.target == (expected,)
 
 
 @pytest.mark.parametrize(
-    ("value", "given", "wanted"),
+    ("value", "given", "expected"),
     [
         ("context.launch_configurations['x']", {"x": "b"}, "b"),
         ("context.launch_configurations.get('x')", {"x": "b"}, "b"),
@@ -63,15 +63,15 @@ def test_substitutions(text: str, given: dict[str, str], wanted: str) -> None:
         ("context.launch_configurations.get('x', 'c')", {}, "c"),
     ],
 )
-def test_configurations_of_the_context(value: str, given: dict[str, str], wanted: str) -> None:
+def test_configurations_of_the_context_are_read(value: str, given: dict[str, str], expected: str) -> None:
     function = f"def setup(context):\n    return [Node(package='a', executable={value})]"
     _, file = collect("return LaunchDescription([OpaqueFunction(function=setup)])", function)
     (started,) = expand(file, given).started
-    assert started.target == (wanted,)
+    assert started.target == (expected,)
 
 
 @pytest.mark.parametrize(
-    ("actions", "wanted"),
+    ("actions", "expected"),
     [
         ("AppendEnvironmentVariable('X', 'b')", f"{UNKNOWN}:b"),
         ("SetEnvironmentVariable('X', 'a'), AppendEnvironmentVariable('X', 'b')", "a:b"),
@@ -80,10 +80,10 @@ def test_configurations_of_the_context(value: str, given: dict[str, str], wanted
         ("SetEnvironmentVariable('X', 'a'), AppendEnvironmentVariable('X', 'b', False, separator='; ')", "a; b"),
     ],
 )
-def test_variables_of_the_environment_that_are_added_to(actions: str, wanted: str) -> None:
+def test_extended_environment_variables_are_known(actions: str, expected: str) -> None:
     _, file = collect(f"return LaunchDescription([{actions}, Node(package='a', executable='c')])")
     (started,) = expand(file, {}).started
-    assert started.environment == (("X", (wanted,)),)
+    assert started.environment == (("X", (expected,)),)
 
 
 @pytest.mark.parametrize(
@@ -96,13 +96,13 @@ def test_variables_of_the_environment_that_are_added_to(actions: str, wanted: st
     ],
 )
 @pytest.mark.parametrize("action", ["ForEach", "ForLoop"])
-def test_actions_that_are_made_for_each_value(action: str, function: str) -> None:
+def test_loops_over_values_start_their_actions(action: str, function: str) -> None:
     source, file = collect(f"return LaunchDescription([{action}(LaunchConfiguration('x'), function=each)])", function)
-    assert said(source, file) == ["node? a b"]
+    assert summaries(source, file) == ["node? a b"]
     assert not file.opaque
 
 
-def test_defaults_of_functions_that_are_called_for_each_value_may_be_replaced() -> None:
+def test_loop_values_replace_parameter_defaults() -> None:
     function = "def each(p='a'):\n    return [Node(package=p, executable='b')]"
     _, file = collect("return LaunchDescription([ForEach(LaunchConfiguration('x'), function=each)])", function)
     assert [UNKNOWN in action.package.texts for action in file.actions if action.package] == [True]

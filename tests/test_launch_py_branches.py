@@ -1,4 +1,4 @@
-"""Programs with a branch on a launch argument: with each value of the argument they start what Python starts."""
+"""Programs with a branch on a launch argument start, for each value, the same nodes as in Python."""
 
 import pytest
 
@@ -244,18 +244,24 @@ while i < 3:
 
 
 @pytest.mark.parametrize("program", PROGRAMS.strip().split("\n\n"))
-def test_each_value_of_an_argument_starts_what_python_starts(program: str) -> None:
-    """Certain values are values that Python makes; each value that Python makes is there, or may be, or is unknown."""
+def test_each_argument_value_starts_what_python_starts(program: str) -> None:
+    """Each certain value is one of Python; each value of Python is certain, possible or unknown."""
     body = "".join(f"    {line}\n" for line in program.split("\n"))
     file = launch_py.collect(Text("a.launch.py", FRAME.format(body)))
     for flag in (True, False):
         names: dict[str, object] = {}
         exec(f"def setup(flag, name):\n{body}    return values", names)
-        wanted = [str(value) for value in names["setup"](flag, "yes" if flag else "no")]  # type: ignore[operator]
+        expected = [str(value) for value in names["setup"](flag, "yes" if flag else "no")]  # type: ignore[operator]
         started = expand(file, {"flag": "yes" if flag else "no"}).started
-        texts = [text for one in started for text in one.target]
-        open_ended = UNKNOWN in "".join(texts) or not all(one.certain and len(one.target) == 1 for one in started)
-        certain = [text for one in started if one.certain and len(one.target) == 1 for text in one.target if UNKNOWN not in text]
-        assert set(certain) <= set(wanted), flag
-        assert open_ended or sorted(certain) == sorted(wanted), flag
-        assert set(wanted) <= set(texts) or UNKNOWN in texts, flag
+        texts = [text for started in started for text in started.target]
+        open_ended = UNKNOWN in "".join(texts) or not all(started.certain and len(started.target) == 1 for started in started)
+        certain = [
+            text
+            for started in started
+            if started.certain and len(started.target) == 1
+            for text in started.target
+            if UNKNOWN not in text
+        ]
+        assert set(certain) <= set(expected), flag
+        assert open_ended or sorted(certain) == sorted(expected), flag
+        assert set(expected) <= set(texts) or UNKNOWN in texts, flag

@@ -11,13 +11,13 @@ from tests.python_programs import EXPRESSIONS, IMPORTS, OPEN_EXPRESSIONS, OPEN_P
 
 
 def _followed(program: str) -> list[tuple[str, ...]]:
-    """Return the texts of the values that the interpreter makes: of the programs of nodes that are certainly started."""
+    """Return the executables of the certainly started nodes, which are the values in the interpreter."""
     end = "\nfrom launch_ros.actions import Node\n\ndef generate_launch_description():\n"
     end += "    return [Node(package='a', executable=str(value)) for value in values]\n"
-    found = launch_py.collect(Text("a.launch.py", IMPORTS + program + end))
-    assert not found.opaque
+    result = launch_py.collect(Text("a.launch.py", IMPORTS + program + end))
+    assert not result.opaque
     started = []
-    for action in found.actions:
+    for action in result.actions:
         assert action.target is not None
         assert not action.conditions
         started.append(action.target.texts)
@@ -30,23 +30,23 @@ def _admits(texts: tuple[str, ...], value: str) -> bool:
 
 
 @pytest.mark.parametrize("expression", EXPRESSIONS.strip().split("\n"))
-def test_expressions_are_what_python_makes_of_them(expression: str) -> None:
+def test_expressions_have_the_value_of_python(expression: str) -> None:
     program = f"values = [{expression}]"
     assert _followed(program) == [(value,) for value in values(program)]
 
 
 @pytest.mark.parametrize("expression", OPEN_EXPRESSIONS.strip().split("\n"))
-def test_open_expressions_admit_what_python_makes_of_them(expression: str) -> None:
+def test_unknown_expressions_admit_the_value_of_python(expression: str) -> None:
     program = f"values = [{expression}]"
     assert [_admits(texts, value) for texts, value in zip(_followed(program), values(program), strict=True)] == [True]
 
 
 @pytest.mark.parametrize("program", PROGRAMS.strip().split("\n\n"))
-def test_values_are_those_of_python(program: str) -> None:
+def test_programs_have_the_values_of_python(program: str) -> None:
     assert _followed(program) == [(value,) for value in values(program)]
 
 
 @pytest.mark.parametrize("program", OPEN_PROGRAMS.strip().split("\n\n"))
-def test_open_values_admit_those_of_python(program: str) -> None:
-    followed, wanted = _followed(program), values(program)
-    assert all(_admits(texts, value) for texts, value in zip(followed, wanted, strict=True)), (followed, wanted)
+def test_unknown_values_admit_the_values_of_python(program: str) -> None:
+    followed, expected = _followed(program), values(program)
+    assert all(_admits(texts, value) for texts, value in zip(followed, expected, strict=True)), (followed, expected)

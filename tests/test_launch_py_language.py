@@ -1,4 +1,4 @@
-"""The language of Python launch files, as far as people write it, and what ends the following of them."""
+"""Python language features in launch files, and the limits of the interpretation."""
 
 import ast
 import time
@@ -12,7 +12,7 @@ from ros_lint.collectors.launch.expand import expand
 from ros_lint.collectors.launch.python import collect as launch_py
 from ros_lint.collectors.python.interpreter.values import Module
 from ros_lint.facts.visibility import Facet
-from tests.launch_cases import collect, said
+from tests.launch_cases import collect, summaries
 
 HEAD = """\
 from dataclasses import dataclass
@@ -234,27 +234,30 @@ def body(text: str) -> str:
 
 
 @pytest.mark.parametrize("case", CASES.strip().split("\n\n"))
-def test_the_language_of_launch_files(case: str) -> None:
-    program, _, wanted = case.rpartition("\n=> ")
-    assert said(*collect("a.launch.py", body(program))) == wanted.split(", ")
+def test_python_language_features_are_interpreted(case: str) -> None:
+    program, _, expected = case.rpartition("\n=> ")
+    assert summaries(*collect("a.launch.py", body(program))) == expected.split(", ")
 
 
 @pytest.mark.parametrize("case", CASES.strip().split("\n\n"))
-def test_facts_hold_plain_values(case: str) -> None:
-    """They travel between processes and into the cache, so nothing of the program may hang on them."""
+def test_facts_contain_only_plain_values(case: str) -> None:
+    """Facts are sent between processes and cached, so they must not reference objects of the interpreter."""
     program, _, _ = case.rpartition("\n=> ")
-    _, found = collect("a.launch.py", body(program))
-    waiting: list[object] = [found]
-    while waiting:
-        one = waiting.pop()
-        assert type(one).__module__ in ("builtins", "ros_lint.facts.launch", "ros_lint.facts.visibility", "ros_lint.base.text"), (
-            one
-        )
-        assert isinstance(one, tuple) or type(one) in (str, bool, int, type(None), Facet)
-        waiting += one if isinstance(one, tuple) else ()
+    _, launch_file = collect("a.launch.py", body(program))
+    pending: list[object] = [launch_file]
+    while pending:
+        item = pending.pop()
+        assert type(item).__module__ in (
+            "builtins",
+            "ros_lint.facts.launch",
+            "ros_lint.facts.visibility",
+            "ros_lint.base.text",
+        ), item
+        assert isinstance(item, tuple) or type(item) in (str, bool, int, type(None), Facet)
+        pending += item if isinstance(item, tuple) else ()
 
 
-def test_values_of_one_branch_stay_together() -> None:
+def test_values_of_a_branch_are_combined_only_with_each_other() -> None:
     program = """\
 if model == 'a':
     package, file = 'pa', 'a.launch.py'
@@ -272,8 +275,8 @@ return [
     IncludeLaunchDescription(share + '/launch/' + file),
 ]
 """
-    source, found = collect("a.launch.py", body(program))
-    includes = [line for line in said(source, found) if line.startswith("include")]
+    source, launch_file = collect("a.launch.py", body(program))
+    includes = [line for line in summaries(source, launch_file) if line.startswith("include")]
     assert sorted(set(includes)) == [f"include? p{x} launch/{x}.launch.py" for x in "abc"]
     assert len(includes) == 15
 
@@ -286,22 +289,22 @@ return [
         ("node = Node(package='a', executable='b{0}') if unknown{0}() else node", "return [node]"),
     ],
 )
-def test_too_many_alternatives_are_perhaps_launched_each(line: str, end: str) -> None:
+def test_each_of_too_many_alternatives_may_be_launched(line: str, end: str) -> None:
     lines = [line.format(number) for number in range(30)]
-    source, found = collect("a.launch.py", body("\n".join(["node = None", *lines, end])))
-    assert sorted(said(source, found)) == sorted(f"node? a b{number}" for number in range(30))
-    assert [one.reason for one in found.opaque] == ["the launched actions are not known: one of too many values"]
+    source, launch_file = collect("a.launch.py", body("\n".join(["node = None", *lines, end])))
+    assert sorted(summaries(source, launch_file)) == sorted(f"node? a b{number}" for number in range(30))
+    assert [item.reason for item in launch_file.opaque] == ["the launched actions are not known: one of too many values"]
 
 
 @pytest.mark.parametrize("end", ["break", "return [Node(package='a', executable='b')]"])
-def test_endless_loops_that_may_be_left_are_left(end: str) -> None:
+def test_endless_loops_with_a_possible_exit_end(end: str) -> None:
     program = f"while True:\n    if input() == 'q':\n        {end}\nreturn [Node(package='a', executable='b')]"
-    source, found = collect("a.launch.py", body(program))
-    assert {line.replace("?", "") for line in said(source, found)} == {"node a b"}
-    assert not found.opaque
+    source, launch_file = collect("a.launch.py", body(program))
+    assert {line.replace("?", "") for line in summaries(source, launch_file)} == {"node a b"}
+    assert not launch_file.opaque
 
 
-def test_modules_of_the_workspace_are_followed() -> None:
+def test_modules_of_the_workspace_are_interpreted() -> None:
     helper = """\
 from .names import P
 def node(e):
@@ -313,11 +316,11 @@ def node(e):
         ".names": Module(Text("src/tools/tools/names.py", "P = 'a'\n"), ast.parse("P = 'a'\n")),
     }
     source = Text("a.launch.py", "from tools.launch import node\n" + body("return [node('b')]"))
-    found = launch_py.collect(source, lambda name, importer: modules.get(name))
-    assert [(one.package, one.name, one.package_span.path) for one in found.references] == [
+    launch_file = launch_py.collect(source, lambda name, importer: modules.get(name))
+    assert [(item.package, item.name, item.package_span.path) for item in launch_file.references] == [
         ("a", "b", "src/tools/tools/names.py")
     ]
-    assert not found.opaque
+    assert not launch_file.opaque
     assert launch_py.collect(source).opaque
 
 
@@ -330,17 +333,17 @@ with open(share + '/nodes.yaml') as f:
 return [Node(package=n['p'], executable=n['e']) for n in data['nodes']]
 """
     files = {f"{launch_text.share('p')}/nodes.yaml": "nodes:\n- {p: a, e: b}\n- {p: c, e: d}\n"}
-    found = launch_py.collect(Text("a.launch.py", body(program)), files=files.get)
-    assert [(one.package, one.name) for one in found.references if one.kind == "node"] == [("a", "b"), ("c", "d")]
+    launch_file = launch_py.collect(Text("a.launch.py", body(program)), files=files.get)
+    assert [(item.package, item.name) for item in launch_file.references if item.kind == "node"] == [("a", "b"), ("c", "d")]
 
 
 @pytest.mark.parametrize("reading", ["yaml.safe_load('{e: b}')", 'json.loads(\'{"e": "b"}\')'])
-def test_contents_that_are_written_out(reading: str) -> None:
+def test_literal_yaml_and_json_contents_are_parsed(reading: str) -> None:
     program = f"import json, yaml\nreturn [Node(package='a', executable={reading}['e'])]"
-    assert said(*collect("a.launch.py", body(program))) == ["node a b"]
+    assert summaries(*collect("a.launch.py", body(program))) == ["node a b"]
 
 
-def test_nothing_of_it_runs(tmp_path: Path) -> None:
+def test_the_interpreted_program_does_not_run(tmp_path: Path) -> None:
     trap = tmp_path / "sprung"
     text = f"import os\nopen({str(trap)!r}, 'w').write('x')\nos.system('touch {trap}')\n"
     collect("a.launch.py", text + body(f"open({str(trap)!r}, 'w')\nexec('x')\nreturn []"))
@@ -381,13 +384,13 @@ def test_nothing_of_it_runs(tmp_path: Path) -> None:
         "f = lambda: f()\nf()",
     ],
 )
-def test_hostile_files_end_soon(program: str) -> None:
+def test_interpretation_of_hostile_files_ends_in_time(program: str) -> None:
     begin = time.process_time()
     collect("a.launch.py", body(program))
     assert time.process_time() - begin < 2
 
 
-def test_parameters_by_name_by_file_and_unknown() -> None:
+def test_parameters_are_named_files_or_unknown() -> None:
     program = """\
 where = get_package_share_directory('a')
 return LaunchDescription([Node(package='a', executable='b', parameters=[
@@ -403,18 +406,18 @@ return LaunchDescription([Node(package='a', executable='b', parameters=[
 
 
 @pytest.mark.parametrize("question", ["{} == 'humble'", "{}[0] <= 'h'", "{} in ('foxy', 'humble')", "{}[:1] not in ('j', 'k')"])
-@pytest.mark.parametrize(("distro", "wanted"), [("humble", "old"), ("jazzy", "new")])
-def test_branches_by_distribution(distro: str, wanted: str, question: str) -> None:
+@pytest.mark.parametrize(("distro", "expected"), [("humble", "old"), ("jazzy", "new")])
+def test_branches_on_the_distribution_limit_references(distro: str, expected: str, question: str) -> None:
     program = f"""\
 name = 'old' if {question.format("os.environ.get('ROS_DISTRO')")} else 'new'
 if {question.format("os.getenv('ROS_DISTRO')")}:
     return [Node(package='a', executable='old'), Node(package='a', executable=name)]
 return [Node(package='a', executable='new'), Node(package='a', executable=name)]"""
     _, file = collect("a.launch.py", body(program))
-    assert [one.target for one in expand(file, {}, distro=distro).started if one.certain][:1] == [(wanted,)]
+    assert [item.target for item in expand(file, {}, distro=distro).started if item.certain][:1] == [(expected,)]
 
 
-def test_branches_on_an_argument_by_its_patterns() -> None:
+def test_match_on_an_argument_selects_a_branch() -> None:
     text = (
         HEAD
         + """
@@ -428,13 +431,13 @@ def test_branches_on_an_argument_by_its_patterns() -> None:
 """
     )
     _, file = collect("launch/a.launch.py", text)
-    assert [(one.target, one.certain) for one in expand(file, {}).started] == [(("b",), True)]
-    assert [(one.target, one.certain) for one in expand(file, {"kind": "three"}).started] == [(("c",), True)]
+    assert [(item.target, item.certain) for item in expand(file, {}).started] == [(("b",), True)]
+    assert [(item.target, item.certain) for item in expand(file, {"kind": "three"}).started] == [(("c",), True)]
     assert not expand(file, {"kind": "four"}).started
 
 
-def test_variables_that_the_file_sets_itself() -> None:
-    """They are those of all that is launched, and of what launch looks up."""
+def test_environment_variables_set_by_the_file_are_used() -> None:
+    """The variables apply to launched nodes and to substitutions."""
     text = (
         HEAD
         + """
@@ -449,7 +452,7 @@ def test_variables_that_the_file_sets_itself() -> None:
     assert started.environment == (("PLACE", ("/maps",)),)
 
 
-def test_parameters_that_are_given_under_conditions() -> None:
+def test_conditional_parameters_are_selected_by_arguments() -> None:
     text = (
         HEAD
         + """
@@ -475,7 +478,7 @@ def test_parameters_that_are_given_under_conditions() -> None:
     assert started.parameters == (("", ("/out.yaml",)), ("", ("/fast.yaml",)), ("rain", ("True",)), ("", ("/trees.yaml",)))
 
 
-def test_a_file_of_parameters_under_a_condition_is_named_under_it() -> None:
+def test_a_conditional_parameter_file_is_a_conditional_reference() -> None:
     text = (
         HEAD
         + """
@@ -486,11 +489,11 @@ def test_a_file_of_parameters_under_a_condition_is_named_under_it() -> None:
 """
     )
     _, file = collect("launch/a.launch.py", text)
-    named = {one.name: (one.conditional, one.distros == ("humble",)) for one in file.references if one.kind == "file"}
+    named = {item.name: (item.conditional, item.distros == ("humble",)) for item in file.references if item.kind == "file"}
     assert named == {"humble.yaml": (True, True), "later.yaml": (True, False), "more.yaml": (False, False)}
 
 
-def test_an_empty_text_in_place_of_what_is_not_known_names_nothing() -> None:
+def test_a_path_with_an_empty_default_part_is_not_a_reference() -> None:
     text = (
         HEAD
         + """
@@ -503,5 +506,5 @@ def test_an_empty_text_in_place_of_what_is_not_known_names_nothing() -> None:
 """
     )
     _, file = collect("launch/a.launch.py", text)
-    named = {one.name: one.conditional for one in file.references if one.kind == "file"}
+    named = {item.name: item.conditional for item in file.references if item.kind == "file"}
     assert named == {"models/burger/model.sdf": True}

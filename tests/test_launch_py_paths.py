@@ -1,4 +1,4 @@
-"""Paths in Python launch files of which a part is known only at launch, against os.path and pathlib."""
+"""Paths with a part that is known only at launch, compared with os.path and pathlib."""
 
 import os
 from pathlib import PurePosixPath
@@ -49,19 +49,19 @@ PATHS = ["value", "'/m/' + value", "value + '/m'", "value + '/m.x'", "'m.' + val
 
 @pytest.mark.parametrize("result", FUNCTIONS)
 @pytest.mark.parametrize("path", PATHS)
-def test_what_is_known_is_what_python_makes_of_it(path: str, result: str) -> None:
-    """A part that is known later counts as one name: values with slashes are for paths that are nothing but this part."""
+def test_known_paths_equal_those_of_python(path: str, result: str) -> None:
+    """An unknown part counts as one name. Values with slashes are used only if the path is nothing but this part."""
     for value in ("b", "b.yaml", "/d/b.yaml", "d/b") if path == "value" else ("b",):
         for default in ("", f", default={value!r}"):
             file = launch_py.collect(Text("a.launch.py", PROGRAM.format(default=default, path=path, result=result)))
             (started,) = expand(file, {} if default else {"value": value}).started
             names = {"os": os, "Path": PurePosixPath, "path": eval(path, {"value": value})}
-            wanted = eval(result, names)
-            assert all(text == wanted or UNKNOWN in text for text in started.target), (value, default)
+            expected = eval(result, names)
+            assert all(text == expected or UNKNOWN in text for text in started.target), (value, default)
 
 
 @pytest.mark.parametrize(
-    ("path", "result", "wanted"),
+    ("path", "result", "expected"),
     [
         ("value", "os.path.basename(path)", "b.yaml"),
         ("value", "Path(path).name", "b.yaml"),
@@ -76,11 +76,11 @@ def test_what_is_known_is_what_python_makes_of_it(path: str, result: str) -> Non
         ("'.m'", "Path(path).stem", ".m"),
     ],
 )
-def test_parts_that_are_known_stay_known(path: str, result: str, wanted: str) -> None:
+def test_known_parts_of_paths_stay_known(path: str, result: str, expected: str) -> None:
     default = "" if path == "'/m/' + value" else ", default='/d/b.yaml'"
     file = launch_py.collect(Text("a.launch.py", PROGRAM.format(default=default, path=path, result=result)))
     (started,) = expand(file, {"value": "b"} if not default else {}).started
-    assert started.target == (wanted,)
+    assert started.target == (expected,)
 
 
 @pytest.mark.parametrize(

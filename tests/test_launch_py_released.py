@@ -1,10 +1,10 @@
-"""Helper functions of released packages: what they start is known, and stands where they are called."""
+"""Models of helper functions of released packages: their actions have the place of the call."""
 
 from __future__ import annotations
 
 import pytest
 
-from tests.launch_cases import collect, said, short
+from tests.launch_cases import collect, summaries, summary
 
 MOVEIT = """
 from moveit_configs_utils import MoveItConfigsBuilder
@@ -17,7 +17,7 @@ def generate_launch_description():
 
 
 @pytest.mark.parametrize(
-    ("name", "wanted"),
+    ("name", "expected"),
     [
         ("generate_rsp_launch", ["node robot_state_publisher robot_state_publisher"]),
         ("generate_moveit_rviz_launch", ["node? rviz2 rviz2"]),
@@ -31,19 +31,19 @@ def generate_launch_description():
         ("generate_move_group_launch", ["node? moveit_ros_move_group move_group"]),
     ],
 )
-def test_launches_of_moveit(name: str, wanted: list[str]) -> None:
-    source, found = collect("a.launch.py", MOVEIT.format(name=name))
-    assert said(source, found) == ["package arm_config", *wanted]
-    assert not found.opaque
-    assert not found.problems
-    started = [reference for reference in found.references if reference.kind == "node"]
+def test_launch_helpers_of_moveit_are_modelled(name: str, expected: list[str]) -> None:
+    source, launch_file = collect("a.launch.py", MOVEIT.format(name=name))
+    assert summaries(source, launch_file) == ["package arm_config", *expected]
+    assert not launch_file.opaque
+    assert not launch_file.problems
+    started = [reference for reference in launch_file.references if reference.kind == "node"]
     assert {source.slice(reference.span) for reference in started} == {f"{name}(config)"}
     assert all(reference.optional for reference in started), "they are the need of the package that has the helper"
 
 
-def test_the_demo_of_moveit_includes_what_lies_in_the_package() -> None:
-    source, found = collect("a.launch.py", MOVEIT.format(name="generate_demo_launch"))
-    assert said(source, found) == [
+def test_the_moveit_demo_includes_launch_files_of_its_package() -> None:
+    source, launch_file = collect("a.launch.py", MOVEIT.format(name="generate_demo_launch"))
+    assert summaries(source, launch_file) == [
         "include? arm_config launch/static_virtual_joint_tfs.launch.py",
         "include arm_config launch/rsp.launch.py",
         "include arm_config launch/move_group.launch.py",
@@ -53,7 +53,9 @@ def test_the_demo_of_moveit_includes_what_lies_in_the_package() -> None:
         "file arm_config config/ros2_controllers.yaml",
         "include arm_config launch/spawn_controllers.launch.py",
     ]
-    needed = {short(reference) for reference in found.references if not (reference.optional or reference.existence_checked)}
+    needed = {
+        summary(reference) for reference in launch_file.references if not (reference.optional or reference.existence_checked)
+    }
     assert needed == {
         "include arm_config launch/rsp.launch.py",
         "include arm_config launch/move_group.launch.py",
@@ -82,14 +84,14 @@ def generate_launch_description():
         ("generate_spawner_launch_description", "{'a': {'param_file': file}, 'b': {}}"),
     ],
 )
-def test_controllers_are_spawned_with_the_files_that_are_given(name: str, given: str) -> None:
-    source, found = collect("a.launch.py", CONTROLLERS.format(name=name, given=given))
-    assert said(source, found) == ["node controller_manager spawner", "file arm config/a.yaml"]
-    assert not found.opaque
-    assert [reference.optional for reference in found.references] == [True, False]
+def test_spawned_controllers_get_the_passed_parameter_files(name: str, given: str) -> None:
+    source, launch_file = collect("a.launch.py", CONTROLLERS.format(name=name, given=given))
+    assert summaries(source, launch_file) == ["node controller_manager spawner", "file arm config/a.yaml"]
+    assert not launch_file.opaque
+    assert [reference.optional for reference in launch_file.references] == [True, False]
 
 
-def test_what_a_helper_is_handed_is_the_need_of_who_hands_it() -> None:
+def test_packages_passed_to_a_helper_belong_to_its_caller() -> None:
     text = """
 from launch import LaunchDescription
 from moveit_configs_utils.launch_utils import DeclareBooleanLaunchArg, add_debuggable_node
@@ -99,9 +101,9 @@ def generate_launch_description():
     add_debuggable_node(found, package="driver", executable="run")
     return found
 """
-    source, found = collect("a.launch.py", text)
-    assert said(source, found) == ["node? driver run"]
-    (reference,) = found.references
+    source, launch_file = collect("a.launch.py", text)
+    assert summaries(source, launch_file) == ["node? driver run"]
+    (reference,) = launch_file.references
     assert (reference.exact, reference.package_exact, reference.optional) == (True, True, False)
 
 
@@ -141,33 +143,33 @@ def generate_launch_description():
 """
 
 
-def test_helpers_of_launch_pal() -> None:
-    source, found = collect("a.launch.py", LAUNCH_PAL)
-    assert said(source, found) == [
+def test_helpers_of_launch_pal_are_modelled() -> None:
+    source, launch_file = collect("a.launch.py", LAUNCH_PAL)
+    assert summaries(source, launch_file) == [
         "node base wheels",
         "node driver run",
         "include first launch/a.launch.py",
         "include second launch/b.launch.py",
     ]
-    assert not found.opaque
-    assert not found.problems
-    assert [action.target.texts for action in found.actions if action.kind == "argument" and action.target] == [
+    assert not launch_file.opaque
+    assert not launch_file.problems
+    assert [action.target.texts for action in launch_file.actions if action.kind == "argument" and action.target] == [
         ("rviz",),
         ("base",),
         ("robot_name",),
     ]
-    assert not any(reference.optional for reference in found.references)
-    (group,) = [action for action in found.actions if action.kind == "group"]
+    assert not any(reference.optional for reference in launch_file.references)
+    (group,) = [action for action in launch_file.actions if action.kind == "group"]
     (included,) = [action for action in group.children if action.kind == "include"]
     assert [name for name, _ in included.arguments] == ["base", "c"]
 
 
-def test_what_else_a_helper_asks_for_is_not_known() -> None:
-    _, found = collect("a.launch.py", LAUNCH_PAL)
-    assert found.configurations_read[-1] == "\ue000"
+def test_further_configurations_read_by_a_helper_are_unknown() -> None:
+    _, launch_file = collect("a.launch.py", LAUNCH_PAL)
+    assert launch_file.configurations_read[-1] == "\ue000"
 
 
-def test_the_node_that_webots_waits_for() -> None:
+def test_the_node_passed_to_the_webots_helper_is_started() -> None:
     text = """
 from launch import LaunchDescription
 from launch.actions import RegisterEventHandler
@@ -181,4 +183,4 @@ def generate_launch_description():
     wait = OnProcessIO(target_action=spawn, on_stdout=lambda event: get_webots_driver_node(event, node))
     return LaunchDescription([spawn, RegisterEventHandler(event_handler=wait)])
 """
-    assert said(*collect("a.launch.py", text)) == ["node driver run"]
+    assert summaries(*collect("a.launch.py", text)) == ["node driver run"]

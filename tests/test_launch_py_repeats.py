@@ -1,4 +1,4 @@
-"""Functions of Python launch files that call themselves on what is not known."""
+"""Recursive functions of Python launch files with unknown arguments."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from ros_lint.collectors.launch.python import collect as launch_py
 from ros_lint.collectors.python.interpreter import machine as launch_py_run
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.facts.launch import LaunchFile
-from tests.launch_cases import said
+from tests.launch_cases import summaries
 
 HEAD = """\
 import os
@@ -93,7 +93,7 @@ def collect(functions: str, start: str) -> tuple[Text, LaunchFile]:
 
 @pytest.fixture
 def machines(monkeypatch: pytest.MonkeyPatch) -> list[Machine]:
-    """The machines that are made from now on."""
+    """Return the list of the machines that are created during the test."""
     made: list[Machine] = []
     init = Machine.__init__
 
@@ -106,7 +106,7 @@ def machines(monkeypatch: pytest.MonkeyPatch) -> list[Machine]:
 
 
 @pytest.mark.parametrize("name", BRANCHES)
-def test_calls_in_both_sides_of_a_branch_do_not_double(
+def test_recursive_calls_in_both_branches_take_linear_time(
     name: str, machines: list[Machine], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     steps = []
@@ -118,23 +118,23 @@ def test_calls_in_both_sides_of_a_branch_do_not_double(
     assert steps[0] < 1_000
 
 
-def test_what_comes_after_a_search_is_followed() -> None:
-    source, found = collect(SEARCH, "search(unknown(), 'x'); nodes.append(Node(package='a', executable='b'))")
-    assert said(source, found) == ["node a b"]
-    assert not found.opaque
+def test_actions_after_a_recursive_search_are_found() -> None:
+    source, launch_file = collect(SEARCH, "search(unknown(), 'x'); nodes.append(Node(package='a', executable='b'))")
+    assert summaries(source, launch_file) == ["node a b"]
+    assert not launch_file.opaque
 
 
-def test_what_a_repeated_call_is_given_may_be_launched() -> None:
+def test_arguments_of_a_repeated_call_may_be_launched() -> None:
     function = "def f(x, action):\n    if x.right:\n        return [action, f(x.left, action)]\n"
-    source, found = collect(function, "f(unknown(), Node(package='a', executable='b'))")
-    assert said(source, found) == ["node? a b"]
+    source, launch_file = collect(function, "f(unknown(), Node(package='a', executable='b'))")
+    assert summaries(source, launch_file) == ["node? a b"]
 
 
-def test_what_a_repeated_call_returns_is_not_known() -> None:
+def test_the_result_of_a_repeated_call_is_unknown() -> None:
     function = "def f(x):\n    if x.right:\n        return Node(package='a', executable='b')\n    return f(x.left)\n"
-    source, found = collect(function, "return LaunchDescription([f(unknown())])")
-    assert said(source, found) == ["node? a b"]
-    assert [one.reason for one in found.opaque] == ["the launched actions are not known: the result of f() within itself"]
+    source, launch_file = collect(function, "return LaunchDescription([f(unknown())])")
+    assert summaries(source, launch_file) == ["node? a b"]
+    assert [item.reason for item in launch_file.opaque] == ["the launched actions are not known: the result of f() within itself"]
 
 
 # Functions that call themselves, how they are called, and what they start. Known values decide how often.
@@ -202,8 +202,8 @@ FOLLOWED = {
 
 
 @pytest.mark.parametrize("name", FOLLOWED)
-def test_calls_that_differ_in_what_is_known_are_followed(name: str) -> None:
-    functions, start, wanted = FOLLOWED[name]
-    source, found = collect(functions, start)
-    assert sorted(one.rpartition(" ")[2] for one in said(source, found)) == sorted(wanted.split())
-    assert not found.opaque
+def test_calls_with_different_known_arguments_are_interpreted(name: str) -> None:
+    functions, start, expected = FOLLOWED[name]
+    source, launch_file = collect(functions, start)
+    assert sorted(item.rpartition(" ")[2] for item in summaries(source, launch_file)) == sorted(expected.split())
+    assert not launch_file.opaque

@@ -1,17 +1,17 @@
-"""Launch files in XML: which they are, and what they refer to."""
+"""Launch files in XML: detection, references and problems."""
 
 import pytest
 
 from ros_lint.collectors.launch import detect as launch
-from tests.launch_cases import collect, said
+from tests.launch_cases import collect, summaries
 
 
 def xml(body: str) -> list[str]:
-    return said(*collect("a.launch.xml", f"<launch>\n{body}\n</launch>\n"))
+    return summaries(*collect("a.launch.xml", f"<launch>\n{body}\n</launch>\n"))
 
 
 @pytest.mark.parametrize(
-    ("path", "text", "wanted"),
+    ("path", "text", "expected"),
     [
         ("a.launch.xml", "<launch/>", "xml"),
         ("a.launch", '<?xml version="1.0"?>\n<!-- x -->\n<launch>\n</launch>', "xml"),
@@ -31,12 +31,12 @@ def xml(body: str) -> list[str]:
         ("a.xml", "<!-- <launch>", None),
     ],
 )
-def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None:
-    assert launch.is_launch_file(path, text) == wanted
+def test_launch_files_are_recognised_by_content(path: str, text: str, expected: str | None) -> None:
+    assert launch.is_launch_file(path, text) == expected
 
 
 @pytest.mark.parametrize(
-    ("body", "wanted"),
+    ("body", "expected"),
     [
         ('<node pkg="a" exec="b"/>', ["node a b"]),
         ('<node name="n" exec="b" pkg="a" if="$(var x)"/>', ["node? a b"]),
@@ -72,26 +72,26 @@ def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None
         ('<node pkg="a" exec="$(var e)"/>', ["package a"]),
     ],
 )
-def test_references(body: str, wanted: list[str]) -> None:
-    assert xml(body) == wanted
+def test_references_of_tags(body: str, expected: list[str]) -> None:
+    assert xml(body) == expected
 
 
-def test_a_computed_package_hides_what_is_used() -> None:
-    _, found = collect("a.launch.xml", '<launch><node pkg="$(var p)" exec="b"/></launch>')
-    assert [opaque.reason for opaque in found.opaque] == ["the package of a node is computed"]
+def test_a_computed_package_is_opaque() -> None:
+    _, launch_file = collect("a.launch.xml", '<launch><node pkg="$(var p)" exec="b"/></launch>')
+    assert [opaque.reason for opaque in launch_file.opaque] == ["the package of a node is computed"]
 
 
-def test_places_are_exact_beyond_ascii_and_lines() -> None:
+def test_places_after_non_ascii_characters_and_line_ends_are_exact() -> None:
     text = '<launch>\n  <!-- é -->\n  <node output="ü"\n    pkg="a"\n    exec="ö"/>\n</launch>\n'
-    source, found = collect("a.launch.xml", text)
-    (node,) = found.references
+    source, launch_file = collect("a.launch.xml", text)
+    (node,) = launch_file.references
     assert (source.slice(node.span), source.slice(node.package_span)) == ("ö", "a")
     assert str(node.span) == "a.launch.xml:5:11"
 
 
-def test_an_escaped_value_is_not_replaced() -> None:
-    _, found = collect("a.launch.xml", '<launch><node pkg="a" exec="b&amp;c"/></launch>')
-    assert [(node.name, node.exact) for node in found.references] == [("b&c", False)]
+def test_an_escaped_value_is_not_exact() -> None:
+    _, launch_file = collect("a.launch.xml", '<launch><node pkg="a" exec="b&amp;c"/></launch>')
+    assert [(node.name, node.exact) for node in launch_file.references] == [("b&c", False)]
 
 
 @pytest.mark.parametrize(
@@ -108,11 +108,11 @@ def test_an_escaped_value_is_not_replaced() -> None:
         ),
     ],
 )
-def test_what_is_no_xml(text: str, message: str) -> None:
-    _, found = collect("a.launch.xml", text.replace("\ud800", "\udcff"))
-    (problem,) = found.problems
+def test_invalid_xml_is_a_problem(text: str, message: str) -> None:
+    _, launch_file = collect("a.launch.xml", text.replace("\ud800", "\udcff"))
+    (problem,) = launch_file.problems
     assert problem.message == message
-    assert found.opaque
+    assert launch_file.opaque
     assert problem.span.line == 1 <= problem.span.column <= len(text) + 1
 
 
@@ -126,24 +126,24 @@ def test_what_is_no_xml(text: str, message: str) -> None:
         ("$(a " * 60, "substitutions are nested too deeply"),
     ],
 )
-def test_broken_substitutions(value: str, message: str) -> None:
-    _, found = collect("a.launch.xml", f'<launch><let name="x" value="{value}"/></launch>')
-    assert [problem.message for problem in found.problems] == [message]
+def test_invalid_substitutions_are_problems(value: str, message: str) -> None:
+    _, launch_file = collect("a.launch.xml", f'<launch><let name="x" value="{value}"/></launch>')
+    assert [problem.message for problem in launch_file.problems] == [message]
 
 
 @pytest.mark.parametrize(("tag", "refused"), [("trace", False), ("gz_server", False), ("test", True), ("gtest", True)])
-def test_tags_that_other_packages_add(tag: str, refused: bool) -> None:
-    _, found = collect("a.launch.xml", f'<launch><{tag} name="a"/></launch>')
-    assert [problem.message for problem in found.problems] == [f"there is no tag <{tag}>"] * refused
+def test_tags_added_by_other_packages_are_accepted(tag: str, refused: bool) -> None:
+    _, launch_file = collect("a.launch.xml", f'<launch><{tag} name="a"/></launch>')
+    assert [problem.message for problem in launch_file.problems] == [f"there is no tag <{tag}>"] * refused
 
 
-def test_depth_is_bounded() -> None:
+def test_deeply_nested_xml_is_rejected() -> None:
     def nested(depth: int) -> str:
         return "<group>" * depth + '<node pkg="a" exec="b"/>' + "</group>" * depth
 
     assert xml(nested(100)) == ["node a b"]
-    _, found = collect("a.launch.xml", f"<launch>{nested(5000)}</launch>")
-    assert [problem.message for problem in found.problems] == ["elements are nested too deeply"]
+    _, launch_file = collect("a.launch.xml", f"<launch>{nested(5000)}</launch>")
+    assert [problem.message for problem in launch_file.problems] == ["elements are nested too deeply"]
 
 
 @pytest.mark.parametrize(
@@ -163,12 +163,12 @@ def test_depth_is_bounded() -> None:
         ('<shutdown because="x"/>', ["unexpected-attribute"]),
     ],
 )
-def test_actions_that_start_nothing(body: str, problems: list[str]) -> None:
+def test_other_actions_start_nothing(body: str, problems: list[str]) -> None:
     """launch/actions: unset_environment_variable.py, reset_environment.py, reset_launch_configurations.py, shutdown_action.py."""
-    _, found = collect("a.launch.xml", f"<launch>{body}<node pkg='a' exec='b'/></launch>")
-    assert [problem.kind for problem in found.problems] == problems
-    conditions = [len(action.conditions) for action in found.actions]
-    first, node = (action.kind for action in found.actions) if not problems else ("other", "node")
+    _, launch_file = collect("a.launch.xml", f"<launch>{body}<node pkg='a' exec='b'/></launch>")
+    assert [problem.kind for problem in launch_file.problems] == problems
+    conditions = [len(action.conditions) for action in launch_file.actions]
+    first, node = (action.kind for action in launch_file.actions) if not problems else ("other", "node")
     assert first in ("other", "reset", "reset_environment", "unset_environment")
     assert node == "node"
     assert conditions == [int(" if=" in body), 0] or problems

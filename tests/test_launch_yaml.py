@@ -1,13 +1,13 @@
-"""Launch files in YAML: which they are, and what they refer to."""
+"""Launch files in YAML: detection, references and problems."""
 
 import pytest
 
 from ros_lint.collectors.launch import detect as launch
-from tests.launch_cases import collect, said
+from tests.launch_cases import collect, summaries
 
 
 @pytest.mark.parametrize(
-    ("path", "text", "wanted"),
+    ("path", "text", "expected"),
     [
         ("a.launch.yaml", "launch:\n  - node: {pkg: a, exec: b}\n", "yaml"),
         ("a.yaml", "%YAML 1.2\n---\n# x\nlaunch:\n- arg:\n    name: a\n", "yaml"),
@@ -17,11 +17,11 @@ from tests.launch_cases import collect, said
         ("a.yaml", "launcher: 1\n", None),
     ],
 )
-def test_recognised_by_content(path: str, text: str, wanted: str | None) -> None:
-    assert launch.is_launch_file(path, text) == wanted
+def test_launch_files_are_recognised_by_content(path: str, text: str, expected: str | None) -> None:
+    assert launch.is_launch_file(path, text) == expected
 
 
-def test_references() -> None:
+def test_references_of_tags() -> None:
     text = """\
 launch:
   - arg: {name: x, default: "$(find-pkg-share a)/config/x.yaml"}
@@ -50,7 +50,7 @@ launch:
           name: k
   - executable: {cmd: ros2 run l m}
 """
-    assert said(*collect("a.launch.yaml", text)) == [
+    assert summaries(*collect("a.launch.yaml", text)) == [
         "file a config/x.yaml",
         "node? a b",
         "file? c d.yaml",
@@ -62,9 +62,9 @@ launch:
     ]
 
 
-def test_a_value_that_is_written_otherwise_is_not_replaced() -> None:
-    source, found = collect("a.launch.yaml", 'launch:\n- node:\n    pkg: a\n    exec: "b\\x63"\n')
-    (node,) = found.references
+def test_a_value_in_another_notation_is_not_exact() -> None:
+    source, launch_file = collect("a.launch.yaml", 'launch:\n- node:\n    pkg: a\n    exec: "b\\x63"\n')
+    (node,) = launch_file.references
     assert (node.name, node.exact, source.slice(node.span)) == ("bc", False, '"b\\x63"')
 
 
@@ -79,14 +79,14 @@ def test_a_value_that_is_written_otherwise_is_not_replaced() -> None:
         ("launch:\n- log: {message: a?}\n", 2),
     ],
 )
-def test_what_is_no_yaml(text: str, line: int) -> None:
-    _, found = collect("a.launch.yaml", text)
-    assert [problem.span.line for problem in found.problems] == [line]
-    assert found.opaque
+def test_invalid_yaml_is_a_problem(text: str, line: int) -> None:
+    _, launch_file = collect("a.launch.yaml", text)
+    assert [problem.span.line for problem in launch_file.problems] == [line]
+    assert launch_file.opaque
 
 
 def doubled(times: int, where: str = "") -> str:
-    """Return lists in each of which the one before stands twice."""
+    """Return nested YAML lists, each of which contains the previous one twice."""
     return "".join(f"{where}- &v{n} [*v{n - 1}, *v{n - 1}]\n" for n in range(1, times))
 
 
@@ -99,8 +99,8 @@ BOMB = "launch:\n- group: &x0\n  - node: {pkg: a, exec: b}\n" + "".join(
     ("text", "reason", "line"),
     [
         (BOMB, "aliases repeat more than 200,000 values", 44),
-        ("launch: &a\n- group: *a\n- group: *a\n", "a value holds itself by an alias", 1),
-        ("launch:\n- let:\n    name: a\n    value: &v [*v]\n", "a value holds itself by an alias", 4),
+        ("launch: &a\n- group: *a\n- group: *a\n", "a value contains itself through an alias", 1),
+        ("launch:\n- let:\n    name: a\n    value: &v [*v]\n", "a value contains itself through an alias", 4),
         ("launch:\n- &v0 [a, b]\n" + doubled(30), "aliases repeat more than 200,000 values", 18),
         ("launch:\n- " + "[" * 3_000, "nested more than 100 levels deep", 2),
         ("launch:\n- " + "- " * 3_000, "nested more than 100 levels deep", 2),
@@ -109,20 +109,20 @@ BOMB = "launch:\n- group: &x0\n  - node: {pkg: a, exec: b}\n" + "".join(
         ("launch:\n- " + '["]", ' * 101 + "]" * 101, "nested more than 100 levels deep", 2),
     ],
 )
-def test_what_exceeds_a_bound_is_not_checked(text: str, reason: str, line: int) -> None:
-    _, found = collect("a.launch.yaml", text)
-    assert [(opaque.reason, opaque.span.line, opaque.unchecked) for opaque in found.opaque] == [(reason, line, True)]
-    assert not found.problems
+def test_yaml_that_exceeds_a_limit_is_not_checked(text: str, reason: str, line: int) -> None:
+    _, launch_file = collect("a.launch.yaml", text)
+    assert [(opaque.reason, opaque.span.line, opaque.unchecked) for opaque in launch_file.opaque] == [(reason, line, True)]
+    assert not launch_file.problems
 
 
-def test_aliases_within_the_bound() -> None:
+def test_aliases_within_the_limit_are_read() -> None:
     text = "launch:\n- arg: &v0\n    name: a\n- let:\n    name: b\n    value:\n" + doubled(15, "    ")
-    _, found = collect("a.launch.yaml", text + "- arg: *v0\n")
-    assert not any(opaque.unchecked for opaque in found.opaque)
-    assert [action.kind for action in found.actions] == ["argument", "argument"]
+    _, launch_file = collect("a.launch.yaml", text + "- arg: *v0\n")
+    assert not any(opaque.unchecked for opaque in launch_file.opaque)
+    assert [action.kind for action in launch_file.actions] == ["argument", "argument"]
 
 
-def test_children_that_are_an_empty_text_are_none() -> None:
-    """As launch_yaml takes them, which goes through them as through a list (launch 3.7.1)."""
+def test_an_empty_text_as_children_means_no_children() -> None:
+    """launch_yaml iterates over the empty text as over a list (launch 3.7.1)."""
     assert not collect("a.launch.yaml", "launch:\n- timer: {period: '1', children: ''}\n")[1].problems
     assert collect("a.launch.yaml", "launch:\n- timer: {period: '1', children: 'a'}\n")[1].problems

@@ -1,4 +1,4 @@
-"""Manifests against catkin_pkg, and places."""
+"""Manifests compared with catkin_pkg, and places of their elements."""
 
 from __future__ import annotations
 
@@ -45,22 +45,22 @@ def with_(*children: str, form: str = "3", own: str = GOOD) -> str:
 @example(1, [], 4)
 @example(1, [], 7)
 @example(0, [(21679, 0, 1617)] * 2, 0)  # two byte order marks
-def test_same_as_catkin_pkg(seed: int, ops: list[tuple[int, int, int]], encoding: int) -> None:
+def test_manifests_are_read_as_by_catkin_pkg(seed: int, ops: list[tuple[int, int, int]], encoding: int) -> None:
     assert list(differences(mutate(seed, ops, encoding))) == []
 
 
 @settings(max_examples=200)
 @given(st.one_of(st.binary(max_size=200), st.text(max_size=200).map(lambda text: text.encode("utf-8", "surrogatepass"))))
-def test_garbage_is_rejected_and_never_raises(data: bytes) -> None:
+def test_garbage_is_rejected_without_an_exception(data: bytes) -> None:
     assert of(data).problems
 
 
-def test_every_seed_is_accepted() -> None:
-    """So that what the mutations compare is mostly more than a rejection."""
+def test_every_unmutated_seed_is_accepted() -> None:
+    """Otherwise most mutations would only compare rejections."""
     assert all(by_catkin_pkg(seed.encode()).accepted for seed in SEEDS)
 
 
-def test_files_are_read_as_the_tools_read_them(tmp_path: Path) -> None:
+def test_encodings_and_line_ends_are_read_as_by_catkin_pkg(tmp_path: Path) -> None:
     for data in (GOOD.replace("\n", "\r").encode(), GOOD.replace(">m<", ">Ü<").encode("latin-1"), GOOD.encode("utf-8-sig")):
         (tmp_path / "package.xml").write_bytes(data)
         try:
@@ -83,13 +83,13 @@ def test_files_are_read_as_the_tools_read_them(tmp_path: Path) -> None:
         "a\r\nb<b/>",
     ],
 )
-def test_content_with_markup_is_that_of_catkin_pkg(content: str) -> None:
+def test_content_with_markup_equals_that_of_catkin_pkg(content: str) -> None:
     elements = f"<export><build_type>{content}</build_type></export></package>"
     assert list(differences(GOOD.replace("</package>", elements).replace(">d<", f">{content}<").encode())) == []
 
 
 @pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="no directory of repositories given")
-def test_corpus() -> None:
+def test_real_manifests_are_read_as_by_catkin_pkg() -> None:
     for folder, _, files in os.walk(os.environ["ROS_LINT_CORPUS"]):
         path = os.path.join(folder, "package.xml")
         if "package.xml" in files and os.path.isfile(path):
@@ -214,7 +214,7 @@ def test_kinds_of_problems(text: str | bytes, expected: list[str]) -> None:
         ),
     ],
 )
-def test_problems_name_place_and_way_out(text: str | bytes, where: str, message: str) -> None:
+def test_problems_have_place_and_remedy(text: str | bytes, where: str, message: str) -> None:
     (problem,) = of(text).problems
     span = problem.span
     assert (f"{span.line}:{span.column}-{span.end_line}:{span.end_column}", problem.message) == (where, message)
@@ -232,18 +232,18 @@ def test_problems_name_place_and_way_out(text: str | bytes, where: str, message:
         ("<depend foo='1'>a</depend>", "2", ""),
     ],
 )
-def test_problems_name_the_format_that_has_what_is_used(lines: str, form: str, newer: str) -> None:
+def test_problems_name_the_format_that_has_the_tag_or_attribute(lines: str, form: str, newer: str) -> None:
     (problem,) = of(with_(lines, form=form)).problems
     assert problem.subject == newer
 
 
-def test_a_declared_encoding_that_the_tools_ignore() -> None:
+def test_a_declared_encoding_is_ignored_as_by_catkin_pkg() -> None:
     declared = '<?xml version="1.0" encoding="iso-8859-1"?>\n'
     assert kinds((declared + GOOD.replace(">m<", ">Ü<")).encode("latin-1")) == ["encoding"]
     assert kinds((declared + GOOD.replace(">m<", ">Ü<")).encode()) == []
 
 
-def test_a_file_that_breaks_off_keeps_what_came_before() -> None:
+def test_the_beginning_of_a_truncated_file_is_read() -> None:
     manifest = of(with_("<depend>a</depend>", "<export><build_type>ament_cmake</build_type><b").removesuffix("</package>\n"))
     assert manifest.name == "p"
     assert [depend.name for depend in manifest.depends] == ["a"]
@@ -257,7 +257,7 @@ def test_both_sides_of_a_merge_conflict_are_read() -> None:
     assert manifest.problems[0].span == Span("package.xml", 7, 1, 7, 13)
 
 
-def test_what_is_refused_for_safety() -> None:
+def test_entities_and_deep_nesting_are_rejected() -> None:
     bomb = '<!DOCTYPE package [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>' + GOOD
     outside = '<!DOCTYPE package [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + GOOD.replace(">d<", ">&a;<")
     assert kinds(bomb) == kinds(outside) == ["entity"]
@@ -296,7 +296,7 @@ def spans(fact: Depend | Element) -> tuple[str, str]:
         ("<url>u</url><depend>a</depend>", ("7:13-7:31", "7:21-7:22")),
     ],
 )
-def test_places(child: str, expected: tuple[str, str], newline: str) -> None:
+def test_spans_of_elements_and_names(child: str, expected: tuple[str, str], newline: str) -> None:
     manifest = of(with_(child).replace("\n", newline))
     assert manifest.problems == ()
     assert spans(manifest.depends[0]) == expected
@@ -304,13 +304,13 @@ def test_places(child: str, expected: tuple[str, str], newline: str) -> None:
     assert manifest.end[1:] == (end_line, 1, end_line, 1)
 
 
-def test_places_in_a_file_with_a_mark() -> None:
+def test_spans_in_a_file_with_a_byte_order_mark() -> None:
     manifest = of(GOOD.encode("utf-8-sig"))
     assert manifest.begin == Span("package.xml", 1, 21, 1, 21)
     assert manifest.format_span == Span("package.xml", 1, 18, 1, 19)
 
 
-def test_facts() -> None:
+def test_facts_of_a_manifest() -> None:
     manifest = of(SEEDS[0])
     assert (manifest.name, manifest.version, manifest.format, manifest.indent) == ("talker", "1.2.3", 3, "  ")
     assert manifest.elements[2].text == "Says <b>things</b> &amp; more."
@@ -327,7 +327,7 @@ def test_facts() -> None:
     assert [text.slice(aside) for aside in manifest.asides] == ["<!-- the messages -->", "<!-- why -->"]
 
 
-def test_what_stands_between_the_elements() -> None:
+def test_comments_and_texts_between_elements_are_listed() -> None:
     text = with_("<depend>a</depend> <!-- one\n two --> stray text\nmore", "<?pi x?><depend>b</depend>").replace("\n", "\r\n")
     manifest = of(text)
     source = Text("package.xml", text)
@@ -336,6 +336,6 @@ def test_what_stands_between_the_elements() -> None:
     assert manifest.problems == ()
 
 
-def test_an_empty_condition_is_not_the_same_as_none() -> None:
+def test_an_empty_condition_differs_from_no_condition() -> None:
     manifest = of(with_("<depend condition=''>a</depend>", "<exec_depend>a</exec_depend>"))
     assert [depend.condition for depend in manifest.depends] == [" ", ""]

@@ -1,4 +1,4 @@
-"""Edited manifests mean what was wanted: asked of catkin_pkg, and of the text around."""
+"""Edited manifests have the intended meaning for catkin_pkg, and the surrounding text is unchanged."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def manifest_of(body: str, head: str = "\n".join(f"  {line}" for line in HEAD)) 
 
 
 def declared(text: str) -> Counter[tuple[str, str, str]]:
-    """What is declared, as ros-lint reads it, once catkin_pkg has agreed to the file."""
+    """Return the declared dependencies. Checks that catkin_pkg accepts the manifest."""
     assert by_catkin_pkg(text.encode()).accepted, text
     return Counter((depend.tag, depend.name, depend.condition) for depend in read(text).depends)
 
@@ -48,12 +48,12 @@ def comments(text: str) -> list[str]:
     return re.findall(r"<!--.*?-->", text, re.DOTALL)
 
 
-def assert_in_style(before: str, after: str) -> None:
-    assert comments(after) == comments(before)
-    if "\n\n\n" not in before.replace("\r", "").replace(" ", "").replace("\t", ""):
-        assert "\n\n\n" not in after.replace("\r", "").replace(" ", "").replace("\t", "")
-    if "\r\n" in before:
-        assert not re.search(r"(?<!\r)\n", after)
+def assert_in_style(original: str, edited: str) -> None:
+    assert comments(edited) == comments(original)
+    if "\n\n\n" not in original.replace("\r", "").replace(" ", "").replace("\t", ""):
+        assert "\n\n\n" not in edited.replace("\r", "").replace(" ", "").replace("\t", "")
+    if "\r\n" in original:
+        assert not re.search(r"(?<!\r)\n", edited)
 
 
 def choice(draw: st.DrawFn, values: Sequence[str]) -> str:
@@ -62,11 +62,11 @@ def choice(draw: st.DrawFn, values: Sequence[str]) -> str:
 
 @st.composite
 def manifests(draw: st.DrawFn) -> str:
-    """Manifests that catkin_pkg takes, in many styles."""
+    """Generate manifests that catkin_pkg accepts, in many styles."""
     depends: list[tuple[str, str]] = []
     for tag, name in draw(st.lists(st.tuples(st.sampled_from(TAGS), st.sampled_from(NAMES)), max_size=8)):
-        taken = [other for other, its_name in depends if its_name == name]
-        if not taken and not (tag in ("group_depend", "member_of_group") and name in [n for t, n in depends if "group" in t]):
+        accepted = [other for other, its_name in depends if its_name == name]
+        if not accepted and not (tag in ("group_depend", "member_of_group") and name in [n for t, n in depends if "group" in t]):
             depends.append((tag, name))
     if draw(st.booleans()):
         depends.sort(key=lambda pair: (TAGS.index(pair[0]), pair[1]))
@@ -91,54 +91,54 @@ def manifests(draw: st.DrawFn) -> str:
 
 @settings(max_examples=300)
 @given(manifests(), st.sampled_from(TAGS), st.sampled_from(["mid_name", "aaa", "zzz"]))
-def test_add(text: str, tag: str, name: str) -> None:
-    after = apply(text, [manifest_edits.add(read(text), tag, name)])
-    assert declared(after) == declared(text) + Counter([(tag, name, "")])
-    assert_in_style(text, after)
+def test_add_declares_the_dependency_in_the_style_of_the_file(text: str, tag: str, name: str) -> None:
+    edited = apply(text, [manifest_edits.add(read(text), tag, name)])
+    assert declared(edited) == declared(text) + Counter([(tag, name, "")])
+    assert_in_style(text, edited)
 
 
 @settings(max_examples=300)
 @given(manifests(), st.integers(0, 7))
-def test_remove(text: str, which: int) -> None:
+def test_remove_takes_out_only_the_dependency(text: str, index: int) -> None:
     manifest = read(text)
     if not manifest.depends:
         return
-    depend = manifest.depends[which % len(manifest.depends)]
-    after = apply(text, [manifest_edits.remove(manifest, depend)])
-    assert declared(after) == declared(text) - Counter([(depend.tag, depend.name, depend.condition)])
+    depend = manifest.depends[index % len(manifest.depends)]
+    edited = apply(text, [manifest_edits.remove(manifest, depend)])
+    assert declared(edited) == declared(text) - Counter([(depend.tag, depend.name, depend.condition)])
     outer = [comment for comment in comments(text) if comment != "<!-- in -->"]
-    assert [comment for comment in comments(after) if comment != "<!-- in -->"] == outer
-    assert_in_style(re.sub("<!-- in -->", "", text), re.sub("<!-- in -->", "", after))
+    assert [comment for comment in comments(edited) if comment != "<!-- in -->"] == outer
+    assert_in_style(re.sub("<!-- in -->", "", text), re.sub("<!-- in -->", "", edited))
 
 
 @settings(max_examples=200)
 @given(manifests(), st.integers(0, 7), st.sampled_from([tag for tag in TAGS if "group" not in tag]))
-def test_change_tag_and_rename(text: str, which: int, tag: str) -> None:
+def test_change_tag_and_rename_change_only_the_dependency(text: str, index: int, tag: str) -> None:
     manifest = read(text)
     depends = [depend for depend in manifest.depends if "group" not in depend.tag]
     if not depends:
         return
-    depend = depends[which % len(depends)]
+    depend = depends[index % len(depends)]
     changed = apply(text, manifest_edits.change_tag(depend, tag))
     gone = Counter([(depend.tag, depend.name, depend.condition)])
     assert declared(changed) == declared(text) - gone + Counter([(tag, depend.name, depend.condition)])
     if tag != depend.tag:
-        moved = apply(text, manifest_edits.change_kind(manifest, depend, tag, depends[:2]))
-        assert declared(moved) == declared(changed)
+        changed = apply(text, manifest_edits.change_kind(manifest, depend, tag, depends[:2]))
+        assert declared(changed) == declared(changed)
     renamed = apply(text, [manifest_edits.rename(depend, "renamed")])
     assert declared(renamed) == declared(text) - gone + Counter([(depend.tag, "renamed", depend.condition)])
 
 
 @settings(max_examples=200)
 @given(manifests())
-def test_sort(text: str) -> None:
+def test_sort_orders_the_children_by_the_schema(text: str) -> None:
     changes = manifest_edits.sort(read(text))
-    after = apply(text, changes)
-    assert declared(after) == declared(text)
-    assert_in_style(text, after)
+    edited = apply(text, changes)
+    assert declared(edited) == declared(text)
+    assert_in_style(text, edited)
     if changes:
-        found = read(after)
-        children = sorted((child.span, child.tag) for child in (*found.elements, *found.depends))
+        tags = read(edited)
+        children = sorted((child.span, child.tag) for child in (*tags.elements, *tags.depends))
         ranks = [manifest_edits.schema_rank(tag) for _, tag in children]
         assert ranks == sorted(ranks)
 
@@ -206,7 +206,7 @@ def test_sort(text: str) -> None:
         ),
     ],
 )
-def test_add_finds_the_place(body: str, tag: str, name: str, expected: str) -> None:
+def test_add_inserts_at_the_place_of_its_kind(body: str, tag: str, name: str, expected: str) -> None:
     text = manifest_of(body)
     assert apply(text, [manifest_edits.add(read(text), tag, name)]) == manifest_of(expected)
 
@@ -227,7 +227,7 @@ def test_add_finds_the_place(body: str, tag: str, name: str, expected: str) -> N
         ),
     ],
 )
-def test_set_build_type(body: str, expected: str) -> None:
+def test_set_build_type_adds_the_export(body: str, expected: str) -> None:
     text = manifest_of(body)
     assert apply(text, [manifest_edits.set_build_type(read(text), "cmake")]) == manifest_of(expected)
 
@@ -276,7 +276,7 @@ def test_set_build_type(body: str, expected: str) -> None:
         ),
     ],
 )
-def test_change_kind_finds_the_place(body: str, changed: str, expected: str) -> None:
+def test_change_kind_moves_the_dependency_to_its_kind(body: str, changed: str, expected: str) -> None:
     text = manifest_of(body)
     manifest = read(text)
     alike = [depend for depend in manifest.depends if depend.name in changed]
@@ -292,24 +292,24 @@ def test_change_kind_finds_the_place(body: str, changed: str, expected: str) -> 
         ("<depend>a</depend>\n<depend>m</depend>", ["test_depend z", "exec_depend y", "test_depend n", "depend o"], "amoynz"),
     ],
 )
-def test_what_is_added_at_one_place_is_in_order(body: str, wanted: list[str], expected: str) -> None:
+def test_several_insertions_at_one_place_are_in_order(body: str, wanted: list[str], expected: str) -> None:
     text = manifest_of(body)
-    added = [manifest_edits.add(read(text), *each.split()) for each in wanted]
-    assert [depend.name for depend in read(apply(text, added)).depends] == list(expected)
+    edits = [manifest_edits.add(read(text), *element.split()) for element in wanted]
+    assert [depend.name for depend in read(apply(text, edits)).depends] == list(expected)
 
 
-def test_raise_format() -> None:
-    for before, after in [
+def test_raise_format_changes_only_the_format() -> None:
+    for original, edited in [
         ("<package>\n</package>", '<package format="3">\n</package>'),
         ("<package\n  format='2'\n></package>", "<package\n  format='3'\n></package>"),
     ]:
-        assert apply(before, [manifest_edits.raise_format(read(before), 3)]) == after
+        assert apply(original, [manifest_edits.raise_format(read(original), 3)]) == edited
 
 
-def test_add_to_a_package_without_anything() -> None:
+def test_add_to_an_empty_package() -> None:
     for text in ("<package></package>", "<package>\n</package>\n"):
-        after = apply(text, [manifest_edits.add(read(text), "depend", "a")])
-        assert after.strip() == "<package>\n  <depend>a</depend>\n</package>"
+        edited = apply(text, [manifest_edits.add(read(text), "depend", "a")])
+        assert edited.strip() == "<package>\n  <depend>a</depend>\n</package>"
 
 
 @pytest.mark.parametrize(
@@ -325,7 +325,7 @@ def test_add_to_a_package_without_anything() -> None:
         ("  <depend>a</depend>\n  <export/>\n\n  <depend>x</depend>", "  <depend>a</depend>\n  <export/>"),
     ],
 )
-def test_remove_leaves_no_trace(body: str, expected: str) -> None:
+def test_remove_takes_out_the_line_and_separating_blank_lines(body: str, expected: str) -> None:
     text = manifest_of(body)
     manifest = read(text)
     depend = next(depend for depend in manifest.depends if depend.name == "x")
@@ -353,7 +353,7 @@ def test_remove_leaves_no_trace(body: str, expected: str) -> None:
         ("  <export/>\n  <depend>a<!-- inside --></depend>", None),
     ],
 )
-def test_sort_moves_as_little_as_it_can(body: str, expected: str | None) -> None:
+def test_sort_moves_as_few_elements_as_possible(body: str, expected: str | None) -> None:
     text = manifest_of(body)
     assert apply(text, manifest_edits.sort(read(text))) == (text if expected is None else manifest_of(expected))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,7 @@ from lxml import etree
 from ros_lint.base.text import read
 from ros_lint.collectors.manifest.collect import collect
 from ros_lint.collectors.manifest.schema.named import named_schema
-from ros_lint.collectors.manifest.schema.validate import MISPLACED, violations
+from ros_lint.collectors.manifest.schema.validate import MISPLACED, MOST_CHARACTERS, violations
 from ros_lint_rules.manifest_schema import RULE
 from tests.manifest_mutants import mutants
 from tests.one_package import loaded
@@ -200,6 +201,15 @@ def test_what_follows_a_misplaced_element_is_checked() -> None:
     ]
 
 
+def test_thousands_of_violations_take_linear_time() -> None:
+    data = manifest(3, *['<depend version_gt="x"/>'] * 2000, *["<url>::</url><author/>"] * 1500)
+    started = time.process_time()
+    found = violations(read("package.xml", data), 3) or ()
+    assert time.process_time() - started < 3  # seconds; quadratic time takes ten times as long
+    assert len(found) == 2000 + 1500
+    assert [violation.child for violation in found] == [*range(5, 2005), *range(2005, 5005, 2)]
+
+
 _DEEP = b"<a>" * 300 + b"</a>" * 300
 _LAUGHS = '<!DOCTYPE package [<!ENTITY a "ha">' + "".join(f'<!ENTITY a{n} "&a;&a;">' for n in range(9)) + "]>"
 
@@ -217,8 +227,9 @@ _LAUGHS = '<!DOCTYPE package [<!ENTITY a "ha">' + "".join(f'<!ENTITY a{n} "&a;&a
         manifest(3).replace(b"<name>p", b"<name>\xff"),
         manifest(3).decode().encode("utf-16"),
         manifest(3).decode().encode("utf-16-le"),
+        manifest(3, "<depend/>" * (MOST_CHARACTERS // 9)),
     ],
-    ids=range(10),
+    ids=range(11),
 )
 def test_what_is_not_safe_or_not_xml_is_not_checked(data: bytes) -> None:
     assert violations(read("package.xml", data), 3) is None

@@ -1,4 +1,4 @@
-"""Which nodes a YAML file has parameters for."""
+"""The nodes for which a YAML file has parameters."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from ros_lint.collectors.resources.parameter_files import collect
 
 
 def nodes(text: str) -> tuple[str, ...] | None:
-    found = collect(Text("a.yaml", text))
-    return None if found is None else tuple(name for name, _ in found.nodes)
+    facts = collect(Text("a.yaml", text))
+    return None if facts is None else tuple(name for name, _ in facts.nodes)
 
 
-def expected(document: Any, above: str = "") -> Iterator[str]:
-    """Yield the full names of the nodes as a real parser of YAML sees them, those of keys that stand twice, too."""
+def expected(document: Any, parents: str = "") -> Iterator[str]:
+    """Yield the full node names according to a YAML parser, with those of repeated keys."""
     for key, value in document.value if isinstance(document, yaml.MappingNode) else ():
         if key.value == "ros__parameters":
-            yield above or "/"
-        elif above.count("/") < 5:
-            yield from expected(value, f"{above}/{str(key.value).strip('/')}")
+            yield parents or "/"
+        elif parents.count("/") < 5:
+            yield from expected(value, f"{parents}/{str(key.value).strip('/')}")
 
 
 SAMPLES = [
@@ -39,38 +39,38 @@ SAMPLES = [
 
 
 @pytest.mark.parametrize("text", SAMPLES)
-def test_names_of_nodes(text: str) -> None:
+def test_node_names_equal_those_of_a_yaml_parser(text: str) -> None:
     assert nodes(text) == tuple(expected(yaml.compose(text)))
 
 
 @pytest.mark.parametrize(
     "text", ["a: {ros__parameters: {x: 1}}\n", "ros__parameters:\n  x: 1\n", "**:\n  ros__parameters:\n    x: 1\n"]
 )
-def test_what_is_written_in_another_way_may_be_for_any_node(text: str) -> None:
+def test_parameters_in_another_notation_may_be_for_any_node(text: str) -> None:
     assert nodes(text) == ("/**",)
 
 
-def test_a_file_of_another_kind_has_none() -> None:
+def test_a_file_without_parameters_has_no_nodes() -> None:
     assert nodes("x: 1\ny:\n  z: 2\n") == ()
     assert nodes("# a:\n#   ros__parameters:\nx: 1\n") == ()
     assert nodes("- a\n- b\n") is None
     assert nodes("") is None
 
 
-def test_a_namespace_may_have_very_many_nodes() -> None:
+def test_a_namespace_with_many_nodes_takes_linear_time() -> None:
     text = "ns:\n" + "".join(f"  n{number}:\n    ros__parameters:\n" for number in range(30_000))
     assert nodes(text) == tuple(f"/ns/n{number}" for number in range(30_000))
 
 
-def test_places() -> None:
-    found = collect(Text("a.yaml", "---\n# c\nns:\n  node:\n    ros__parameters:\n      x: 1\n"))
-    assert found is not None
-    assert [(str(span), name) for name, span in found.nodes] == [("a.yaml:4:3", "/ns/node")]
-    assert str(found.first) == "a.yaml:3:1"
+def test_spans_of_elements_and_names() -> None:
+    facts = collect(Text("a.yaml", "---\n# c\nns:\n  node:\n    ros__parameters:\n      x: 1\n"))
+    assert facts is not None
+    assert [(str(span), name) for name, span in facts.nodes] == [("a.yaml:4:3", "/ns/node")]
+    assert str(facts.first) == "a.yaml:3:1"
 
 
 @pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="ROS_LINT_CORPUS is not set")
-def test_names_of_nodes_in_real_files() -> None:
+def test_node_names_in_real_files_equal_those_of_a_yaml_parser() -> None:
     for path in sorted(Path(os.environ["ROS_LINT_CORPUS"]).rglob("*.yaml")):
         data = path.read_bytes() if path.is_file() else b""
         if b"ros__parameters" not in data:
@@ -79,7 +79,7 @@ def test_names_of_nodes_in_real_files() -> None:
             document = yaml.compose(data, Loader=yaml.CSafeLoader)
         except yaml.YAMLError:
             continue
-        found = collect(read(str(path), data))
-        assert found is not None, path
-        said = {name for name, _ in found.nodes}
-        assert "/**" in said or said == set(expected(document)), path
+        facts = collect(read(str(path), data))
+        assert facts is not None, path
+        names = {name for name, _ in facts.nodes}
+        assert "/**" in names or names == set(expected(document)), path

@@ -1,4 +1,4 @@
-"""The line on the terminal: late, seldom, and gone when it is over."""
+"""The progress line appears late, changes seldom and is cleared at the end."""
 
 from __future__ import annotations
 
@@ -33,69 +33,69 @@ def _terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TERM", "xterm")
 
 
-def test_a_short_run_says_nothing() -> None:
+def test_a_short_run_shows_no_progress() -> None:
     stream, clock = Terminal(), Clock()
     with Progress(stream, clock=clock) as progress:
         for done in range(100):
             clock.now += 0.004
-            progress.tell("reading", done, 100)
+            progress.update("reading", done, 100)
     assert stream.getvalue() == ""
 
 
-def test_a_long_run_overwrites_one_line_and_takes_it_away() -> None:
+def test_a_long_run_overwrites_one_line_and_clears_it() -> None:
     stream, clock = Terminal(), Clock()
     with Progress(stream, clock=clock) as progress:
         for done in range(8):
-            progress.tell("reading", done, 10)
+            progress.update("reading", done, 10)
             clock.now += 0.15
-        progress.tell("joining", 0, 0)
+        progress.update("joining", 0, 0)
     assert stream.getvalue() == (
         "\rreading 4/10\x1b[K\rreading 5/10\x1b[K\rreading 6/10\x1b[K\rreading 7/10\x1b[K\rjoining\x1b[K\r\x1b[K"
     )
 
 
-def test_the_line_goes_away_when_the_run_fails() -> None:
+def test_the_line_is_cleared_if_the_run_fails() -> None:
     stream, clock = Terminal(), Clock()
     with pytest.raises(RuntimeError), Progress(stream, clock=clock) as progress:  # noqa: PT012
         clock.now += 1
-        progress.tell("reading", 1, 2)
+        progress.update("reading", 1, 2)
         raise RuntimeError
     assert stream.getvalue().endswith("\r\x1b[K")
 
 
-def test_not_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_terminal_no_progress_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock()
     monkeypatch.setenv("TERM", "dumb")
-    for stream, wanted in ((io.StringIO(), True), (Terminal(), False), (Terminal(), True)):
-        progress = Progress(stream, wanted, clock)
+    for stream, expected in ((io.StringIO(), True), (Terminal(), False), (Terminal(), True)):
+        progress = Progress(stream, expected, clock)
         clock.now += 10
-        progress.tell("reading", 1, 2)
+        progress.update("reading", 1, 2)
         progress.clear()
         assert stream.getvalue() == ""
 
 
-def test_on_a_real_terminal_the_line_is_no_longer_than_the_screen() -> None:
-    ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 40, 0, 0))
+def test_the_line_is_shortened_to_the_width_of_the_terminal() -> None:
+    controller, terminal = pty.openpty()
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 40, 0, 0))
     clock = Clock()
-    with os.fdopen(theirs, "w") as stream, Progress(stream, clock=clock) as progress:
+    with os.fdopen(terminal, "w") as stream, Progress(stream, clock=clock) as progress:
         clock.now += 1
-        progress.tell("x" * 1000, 1, 2)
+        progress.update("x" * 1000, 1, 2)
         progress.clear()
-        wanted = f"\r{'x' * 39}\x1b[K\r\x1b[K"
+        expected = f"\r{'x' * 39}\x1b[K\r\x1b[K"
         written = ""
-        while len(written) < len(wanted) and select.select([ours], [], [], 10)[0]:
-            written += os.read(ours, 4096).decode()
-    os.close(ours)
-    assert written == wanted
+        while len(written) < len(expected) and select.select([controller], [], [], 10)[0]:
+            written += os.read(controller, 4096).decode()
+    os.close(controller)
+    assert written == expected
 
 
-def test_a_terminal_that_has_gone_is_no_error() -> None:
-    class Gone(Terminal):
+def test_a_closed_terminal_raises_no_error() -> None:
+    class ClosedTerminal(Terminal):
         def write(self, text: str) -> int:
             raise OSError(5, "Input/output error")
 
     clock = Clock()
-    with Progress(Gone(), clock=clock) as progress:
+    with Progress(ClosedTerminal(), clock=clock) as progress:
         clock.now += 1
-        progress.tell("reading", 1, 2)
+        progress.update("reading", 1, 2)

@@ -1,4 +1,4 @@
-"""Whose a name is: headers, modules, CMake packages and wrong names."""
+"""The providers of headers, modules and CMake packages, and the meaning of misspelled names."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def prefix(tmp_path: Path) -> str:
 
 
 @pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted", "lyrical"])
-def test_what_is_an_interface_package_in_some_distribution_provides_its_module(distro: str) -> None:
+def test_an_interface_package_of_any_distribution_may_provide_its_module(distro: str) -> None:
     # The messages of turtlesim have moved to turtlesim_msgs; tutorials and students import them from turtlesim as ever.
     assert world(distro=distro).by_import("turtlesim.msg").names == ("turtlesim",)
 
@@ -32,25 +32,25 @@ def test_what_is_an_interface_package_in_some_distribution_provides_its_module(d
         ("mrpt/ros2bridge/pose.h", "mrpt_libros_bridge"),
     ],
 )
-def test_libraries_of_mrpt_come_in_several_packages(header: str, package: str) -> None:
-    found = world().by_include(header)
-    assert (found.names[0], found.sure) == (package, True)
+def test_libraries_of_mrpt_are_in_several_packages(header: str, package: str) -> None:
+    result = world().by_include(header)
+    assert (result.names[0], result.sure) == (package, True)
 
 
-def test_what_packages_provide(prefix: str) -> None:
-    found = world(member("mine"), prefixes=(prefix,))
-    assert found.executables("demo_nodes_cpp").ask("talker") == "exists"
-    assert found.executables("demo_nodes_cpp").ask("tolker") == "missing"
-    assert found.executables("private_tool").ask("tool") == "exists"
-    assert found.executables("private_tool").ask("tol") == "missing"
-    assert found.executables("mine").ask("anything") == "unknowable"
-    assert found.executables("nonsense_pkg").ask("anything") == "unknowable"
-    assert found.components("composition").ask("composition::Talker") == "exists"
-    assert found.launch_files("turtlebot3_bringup").ask("launch/robot.launch.py") == "exists"
-    assert found.python_modules("std_msgs").ask("std_msgs") == "exists"
-    assert found.python_modules("tf2_ros").ask("tf2_ros") == "missing"
-    assert found.plugins("ackermann_steering_controller").names
-    assert found.programs("ament_clang_format").ask("ament_clang_format") == "exists"
+def test_contents_of_packages_are_looked_up(prefix: str) -> None:
+    result = world(member("mine"), prefixes=(prefix,))
+    assert result.executables("demo_nodes_cpp").ask("talker") == "exists"
+    assert result.executables("demo_nodes_cpp").ask("tolker") == "missing"
+    assert result.executables("private_tool").ask("tool") == "exists"
+    assert result.executables("private_tool").ask("tol") == "missing"
+    assert result.executables("mine").ask("anything") == "unknowable"
+    assert result.executables("nonsense_pkg").ask("anything") == "unknowable"
+    assert result.components("composition").ask("composition::Talker") == "exists"
+    assert result.launch_files("turtlebot3_bringup").ask("launch/robot.launch.py") == "exists"
+    assert result.python_modules("std_msgs").ask("std_msgs") == "exists"
+    assert result.python_modules("tf2_ros").ask("tf2_ros") == "missing"
+    assert result.plugins("ackermann_steering_controller").names
+    assert result.programs("ament_clang_format").ask("ament_clang_format") == "exists"
 
 
 @pytest.mark.parametrize(
@@ -64,20 +64,20 @@ def test_what_packages_provide(prefix: str) -> None:
         ("gz-sim8", "gz_sim_vendor", {"gz_sim_vendor"}, set()),
     ],
 )
-def test_cmake_packages(name: str, first: str, packages: set[str], keys: set[str]) -> None:
-    found = world().by_cmake(name)
-    assert (found.names[0], {*found.packages}, {*found.keys}) == (first, packages, keys)
-    assert found.known
-    assert not found.none_needed
+def test_cmake_packages_are_resolved(name: str, first: str, packages: set[str], keys: set[str]) -> None:
+    result = world().by_cmake(name)
+    assert (result.names[0], {*result.packages}, {*result.keys}) == (first, packages, keys)
+    assert result.known
+    assert not result.none_needed
 
 
-def test_cmake_packages_that_need_nothing_or_are_not_known() -> None:
-    found = world(member("fmt"))
-    assert found.by_cmake("Threads").none_needed
-    assert found.by_cmake("Threads").known
-    assert not found.by_cmake("SomebodysLibrary").known
-    assert found.by_cmake("fmt").names == ("fmt",)  # the workspace has a package of that name
-    assert not found.by_cmake("roscpp").known
+def test_cmake_modules_need_no_package_and_unknown_names_have_no_provider() -> None:
+    result = world(member("fmt"))
+    assert result.by_cmake("Threads").none_needed
+    assert result.by_cmake("Threads").known
+    assert not result.by_cmake("SomebodysLibrary").known
+    assert result.by_cmake("fmt").names == ("fmt",)  # the workspace has a package of that name
+    assert not result.by_cmake("roscpp").known
 
 
 @pytest.mark.parametrize(
@@ -98,19 +98,19 @@ def test_cmake_packages_that_need_nothing_or_are_not_known() -> None:
         ("ros/ros.h", ()),
     ],
 )
-def test_headers(header: str, names: tuple[str, ...]) -> None:
-    found = world(member("mine"), member("autoware_mine_too"), member("moveit")).by_include(header)
-    assert found.names == names
-    assert found.known == bool(names)
+def test_headers_are_resolved(header: str, names: tuple[str, ...]) -> None:
+    result = world(member("mine"), member("autoware_mine_too"), member("moveit")).by_include(header)
+    assert result.names == names
+    assert result.known == bool(names)
 
 
-def test_headers_of_the_tool_chain_need_nothing() -> None:
+def test_headers_of_the_tool_chain_need_no_package() -> None:
     assert all(world().by_include(header).none_needed for header in ("vector", "sys/stat.h", "cstdint", "unistd.h"))
 
 
-def test_headers_of_an_underlay(prefix: str) -> None:
-    found = world(prefixes=(prefix,))
-    assert found.by_include("private_base/private_base.hpp").names == ("private_base",)
+def test_headers_of_an_underlay_are_resolved(prefix: str) -> None:
+    result = world(prefixes=(prefix,))
+    assert result.by_include("private_base/private_base.hpp").names == ("private_base",)
     (Path(prefix) / "include/private_base/odd_root").mkdir()
     (Path(prefix) / "include/private_base/odd_root/odd.hpp").touch()
     assert world(prefixes=(prefix,)).by_include("odd_root/odd.hpp").names == ("private_base",)
@@ -133,15 +133,15 @@ def test_headers_of_an_underlay(prefix: str) -> None:
         ("rospy", ()),
     ],
 )
-def test_modules(module: str, names: tuple[str, ...]) -> None:
-    found = world(Member("mine", "1.0.0", {}, (), ("my_parts",)), Member("other", "1.0.0", {}, (), ("other_name",))).by_import(
+def test_python_modules_are_resolved(module: str, names: tuple[str, ...]) -> None:
+    result = world(Member("mine", "1.0.0", {}, (), ("my_parts",)), Member("other", "1.0.0", {}, (), ("other_name",))).by_import(
         module
     )
-    assert found.names == names
-    assert found.known == bool(names)
+    assert result.names == names
+    assert result.known == bool(names)
 
 
-def test_modules_of_the_language_need_nothing() -> None:
+def test_modules_of_the_standard_library_need_no_package() -> None:
     assert all(world().by_import(module).none_needed for module in ("os.path", "tomllib", "distutils", "typing"))
 
 
@@ -176,26 +176,26 @@ def test_modules_of_the_language_need_nothing() -> None:
         ("ros-humble-nonsense-pkg", ""),
     ],
 )
-def test_what_was_meant(wrong: str, right: str) -> None:
-    found = world(member("mine_msgs")).meant(wrong)
-    assert (found.name if found else "") == right
+def test_a_misspelled_name_is_corrected(wrong: str, right: str) -> None:
+    result = world(member("mine_msgs")).meant(wrong)
+    assert (result.name if result else "") == right
 
 
 @pytest.mark.parametrize(
     ("wrong", "right"),
     [("numpy", "python3-numpy"), ("cv2", "python3-opencv"), ("pycollada", "python3-collada-pip"), ("cv-bridge", "cv_bridge")],
 )
-def test_what_was_meant_in_python(wrong: str, right: str) -> None:
-    found = world().meant(wrong, python=True)
-    assert found is not None
-    assert found.name == right
+def test_a_misspelled_name_is_corrected_for_python(wrong: str, right: str) -> None:
+    result = world().meant(wrong, python=True)
+    assert result is not None
+    assert result.name == right
 
 
-def test_only_what_resolves_is_suggested() -> None:
+def test_only_names_that_resolve_are_suggested() -> None:
     """The key that apt's name stands for has no rule for every distribution."""
     for distro in ("humble", "jazzy", "lyrical"):
-        found = world(distro=distro)
+        result = world(distro=distro)
         for wrong in ("python-numpy", "python-yaml", "gazebo9", "ament_cmake_lint_copyright", "libqt5core5a"):
-            for name in found.suggest(wrong):
-                assert found.is_package(name) or found.knowledge.resolves(name)
+            for name in result.suggest(wrong):
+                assert result.is_package(name) or result.knowledge.resolves(name)
     assert world().suggest("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)

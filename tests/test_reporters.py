@@ -1,4 +1,4 @@
-"""What reporters write, to the letter (tests/golden, rewritten by ``pytest --bless``), and against what others compute."""
+"""The output of the reporters, compared with files (tests/golden, rewritten by ``pytest --bless``) and other implementations."""
 
 from __future__ import annotations
 
@@ -37,41 +37,41 @@ OUTPUTS = [
 
 
 @pytest.mark.parametrize(("file", "name", "form", "style"), OUTPUTS, ids=[output[0] for output in OUTPUTS])
-def test_golden(file: str, name: str, form: str, style: Style, request: pytest.FixtureRequest) -> None:
-    got = reporter(form)(REPORTS[name], texts, style)
+def test_the_output_equals_the_golden_file(file: str, name: str, form: str, style: Style, request: pytest.FixtureRequest) -> None:
+    actual = reporter(form)(REPORTS[name], texts, style)
     if request.config.getoption("bless"):
-        (GOLDEN / file).write_text(got, "utf-8", newline="")
+        (GOLDEN / file).write_text(actual, "utf-8", newline="")
     with (GOLDEN / file).open(encoding="utf-8", newline="") as file_:
-        assert got == file_.read()
+        assert actual == file_.read()
 
 
-def test_there_is_no_other_format() -> None:
+def test_an_unknown_format_raises_an_error() -> None:
     with pytest.raises(KeyError):
         reporter("html")
 
 
 @pytest.mark.parametrize("form", FORMATS)
-def test_nothing_reaches_a_terminal_that_could_harm_it(form: str) -> None:
-    got = reporter(form)(EVERYTHING, texts, NARROW)
-    assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]", got)
-    assert got.endswith("\n")
-    assert got.encode("utf-8")
+def test_control_characters_are_escaped_in_every_format(form: str) -> None:
+    actual = reporter(form)(EVERYTHING, texts, NARROW)
+    assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]", actual)
+    assert actual.endswith("\n")
+    assert actual.encode("utf-8")
 
 
 @pytest.mark.parametrize("form", FORMATS)
-def test_a_file_that_cannot_be_read_costs_no_finding(form: str) -> None:
-    got = reporter(form)(EVERYTHING, lambda path: None, NARROW)
+def test_findings_in_unreadable_files_are_shown(form: str) -> None:
+    actual = reporter(form)(EVERYTHING, lambda path: None, NARROW)
     for issue in ISSUES:
-        assert issue.rule.name in got or issue.rule.code in got
-        assert issue.finding.message.split()[0] in got
+        assert issue.rule.name in actual or issue.rule.code in actual
+        assert issue.finding.message.split()[0] in actual
 
 
-def test_ascii_is_ascii() -> None:
+def test_ascii_output_has_ascii_characters_only() -> None:
     for form in ("text", "concise"):
         assert reporter(form)(EVERYTHING, texts, NARROW._replace(ascii=True)).isascii()
 
 
-def test_without_colour_it_is_the_same_text() -> None:
+def test_colours_do_not_change_the_text() -> None:
     for form in ("text", "concise"):
         colored = reporter(form)(EVERYTHING, texts, NARROW._replace(color=True))
         assert re.sub(r"\x1b\[[0-9;]*m", "", colored) == reporter(form)(EVERYTHING, texts, NARROW)
@@ -80,18 +80,18 @@ def test_without_colour_it_is_the_same_text() -> None:
 # --- text ----------------------------------------------------------------------------------------------------------
 
 
-def test_concise_fits_a_problem_matcher() -> None:
+def test_a_problem_matcher_parses_the_concise_format() -> None:
     lines = reporter("concise")(EVERYTHING, texts, Style()).split("\n")
-    found = [m for line in lines if (m := re.match(r"^(.+?):(\d+):(\d+): (error|warning|info): (.+) \[([a-z-]+)\]$", line))]
-    assert [(m[1], int(m[2]), int(m[3]), m[4], m[6]) for m in found] == [
+    result = [m for line in lines if (m := re.match(r"^(.+?):(\d+):(\d+): (error|warning|info): (.+) \[([a-z-]+)\]$", line))]
+    assert [(m[1], int(m[2]), int(m[3]), m[4], m[6]) for m in result] == [
         (i.finding.span.path, i.finding.span.line, i.finding.span.column, str(i.severity), i.rule.name) for i in ISSUES
     ]
 
 
 def test_issues_alone_have_no_summary() -> None:
-    got = render_issues(ISSUES, texts)
-    assert got.count("\n\n") == len(ISSUES) - 1
-    assert "Found" not in got
+    actual = render_issues(ISSUES, texts)
+    assert actual.count("\n\n") == len(ISSUES) - 1
+    assert "Found" not in actual
 
 
 def test_infos_of_one_rule_and_package_are_one_block() -> None:
@@ -130,10 +130,10 @@ def test_what_pedantic_adds_is_counted_by_rule(form: str) -> None:
 
 
 @pytest.mark.parametrize("form", ["text", "concise", "github"])
-def test_long_lists_are_cut_and_say_so(form: str) -> None:
+def test_long_lists_are_shortened_with_a_note(form: str) -> None:
     entries = tuple(UnreadFile(f"file {n}", "gone", None) for n in range(30))
-    got = reporter(form)(EVERYTHING._replace(not_checked=entries), texts, Style())
-    assert "and 20 more; --format json lists all of them" in got
+    actual = reporter(form)(EVERYTHING._replace(not_checked=entries), texts, Style())
+    assert "and 20 more; --format json lists all of them" in actual
 
 
 def flat(source: Text, span: Span, style: Style = Style(width=60)) -> tuple[str, str]:  # noqa: B008
@@ -165,13 +165,13 @@ def flat(source: Text, span: Span, style: Style = Style(width=60)) -> tuple[str,
         ("abc", "", ""),
     ],
 )
-def test_carets_stand_below_the_words(line: str, words: str, over: str) -> None:
+def test_carets_are_below_the_marked_words(line: str, words: str, over: str) -> None:
     source = Text("a", f"before\n{line}\nafter")
     start = source.text.index(words or "c\n") + (1 if not words else 0)
     assert flat(source, source.span(start, start + len(words)))[1] == over
 
 
-def test_escapes() -> None:
+def test_characters_are_escaped() -> None:
     shown = [safe(text, Style()) for text in ("\udce9", "\x9b", "\u202e", "\U000e0041", "ä", "a\tb")]
     assert shown == ["\\xe9", "\\x9b", "\\u202e", "\\U000e0041", "ä", "a    b"]
     assert safe("ä\uffff\U00010000", Style(ascii=True)) == "\\xe4\\uffff\\U00010000"
@@ -189,25 +189,25 @@ def test_one_line_between_two_places_is_shown_and_more_are_not() -> None:
     ]
 
 
-def test_places_of_several_lines() -> None:
+def test_places_of_several_lines_have_a_bar() -> None:
     assert framed(["a b", "c", "d", "  e", "f", "g"], (1, 3, 2, 2), (4, 3, 6, 1)) == [
         *("1 |   a b", "  |  ___^", "2 | | c", "  | |_^ label 0"),
         *("3 |   d", "4 | /   e", "5 | | f", "  | |_^ label 1"),
     ]
 
 
-def test_places_that_overlap_are_told_apart() -> None:
+def test_overlapping_places_are_shown_separately() -> None:
     assert framed(["a b", "c", "d", "e"], (1, 1, 3, 2), (2, 1, 4, 2)) == [
         *("1 | / a b", "2 | | c", "  | | ^ label 1", "3 | | d", "  | |_^ label 0"),
     ]
 
 
-def test_a_line_is_cut_only_when_it_has_to_be() -> None:
+def test_only_lines_that_are_too_long_are_shortened() -> None:
     room = 60 - len("1 | ")
-    for length, whole in ((room, True), (room + 1, False)):
+    for length, complete in ((room, True), (room + 1, False)):
         line = "x" * (length - 1) + "y"
         row, carets = framed([line], (1, length, 1, length + 1))
-        assert (row == f"1 | {line}") is whole
+        assert (row == f"1 | {line}") is complete
         assert row[carets.index("^")] == "y"
     assert framed(["x" * 200], (1, 1, 1, 2))[0] == f"1 | {'x' * (room - 3)}..."
     assert framed(["x" * 200 + "y"], (1, 201, 1, 202))[0] == f"1 | ...{'x' * 20}y"
@@ -217,7 +217,7 @@ LINES = st.text(st.sampled_from("ab \t日e\u0301\x1b\u202e\udce9😀\u200d-"), m
 
 
 @given(st.lists(LINES, min_size=1, max_size=12), st.data())
-def test_frames_of_anything(lines: list[str], data: st.DataObject) -> None:
+def test_frames_of_random_marks_fit_the_width(lines: list[str], data: st.DataObject) -> None:
     source = Text("a", "\n".join(lines))
     offsets = st.integers(0, len(source.text))
     marks = []
@@ -231,7 +231,7 @@ def test_frames_of_anything(lines: list[str], data: st.DataObject) -> None:
         assert not re.search("[\x00-\x1f\u202e\ud800-\udfff]", row)
 
 
-def test_spans_beyond_the_file() -> None:
+def test_spans_beyond_the_end_of_the_file_are_limited() -> None:
     source = Text("a", "x\ny")
     for span in (Span("a", 1, 1, 9, 9), Span("a", 1, 9, 1, 12), Span("a", 9, 1, 9, 2), Span("a", 2, 2, 2, 2)):
         rows, _ = frame([Mark(span, "label", "error", "^")], lambda path: source, Style())
@@ -252,7 +252,7 @@ def strict(schema: Any) -> Any:
 
 
 @pytest.mark.parametrize("name", REPORTS)
-def test_json_has_the_shape_of_its_schema(name: str) -> None:
+def test_json_is_valid_for_its_schema(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     document = json.loads(reporter("json")(REPORTS[name], texts, Style()))
     jsonschema.validate(document, strict(SCHEMA), jsonschema.Draft202012Validator)
@@ -261,7 +261,7 @@ def test_json_has_the_shape_of_its_schema(name: str) -> None:
 @pytest.mark.parametrize(
     ("key", "value"), [("schema_version", 2), ("packages", -1), ("findings", [{}]), ("summary", {}), ("more", 1)]
 )
-def test_the_schema_refuses_something(key: str, value: object) -> None:
+def test_the_schema_rejects_invalid_reports(key: str, value: object) -> None:
     document = json.loads(reporter("json")(EVERYTHING, texts, Style())) | {key: value}
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(document, strict(SCHEMA), jsonschema.Draft202012Validator)
@@ -281,18 +281,18 @@ def test_every_key_is_in_the_docs() -> None:
     assert keys(SCHEMA) <= set(re.findall(r"`([a-z_]+)`", section))
 
 
-def test_json_says_all_there_is() -> None:
+def test_json_contains_the_whole_report() -> None:
     document = json.loads(reporter("json")(EVERYTHING, texts, Style()))
-    for found, issue in zip(document["findings"], ISSUES, strict=True):
+    for result, issue in zip(document["findings"], ISSUES, strict=True):
         finding = issue.finding
-        assert (found["rule"], found["code"], found["package"]) == (issue.rule.name, issue.rule.code, issue.package)
-        assert Span(*(found[key] for key in Span._fields)) == finding.span
-        assert (found["message"], found["subject"], found["steps"]) == (finding.message, finding.subject, finding.steps)
-        assert [(r["message"], Span(*(r[key] for key in Span._fields))) for r in found["related"]] == list(finding.related)
-        assert (found["fix"] is None) is (finding.fix is None)
+        assert (result["rule"], result["code"], result["package"]) == (issue.rule.name, issue.rule.code, issue.package)
+        assert Span(*(result[key] for key in Span._fields)) == finding.span
+        assert (result["message"], result["subject"], result["steps"]) == (finding.message, finding.subject, finding.steps)
+        assert [(r["message"], Span(*(r[key] for key in Span._fields))) for r in result["related"]] == list(finding.related)
+        assert (result["fix"] is None) is (finding.fix is None)
         if finding.fix:
-            edits = [(Span(*(e[key] for key in Span._fields)), e["text"]) for e in found["fix"]["edits"]]
-            assert (found["fix"]["title"], found["fix"]["safe"], edits) == (
+            edits = [(Span(*(e[key] for key in Span._fields)), e["text"]) for e in result["fix"]["edits"]]
+            assert (result["fix"]["title"], result["fix"]["safe"], edits) == (
                 finding.fix.title,
                 finding.fix.safe,
                 [(edit.span, edit.text) for edit in finding.fix.edits],
@@ -300,7 +300,7 @@ def test_json_says_all_there_is() -> None:
     assert document["summary"] == {"error": 3, "warning": 7, "info": 2, "fixable": 1, "unsafely_fixable": 1}
 
 
-def test_json_has_one_finding_a_line() -> None:
+def test_json_has_one_finding_per_line() -> None:
     lines = reporter("json")(EVERYTHING, texts, Style()).splitlines()
     assert sum('"code": ' in line for line in lines) == len(ISSUES)
 
@@ -320,7 +320,7 @@ def commands(report: Report) -> list[str]:
     return [line for line in reporter("github")(report, texts, Style()).split("\n") if line.startswith("::")]
 
 
-def test_annotations_have_the_worst_first() -> None:
+def test_the_most_severe_annotations_come_first() -> None:
     levels = [line[2:].partition(" ")[0] for line in commands(EVERYTHING._replace(not_checked=(), crashes=()))]
     assert levels == sorted(levels, key=("error", "warning", "notice").index)
 
@@ -333,7 +333,7 @@ def test_annotations_that_github_does_not_show_are_announced() -> None:
         assert ("11 warnings" in lines[-1]) is announced
 
 
-def test_no_finding_forges_an_annotation() -> None:
+def test_a_finding_cannot_inject_a_workflow_command() -> None:
     hostile = ISSUES[0].finding._replace(message="x\n::error::y\r::warning::z")
     lines = reporter("github")(EVERYTHING._replace(issues=(ISSUES[0]._replace(finding=hostile),)), texts, Style())
     assert not re.search(r"^::error::y|^::warning::z", lines.replace("\r", "\n"), re.MULTILINE)
@@ -370,7 +370,7 @@ def quality(report: Report) -> list[dict[str, Any]]:
 
 
 @pytest.mark.parametrize("name", REPORTS)
-def test_gitlab_takes_the_report_and_merges_nothing(name: str) -> None:
+def test_gitlab_fingerprints_are_unique_and_the_report_is_valid(name: str) -> None:
     entries = quality(REPORTS[name])
     jsonschema.validate(entries, QUALITY)
     assert len({entry["fingerprint"] for entry in entries}) == len(entries)
@@ -394,10 +394,10 @@ HASHES = json.loads((GOLDEN / "line_hashes.json").read_text("utf-8"))
 def test_line_hashes_are_those_of_microsoft(case: dict[str, Any]) -> None:
     """The hashes were computed by Sarif.Multitool 5.7.0 (rewrite --insert RollingHashPartialFingerprints)."""
     source = read(case["name"], case["bytes"].encode("latin-1"))
-    wanted = range(1, len(case["hashes"]) + 1)
-    assert list(line_hashes(source, wanted).values()) == case["hashes"]
-    assert line_hashes(source, [wanted[-1]]) == {wanted[-1]: case["hashes"][-1]}
-    assert line_hashes(source, [wanted[-1] + 1]) == {}
+    expected = range(1, len(case["hashes"]) + 1)
+    assert list(line_hashes(source, expected).values()) == case["hashes"]
+    assert line_hashes(source, [expected[-1]]) == {expected[-1]: case["hashes"][-1]}
+    assert line_hashes(source, [expected[-1] + 1]) == {}
 
 
 def run_of(report: Report) -> dict[str, Any]:
@@ -405,16 +405,16 @@ def run_of(report: Report) -> dict[str, Any]:
     return run
 
 
-def test_sarif_keeps_the_most_important_results(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sarif_keeps_the_most_severe_results(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sarif, "_RESULTS", 4)
-    whole = run_of(EVERYTHING._replace(issues=ISSUES))
-    assert [result["level"] for result in whole["results"]].count("error") == 2
-    assert len(whole["results"]) == 4
-    notes = whole["invocations"][0]["toolExecutionNotifications"]
+    complete = run_of(EVERYTHING._replace(issues=ISSUES))
+    assert [result["level"] for result in complete["results"]].count("error") == 2
+    assert len(complete["results"]) == 4
+    notes = complete["invocations"][0]["toolExecutionNotifications"]
     assert notes[-1]["message"]["text"] == "7 results of the lowest severity are left out, because GitHub accepts at most 4."
 
 
-def test_two_findings_of_a_rule_on_a_line_are_one_result() -> None:
+def test_two_findings_of_a_rule_in_a_line_are_one_result() -> None:
     issues = tuple(issue for issue in ISSUES if issue.rule.name == "undeclared-dependency")
     (result,) = run_of(EVERYTHING._replace(issues=issues))["results"]
     assert len(issues) == 2
@@ -425,7 +425,7 @@ def test_two_findings_of_a_rule_on_a_line_are_one_result() -> None:
     assert len(result["fixes"]) == 1
 
 
-def test_a_fix_of_several_findings_on_a_line_is_there_once() -> None:
+def test_a_fix_of_several_findings_in_a_line_is_listed_once() -> None:
     issues = [issue for issue in ISSUES if issue.rule.name == "undeclared-dependency"]
     (fix,) = [issue.finding.fix for issue in issues if issue.finding.fix]
     both = tuple(issue._replace(finding=issue.finding._replace(fix=fix)) for issue in issues)
@@ -437,12 +437,12 @@ def test_a_fix_of_several_findings_on_a_line_is_there_once() -> None:
     ("version", "semantic"),
     [("1.2.3", "1.2.3"), ("1.2", "1.2.0"), ("1.2.3rc1", "1.2.3-rc1"), ("1.2.3.dev4+gabc", "1.2.3-dev4.gabc"), ("x", "0.0.0-x")],
 )
-def test_versions(version: str, semantic: str) -> None:
+def test_versions_are_converted_to_semantic_versions(version: str, semantic: str) -> None:
     driver = run_of(EVERYTHING._replace(version=version))["tool"]["driver"]
     assert (driver["version"], driver["semanticVersion"]) == (version, semantic)
 
 
-def test_a_line_moves_and_the_fingerprint_stays() -> None:
+def test_a_moved_line_keeps_its_fingerprint() -> None:
     issue = next(issue for issue in ISSUES if issue.finding.span.path == ARM)
     span = issue.finding.span
     moved = issue._replace(finding=issue.finding._replace(span=span._replace(line=span.line + 1, end_line=span.end_line + 1)))

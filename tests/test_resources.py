@@ -1,4 +1,4 @@
-"""Which packages a resource file names."""
+"""Packages and files that resource files name."""
 
 import pytest
 
@@ -8,15 +8,15 @@ from ros_lint.workspace.collect import collect
 
 
 def names(text: str) -> dict[str, bool]:
-    """Return each package with whether it is certain."""
+    """Return the mentioned packages, each with whether the mention is certain."""
     source = Text("r", text)
-    found = resources.collect(source).mentions
-    assert all(source.slice(mention.span) == mention.name for mention in found)
-    return {mention.name: not mention.optional for mention in found}
+    facts = resources.collect(source).mentions
+    assert all(source.slice(mention.span) == mention.name for mention in facts)
+    return {mention.name: not mention.optional for mention in facts}
 
 
 @pytest.mark.parametrize(
-    ("text", "wanted"),
+    ("text", "expected"),
     [
         ('<mesh filename="package://arm_description/meshes/a.stl"/>', {"arm_description": True}),
         ('<xacro:include filename="$(find arm_description)/urdf/a.xacro"/>', {"arm_description": True}),
@@ -41,24 +41,24 @@ def names(text: str) -> dict[str, bool]:
         ('<launch><node pkg="a" type="b" name="c" args="$(find views)/a.rviz"/></launch>', {"views": False}),
     ],
 )
-def test_forms(text: str, wanted: dict[str, bool]) -> None:
-    assert names(text) == wanted
+def test_packages_are_found_in_every_notation(text: str, expected: dict[str, bool]) -> None:
+    assert names(text) == expected
 
 
-def test_each_package_once_and_the_certain_form_wins() -> None:
+def test_a_package_is_mentioned_once_and_certainly_if_any_mention_is() -> None:
     text = "Class: tools/A\nfile: package://tools/a\nfile: package://tools/b\n"
     source = Text("r", text)
     (mention,) = resources.collect(source).mentions
     assert (mention.name, mention.optional, mention.span.line) == ("tools", False, 2)
 
 
-def test_paths_that_are_written_in_another_way() -> None:
+def test_paths_in_other_notations_are_normalized() -> None:
     text = "$(find arm)//urdf/a.xacro package://arm/meshes/../b.stl package://arm/../hand/c.stl $(find arm)/urdf/./a.xacro"
-    found = resources.collect(Text("r", text)).lookups
-    assert [(each.package, each.path) for each in found] == [("arm", "urdf/a.xacro"), ("arm", "b.stl")]
+    facts = resources.collect(Text("r", text)).lookups
+    assert [(mention.package, mention.path) for mention in facts] == [("arm", "urdf/a.xacro"), ("arm", "b.stl")]
 
 
-def test_trees_that_are_included() -> None:
+def test_files_of_included_behavior_trees_are_looked_up() -> None:
     text = """<root BTCPP_format="4">
   <include ros_pkg="trees" path="trees/grasp.xml"/>
   <include
@@ -69,12 +69,12 @@ def test_trees_that_are_included() -> None:
 </root>
 """
     source = Text("tree.xml", text)
-    found = resources.collect(source).lookups
-    assert [(each.package, each.path) for each in found] == [("trees", "trees/grasp.xml"), ("more", "put.xml")]
-    assert [source.slice(each.span) for each in found] == ["trees/grasp.xml", "put.xml"]
+    facts = resources.collect(source).lookups
+    assert [(mention.package, mention.path) for mention in facts] == [("trees", "trees/grasp.xml"), ("more", "put.xml")]
+    assert [source.slice(mention.span) for mention in facts] == ["trees/grasp.xml", "put.xml"]
 
 
-def test_what_moveit_is_told_to_load_by_a_launch_file_in_python() -> None:
+def test_controller_managers_in_python_launch_files_are_mentioned() -> None:
     code = 'manager = {"moveit_controller_manager": "moveit_simple_controller_manager/MoveItSimpleControllerManager"}\n'
     source = Text("launch/arm.launch.py", f"from launch import LaunchDescription\n{code}def generate_launch_description(): ...\n")
     facts = collect(source, "python").facts

@@ -1,4 +1,4 @@
-"""Every case in fixtures/, against its rule."""
+"""Every case in fixtures/ passes for its rule."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ CASES = [case for source in sorted(FIXTURES.glob("*.md")) for case in read_cases
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
-def test_case(case: Case, request: pytest.FixtureRequest) -> None:
+def test_the_rule_meets_the_case(case: Case, request: pytest.FixtureRequest) -> None:
     rule = RULES[case.source.stem]
     if request.config.getoption("bless"):
         bless(case, rule)
@@ -32,7 +32,7 @@ def test_case(case: Case, request: pytest.FixtureRequest) -> None:
 @pytest.mark.parametrize(
     "case", [case for case in CASES if RULES[case.source.stem].fixable], ids=lambda case: f"{case.source.stem}: {case.title}"
 )
-def test_a_safe_fix_declares_what_resolves(case: Case, told: bool) -> None:
+def test_a_safe_fix_declares_only_names_that_resolve(case: Case, told: bool) -> None:
     """In the stated distribution, or in every active one where none was stated."""
     tree, case = case.tree(), case._replace(chosen=told)
     safe = [issue for issue in issues_of(tree, case, RULES[case.source.stem]) if issue.finding.fix and issue.finding.fix.safe]

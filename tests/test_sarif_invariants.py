@@ -1,4 +1,4 @@
-"""SARIF files keep what code review asks of them, and each check is able to complain."""
+"""SARIF files meet the requirements of code scanning, and each check detects its defect."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ GOLDEN = Path(__file__).parent / "golden"
 
 
 @pytest.mark.parametrize("name", REPORTS)
-def test_golden_files(name: str) -> None:
+def test_golden_files_are_valid(name: str) -> None:
     text = (GOLDEN / f"{name}.sarif").read_text("utf-8")
     assert complaints(text, SOURCES.get) == []
 
 
 @pytest.mark.parametrize("number", range(len(ISSUES)))
-def test_one_at_a_time(number: int) -> None:
+def test_reports_with_a_single_finding_are_valid(number: int) -> None:
     text = sarif.render(SOUND._replace(issues=ISSUES[number : number + 1]), texts, Style())
     assert complaints(text, SOURCES.get) == []
 
 
 @pytest.mark.parametrize("column", [1, 500, 2990])
-def test_of_a_long_line_a_part_is_quoted(column: int) -> None:
+def test_a_part_of_a_long_line_is_quoted(column: int) -> None:
     source = Text("long", "x" * 3000 + "\n" + "y" * 3000)
     finding = ISSUES[0].finding._replace(span=Span("long", 1, column, 1, column + 5), related=(), fix=None, steps=False)
     text = sarif.render(SOUND._replace(issues=(ISSUES[0]._replace(finding=finding),)), lambda path: source, Style())
@@ -41,7 +41,7 @@ def test_of_a_long_line_a_part_is_quoted(column: int) -> None:
     assert 100 < len(physical["contextRegion"]["snippet"]["text"]) < 1000
 
 
-def test_of_a_real_run(tmp_path: Path) -> None:
+def test_the_output_of_a_run_is_valid(tmp_path: Path) -> None:
     shutil.copytree(Path(__file__).parent.parent / "fixtures" / "workspaces" / "demo", tmp_path / "ws")
     (tmp_path / "ws" / ".git").mkdir()
     output = tmp_path / "found.sarif"
@@ -112,27 +112,27 @@ DEFECTS = [
 
 
 @pytest.mark.parametrize(("path", "value", "complaint"), DEFECTS, ids=[f"{path}={value!r:.20}" for path, value, _ in DEFECTS])
-def test_planted_defects_are_seen(path: str, value: object, complaint: str) -> None:
-    found = complaints(changed(DOCUMENT, path, value), SOURCES.get)
-    assert any(complaint in line for line in found)
+def test_defects_in_results_are_detected(path: str, value: object, complaint: str) -> None:
+    result = complaints(changed(DOCUMENT, path, value), SOURCES.get)
+    assert any(complaint in line for line in result)
 
 
-def test_planted_defects_of_the_file() -> None:
+def test_defects_in_the_file_are_detected() -> None:
     text = json.dumps(DOCUMENT)
     assert complaints("\ufeff" + text, SOURCES.get) == ["byte order mark"]
     assert complaints(text.replace('"version": "2.1.0"', '"version": "2.1.0", "x": NaN', 1), SOURCES.get)[0] == "constant NaN"
     assert "category" in complaints(json.dumps({**DOCUMENT, "runs": DOCUMENT["runs"] * 2}), SOURCES.get)
 
 
-def test_fixes_say_what_the_edits_say() -> None:
+def test_fixes_equal_the_edits() -> None:
     results = DOCUMENT["runs"][0]["results"]
     fixes = [fix for result in results for fix in result.get("fixes", [])]
-    wanted = [issue.finding.fix for issue in SOUND.issues if issue.finding.fix]
-    assert [fix["properties"]["safe"] for fix in fixes] == [fix.safe for fix in wanted]
-    for got, fix in zip(fixes, wanted, strict=True):
+    expected = [issue.finding.fix for issue in SOUND.issues if issue.finding.fix]
+    assert [fix["properties"]["safe"] for fix in fixes] == [fix.safe for fix in expected]
+    for actual, fix in zip(fixes, expected, strict=True):
         replacements = [
             (change["artifactLocation"]["uri"], tuple(part["deletedRegion"].values()), part["insertedContent"]["text"])
-            for change in got["artifactChanges"]
+            for change in actual["artifactChanges"]
             for part in change["replacements"]
         ]
         assert replacements == [(edit.span.path, edit.span[1:], edit.text) for edit in fix.edits]

@@ -7,7 +7,7 @@ import pytest
 from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.cmake import evaluate as cmake
 from ros_lint.engine import registry
-from ros_lint.engine import run as engine
+from ros_lint.engine.run import find_issues
 from ros_lint.facts.visibility import ALL_FACETS, Facet
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
@@ -66,7 +66,7 @@ def test_no_interpreter_is_found_whose_name_ends_with_a_carriage_return(end: str
     text = end.join(["#!/usr/bin/env python3", "if __name__ == '__main__':", "    print(1)", ""])
     workspace = load("install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})\nament_package()\n", p__a_dot_py=text)
     rules = [rule for rule in registry.load() if rule.name == "script-not-executable"]
-    issues = engine.check(workspace, rules, (), rules).issues
+    issues = find_issues(workspace, rules, (), rules).issues
     assert [issue.finding.message.rpartition("; ")[2] for issue in issues if issue.finding.confidence == 3] == found
 
 

@@ -1,4 +1,4 @@
-"""Near names, against brute force."""
+"""Similar names, compared with a search by brute force."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ def _edits(name: str) -> set[str]:
     """Return every name one letter away, by brute force."""
     letters = "abcdefghijklmnopqrstuvwxyz_-0123456789"
     splits = [(name[:at], name[at:]) for at in range(len(name) + 1)]
-    found = {a + b[1:] for a, b in splits if b}
-    found |= {a + b[1] + b[0] + b[2:] for a, b in splits if len(b) > 1}
-    found |= {a + c + b[1:] for a, b in splits if b for c in letters}
-    found |= {a + c + b for a, b in splits for c in letters}
-    return found - {name}
+    result = {a + b[1:] for a, b in splits if b}
+    result |= {a + b[1] + b[0] + b[2:] for a, b in splits if len(b) > 1}
+    result |= {a + c + b[1:] for a, b in splits if b for c in letters}
+    result |= {a + c + b for a, b in splits for c in letters}
+    return result - {name}
 
 
-def test_slips_are_those_that_brute_force_finds() -> None:
+def test_slips_equal_those_found_by_brute_force() -> None:
     names = [name for name in Knowledge("jazzy").index.names() if len(name) > 12][::40]
     spelling = Spelling(names)
     chance = random.Random(7)
@@ -48,7 +48,7 @@ def test_slips_are_those_that_brute_force_finds() -> None:
         ("rivz_default_plugins", "rviz_default_plugins"),
     ],
 )
-def test_slips(wrong: str, right: str) -> None:
+def test_a_name_with_one_wrong_letter_is_found(wrong: str, right: str) -> None:
     assert Spelling(Knowledge("jazzy").index.names()).one_slip(wrong) == (right,)
 
 
@@ -58,11 +58,11 @@ def test_the_same_words_in_another_order_are_nearest() -> None:
 
 
 @pytest.mark.parametrize("name", ["python3-pcl", "lcm", "mrpt2", "camera_2", "rclcpp"])
-def test_no_slips(name: str) -> None:
+def test_short_words_and_digits_are_no_slips(name: str) -> None:
     assert Spelling(["python3-pil", "icm", "mrpt1", "camera_1", "rclcpp"]).one_slip(name) == ()
 
 
-def test_no_two_known_names_are_letters_swapped() -> None:
+def test_no_two_known_names_differ_by_swapped_letters() -> None:
     """Why words of four letters will do for it."""
     names = {*Knowledge("jazzy").index.names(), *Knowledge("jazzy").rosdep.names()}
     for name in names:
@@ -71,7 +71,7 @@ def test_no_two_known_names_are_letters_swapped() -> None:
                 assert f"{name[:at]}{right}{left}{name[at + 2 :]}" not in names
 
 
-def test_spelling_by_dashes_and_capitals() -> None:
+def test_dashes_and_capitals_are_ignored() -> None:
     assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("cv-bridge") == ("cv_bridge",)
     assert Spelling(["cv_bridge", "turtlebot3_fake_node"]).same("turtlebot3_fakenode") == ("turtlebot3_fake_node",)
     assert Spelling(["ament_cmake_copyright", "rclcpp"]).near("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
@@ -91,5 +91,5 @@ def test_spelling_by_dashes_and_capitals() -> None:
         ("robot_apriltags", ["cam_robot_april_tag"], ["cam_robot_april_tag"]),
     ],
 )
-def test_names_that_may_be_meant(name: str, names: list[str], wanted: list[str]) -> None:
+def test_near_names_exclude_unrelated_words(name: str, names: list[str], wanted: list[str]) -> None:
     assert near_names(name, names, 3, 0.6) == wanted

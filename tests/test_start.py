@@ -1,4 +1,4 @@
-"""A process of ros-lint loads no module from the folder that it is called in."""
+"""A process of ros-lint loads no module from the current folder."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ def test_the_console_script_loads_no_module_of_the_current_folder(
     for name in {*sys.stdlib_module_names, *OTHERS}.difference(bare.stdout.split()):
         (folder / f"{name}.py").write_text("open(__file__ + '.loaded', 'w').close()\nraise SystemExit(3)\n")
     arguments = [str(DEMO), "--distro", "jazzy", "--no-cache", "--pedantic", "--jobs", jobs]
-    done = subprocess.run([sys.executable, script, *arguments], capture_output=True, text=True, cwd=folder, check=False)
+    process = subprocess.run([sys.executable, script, *arguments], capture_output=True, text=True, cwd=folder, check=False)
     assert sorted(path.name for path in folder.glob("*.loaded")) == []
-    assert done.returncode == 1, done.stderr
+    assert process.returncode == 1, process.stderr
 
 
-def test_the_current_folder_leaves_the_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_current_folder_is_removed_from_the_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "here").mkdir()
     (tmp_path / "link").symlink_to("here")
     here, link, other = (str(tmp_path / name) for name in ("here", "link", "other"))
@@ -66,7 +66,7 @@ def test_the_current_folder_leaves_the_path(tmp_path: Path, monkeypatch: pytest.
     assert (os.environ["PYTHONPATH"], os.environ["PYTHONSAFEPATH"]) == (other, "1")
 
 
-def test_a_folder_that_holds_this_package_is_the_last(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_current_folder_with_ros_lint_comes_last(monkeypatch: pytest.MonkeyPatch) -> None:
     home = os.path.dirname(os.path.dirname(os.path.realpath(start.__file__)))
     monkeypatch.chdir(home)
     monkeypatch.setenv("PYTHONSAFEPATH", "")
@@ -75,10 +75,10 @@ def test_a_folder_that_holds_this_package_is_the_last(monkeypatch: pytest.Monkey
     assert sys.path == ["/elsewhere", home]
 
 
-def test_a_current_folder_that_is_gone(tmp_path: Path) -> None:
+def test_a_deleted_current_folder_raises_no_error(tmp_path: Path) -> None:
     code = (
         "import os, sys; os.rmdir(os.getcwd()); sys.argv = ['ros-lint', '--version']; from ros_lint.cli.start import run; run()"
     )
     (tmp_path / "gone").mkdir()
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path / "gone", check=False)
-    assert (done.returncode, done.stdout) == (0, f"ros-lint {ros_lint.__version__}\n"), done.stderr
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path / "gone", check=False)
+    assert (process.returncode, process.stdout) == (0, f"ros-lint {ros_lint.__version__}\n"), process.stderr

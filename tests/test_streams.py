@@ -48,14 +48,14 @@ def check_patch(workspace: Path, place: Path, patch: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("encoding", ["utf-8:strict", *ENCODINGS])
-def test_a_patch_has_the_bytes_of_the_file(workspace: Path, encoding: str) -> None:
-    done = run(workspace, "--diff", "--no-cache", encoding=encoding)
-    assert (done.returncode, done.stderr) == (1, b"")
-    assert b"\n # Universit\xe9 \xe6\xbc\xa2\n+install(DIRECTORY launch" in done.stdout
-    check_patch(workspace, workspace / "robot" / "CMakeLists.txt", done.stdout)
+def test_a_patch_has_the_original_bytes_of_the_file(workspace: Path, encoding: str) -> None:
+    process = run(workspace, "--diff", "--no-cache", encoding=encoding)
+    assert (process.returncode, process.stderr) == (1, b"")
+    assert b"\n # Universit\xe9 \xe6\xbc\xa2\n+install(DIRECTORY launch" in process.stdout
+    check_patch(workspace, workspace / "robot" / "CMakeLists.txt", process.stdout)
 
 
-def test_a_patch_of_a_file_in_another_encoding(workspace: Path) -> None:
+def test_a_patch_of_a_latin_1_file_has_its_bytes(workspace: Path) -> None:
     place = workspace / "robot" / "launch" / "a.launch.py"
     text = (
         "# coding: latin-1\nfrom launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -63,14 +63,14 @@ def test_a_patch_of_a_file_in_another_encoding(workspace: Path) -> None:
         "    # \xe9\n    return LaunchDescription([Node(package='joy', node_executable='joy_node')])\n"
     )
     place.write_bytes(text.encode("latin-1"))
-    done = run(workspace, "--diff", "--no-cache")
-    assert b"\n     # \xe9\n" in done.stdout
-    assert b" executable='joy_node'" in check_patch(workspace, place, done.stdout)
+    process = run(workspace, "--diff", "--no-cache")
+    assert b"\n     # \xe9\n" in process.stdout
+    assert b" executable='joy_node'" in check_patch(workspace, place, process.stdout)
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
 @pytest.mark.parametrize("command", [("graph",), ("order",), ("explain-package", "r\u6f22"), ("launch",)])
-def test_names_that_the_terminal_cannot_show(tmp_path: Path, encoding: str, command: tuple[str, ...]) -> None:
+def test_names_that_the_terminal_cannot_show_are_escaped(tmp_path: Path, encoding: str, command: tuple[str, ...]) -> None:
     folder = package(tmp_path / "ws" / "robot", "robot")
     (folder / "package.xml").write_text(GOOD.format("robot"))
     (folder / "colcon.pkg").write_text("name: r\u6f22\n", "utf-8")
@@ -79,31 +79,31 @@ def test_names_that_the_terminal_cannot_show(tmp_path: Path, encoding: str, comm
     launch = folder / "launch" / "\u6f22.launch.xml"
     launch.write_text("<launch><node pkg='robot' exec='\u6f22'/></launch>")
     place = {"explain-package": ["-C", tmp_path / "ws"], "launch": [launch]}.get(command[0], [tmp_path / "ws"])
-    done = run(*command, *place, "--no-cache", encoding=encoding)
-    assert b"Traceback" not in done.stderr
-    assert b"Error" not in done.stderr
-    assert b"\xe6\xbc\xa2" in done.stdout or b"\\u6f22" in done.stdout
+    process = run(*command, *place, "--no-cache", encoding=encoding)
+    assert b"Traceback" not in process.stderr
+    assert b"Error" not in process.stderr
+    assert b"\xe6\xbc\xa2" in process.stdout or b"\\u6f22" in process.stdout
 
 
 @pytest.mark.parametrize("arguments", [(".",), (".", "--diff"), ("order", "."), ("rules",), ("--help",), ("--version",)])
 @pytest.mark.parametrize("where", [">/dev/full", ">&-"])
-def test_output_that_cannot_be_written(workspace: Path, arguments: tuple[str, ...], where: str) -> None:
+def test_unwritable_output_gives_a_message_and_exit_code_2(workspace: Path, arguments: tuple[str, ...], where: str) -> None:
     command = " ".join([sys.executable, "-m", "ros_lint", *arguments, where])
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=workspace, check=False)
-    assert done.returncode == 2
+    process = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=workspace, check=False)
+    assert process.returncode == 2
     reason = "No space left on device" if "full" in where else "Bad file descriptor"
-    assert done.stderr == f"ros-lint: standard output: {reason}\n"
+    assert process.stderr == f"ros-lint: standard output: {reason}\n"
 
 
 @pytest.mark.parametrize("where", ["2>&-", "2>&- >&-", "2>/dev/full"])
-def test_errors_that_cannot_be_written(workspace: Path, where: str) -> None:
+def test_unwritable_standard_error_raises_no_error(workspace: Path, where: str) -> None:
     command = " ".join([sys.executable, "-m", "ros_lint", "nowhere", where])
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=workspace, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "")
+    process = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=workspace, check=False)
+    assert (process.returncode, process.stdout, process.stderr) == (2, "", "")
 
 
-def test_a_run_that_writes_to_a_file_needs_no_output(workspace: Path) -> None:
+def test_a_run_that_writes_to_a_file_needs_no_standard_output(workspace: Path) -> None:
     command = " ".join([sys.executable, "-m", "ros_lint", ".", "--output", "report", ">&-"])
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=workspace, check=False)
-    assert (done.returncode, done.stderr) == (1, "")
+    process = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=workspace, check=False)
+    assert (process.returncode, process.stderr) == (1, "")
     assert (workspace / "report").read_text().startswith("robot: ")

@@ -1,4 +1,4 @@
-"""Comments that suppress findings: where they count, for what, and what the fixes of the rules about them leave."""
+"""Comments that suppress findings: the lines and rules to which they apply, and the edits that remove them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_lint.collectors.comments import comments
 from ros_lint.collectors.suppressions import collect
 from ros_lint.engine import edits
 from ros_lint.engine.report import Issue
-from ros_lint.engine.suppressions import apply
+from ros_lint.engine.suppressions import apply_suppressions
 from ros_lint.facts.suppressions import Suppression
 
 RULES = tuple(
@@ -32,13 +32,13 @@ def issue(rule: str, path: str, line: int, end_line: int = 0, end_column: int = 
     return Issue(next(r for r in RULES if r.name == rule), "talker", Finding("it is wrong", span, "thing"))
 
 
-def one(path: str, source: str) -> Suppression:
-    (found,) = collect(Text(path, source))
-    return found
+def single(path: str, source: str) -> Suppression:
+    (suppressions,) = collect(Text(path, source))
+    return suppressions
 
 
-def covered(found: Suppression, lines: int) -> list[int]:
-    return [n for n in range(1, lines + 1) if found.covers(issue("missing-file", found.span.path, n).finding.span)]
+def covered(suppressions: Suppression, lines: int) -> list[int]:
+    return [n for n in range(1, lines + 1) if suppressions.covers(issue("missing-file", suppressions.span.path, n).finding.span)]
 
 
 # --- which comments count ------------------------------------------------------------------------------------------
@@ -64,14 +64,14 @@ TRUE_COMMENTS = {
 
 
 @pytest.mark.parametrize(("path", "source"), TRUE_COMMENTS.items())
-def test_every_language(path: str, source: str) -> None:
-    found = one(path, source)
-    assert [name.text for name in found.names] == ["ROS204"]
-    assert found.reason == "for the demo"
-    assert found.problem == ""
-    assert found.lines is not None
-    assert 2 in range(found.lines[0], found.lines[1] + 1)
-    assert Text(path, source).slice(found.span).replace(" ", "") == "ros-lint:ignore[ROS204]"
+def test_suppressions_work_in_every_language(path: str, source: str) -> None:
+    suppressions = single(path, source)
+    assert [name.text for name in suppressions.names] == ["ROS204"]
+    assert suppressions.reason == "for the demo"
+    assert suppressions.problem == ""
+    assert suppressions.lines is not None
+    assert 2 in range(suppressions.lines[0], suppressions.lines[1] + 1)
+    assert Text(path, source).slice(suppressions.span).replace(" ", "") == "ros-lint:ignore[ROS204]"
 
 
 MARK = "ros-lint: ignore[ROS204]"
@@ -99,21 +99,21 @@ NO_COMMENTS = [
 
 
 @pytest.mark.parametrize(("path", "source"), NO_COMMENTS)
-def test_a_string_is_no_comment(path: str, source: str) -> None:
+def test_a_string_is_not_a_comment(path: str, source: str) -> None:
     assert collect(Text(path, source)) == ()
 
 
-def test_quotes_that_open_nothing_hide_no_comment() -> None:
-    assert one("a.cpp", f"int a = 1'000'000; char b = '\"'; // {MARK}\n")
-    assert one("a.cpp", f"#error don't\nint a; // {MARK}\n")
-    assert one("a.yaml", f"a: don't\nb: it's # {MARK}\n")
-    assert one("CMakeLists.txt", f'set(a \\") # {MARK}\n')
+def test_unpaired_quotes_do_not_hide_comments() -> None:
+    assert single("a.cpp", f"int a = 1'000'000; char b = '\"'; // {MARK}\n")
+    assert single("a.cpp", f"#error don't\nint a; // {MARK}\n")
+    assert single("a.yaml", f"a: don't\nb: it's # {MARK}\n")
+    assert single("CMakeLists.txt", f'set(a \\") # {MARK}\n')
 
 
-def test_a_broken_file_keeps_the_comments_before_the_break() -> None:
-    assert one("setup.py", f"import foo  # {MARK}\ndef (((\n")
-    assert one("package.xml", f"<package><!-- {MARK} --><a")
-    assert one("a.yaml", f"a: @x@ # {MARK}\nb: [\n")
+def test_comments_before_a_syntax_error_count() -> None:
+    assert single("setup.py", f"import foo  # {MARK}\ndef (((\n")
+    assert single("package.xml", f"<package><!-- {MARK} --><a")
+    assert single("a.yaml", f"a: @x@ # {MARK}\nb: [\n")
 
 
 # --- against parsers nobody here wrote -----------------------------------------------------------------------------
@@ -127,7 +127,7 @@ XML_PARTS = st.sampled_from(
 
 
 @given(st.lists(XML_PARTS))
-def test_xml_comments_are_those_of_expat(parts: list[str]) -> None:
+def test_xml_comments_equal_those_of_expat(parts: list[str]) -> None:
     text = f"<a>{''.join(parts)}</a>"
     expected: list[str] = []
     parser = expat.ParserCreate()
@@ -145,7 +145,7 @@ YAML_PARTS = st.sampled_from(
 
 
 @given(st.lists(YAML_PARTS))
-def test_yaml_comments_are_what_the_parser_leaves_out(parts: list[str]) -> None:
+def test_yaml_comments_are_outside_the_tokens_of_the_parser(parts: list[str]) -> None:
     text = "".join(parts)
     try:
         in_values = [event.value for event in yaml.parse(text) if isinstance(event, yaml.ScalarEvent)]
@@ -163,39 +163,39 @@ def test_yaml_comments_are_what_the_parser_leaves_out(parts: list[str]) -> None:
 # --- which lines ---------------------------------------------------------------------------------------------------
 
 
-def test_at_the_end_of_a_line_it_speaks_for_that_line() -> None:
-    assert covered(one("a.py", f"a\nb  # {MARK}\nc\n"), 3) == [2]
+def test_a_suppression_at_the_end_of_a_line_applies_to_the_line() -> None:
+    assert covered(single("a.py", f"a\nb  # {MARK}\nc\n"), 3) == [2]
 
 
-def test_alone_it_speaks_for_the_next_line() -> None:
-    assert covered(one("a.py", f"a\n  # {MARK}\nc\nd\n"), 4) == [2, 3]
+def test_a_suppression_alone_on_its_line_applies_to_the_next_line() -> None:
+    assert covered(single("a.py", f"a\n  # {MARK}\nc\nd\n"), 4) == [2, 3]
 
 
-def test_alone_it_speaks_past_other_comments() -> None:
-    assert covered(one("CMakeLists.txt", f"a()\n# {MARK}\n# more\n#[[ and\nmore ]]\nb()\nc()\n"), 7)[-1] == 6
+def test_a_suppression_applies_past_following_comments() -> None:
+    assert covered(single("CMakeLists.txt", f"a()\n# {MARK}\n# more\n#[[ and\nmore ]]\nb()\nc()\n"), 7)[-1] == 6
 
 
-def test_alone_over_several_lines() -> None:
-    assert covered(one("a.xml", f"<a>\n<!--\n  {MARK}\n  because\n-->\n<b/>\n<c/>\n</a>"), 8)[-1] == 6
+def test_a_suppression_in_a_comment_of_several_lines_applies_to_the_next_line() -> None:
+    assert covered(single("a.xml", f"<a>\n<!--\n  {MARK}\n  because\n-->\n<b/>\n<c/>\n</a>"), 8)[-1] == 6
 
 
-def test_a_comment_with_code_behind_it_does_not_stand_alone() -> None:
-    assert covered(one("a.cpp", f"/* {MARK} */ int a;\nint b;\n"), 2) == [1]
+def test_a_comment_followed_by_code_applies_to_its_own_line() -> None:
+    assert covered(single("a.cpp", f"/* {MARK} */ int a;\nint b;\n"), 2) == [1]
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
-def test_line_ends(newline: str) -> None:
+def test_suppressions_work_with_every_line_end(newline: str) -> None:
     for path, comment in (("a.py", f"# {MARK} so"), ("a.xml", f"<!-- {MARK} so -->"), ("a.cpp", f"// {MARK} so")):
-        found = one(path, newline.join(["", comment, "x = 1", ""]))
-        assert (found.lines, found.reason) == ((2, 3), "so")
+        suppressions = single(path, newline.join(["", comment, "x = 1", ""]))
+        assert (suppressions.lines, suppressions.reason) == ((2, 3), "so")
 
 
-def test_any_line_of_a_finding_will_do() -> None:
-    found = one("a.xml", f"<a>\n<b\n  c=''\n/> <!-- {MARK} -->\n<d/>\n</a>")
-    assert found.covers(issue("missing-file", "a.xml", 2, 4).finding.span)
-    assert not found.covers(issue("missing-file", "a.xml", 2, 3).finding.span)
-    assert not found.covers(issue("missing-file", "a.xml", 2, 4, end_column=1).finding.span), "it ends with line 3"
-    assert not found.covers(issue("missing-file", "other.xml", 2, 4).finding.span)
+def test_a_suppression_may_be_on_any_line_of_a_finding() -> None:
+    suppressions = single("a.xml", f"<a>\n<b\n  c=''\n/> <!-- {MARK} -->\n<d/>\n</a>")
+    assert suppressions.covers(issue("missing-file", "a.xml", 2, 4).finding.span)
+    assert not suppressions.covers(issue("missing-file", "a.xml", 2, 3).finding.span)
+    assert not suppressions.covers(issue("missing-file", "a.xml", 2, 4, end_column=1).finding.span), "it ends with line 3"
+    assert not suppressions.covers(issue("missing-file", "other.xml", 2, 4).finding.span)
 
 
 # --- the whole file ------------------------------------------------------------------------------------------------
@@ -214,12 +214,12 @@ FILE_MARK = "ros-lint: ignore-file[ROS204] vendored"
         ("a.yaml", f"# {FILE_MARK}\na: 1\n"),
     ],
 )
-def test_ignore_file(path: str, source: str) -> None:
-    found = one(path, source)
-    assert found.problem == ""
-    assert found.lines is None
-    assert found.reason == "vendored"
-    assert found.covers(issue("missing-file", path, 1000).finding.span)
+def test_ignore_file_applies_to_the_whole_file(path: str, source: str) -> None:
+    suppressions = single(path, source)
+    assert suppressions.problem == ""
+    assert suppressions.lines is None
+    assert suppressions.reason == "vendored"
+    assert suppressions.covers(issue("missing-file", path, 1000).finding.span)
 
 
 @pytest.mark.parametrize(
@@ -230,10 +230,10 @@ def test_ignore_file(path: str, source: str) -> None:
         ("CMakeLists.txt", f"project(a)\n# {FILE_MARK}\n"),
     ],
 )
-def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
-    found = one(path, source)
-    assert "in the first comments" in found.problem
-    assert not found.covers(issue("missing-file", path, 2).finding.span)
+def test_ignore_file_after_code_is_a_problem(path: str, source: str) -> None:
+    suppressions = single(path, source)
+    assert "in the first comments" in suppressions.problem
+    assert not suppressions.covers(issue("missing-file", path, 2).finding.span)
 
 
 # --- what is wrong with it -----------------------------------------------------------------------------------------
@@ -253,19 +253,19 @@ def test_ignore_file_in_the_wrong_place(path: str, source: str) -> None:
         ("type: ignore # ros-lint: ignore", "names no rule"),
     ],
 )
-def test_problems(comment: str, problem: str) -> None:
-    found = one("a.py", f"import foo  # {comment}\n")
-    assert problem in found.problem
-    assert apply([issue("missing-file", "a.py", 1)], [found], RULES, NAMES).use.malformed == (found,)
-    assert len(apply([issue("unused-dependency", "a.py", 1)], [found], RULES, NAMES).kept) == 1
+def test_invalid_suppressions_are_problems(comment: str, problem: str) -> None:
+    suppressions = single("a.py", f"import foo  # {comment}\n")
+    assert problem in suppressions.problem
+    assert apply_suppressions([issue("missing-file", "a.py", 1)], [suppressions], RULES, NAMES).use.malformed == (suppressions,)
+    assert len(apply_suppressions([issue("unused-dependency", "a.py", 1)], [suppressions], RULES, NAMES).kept) == 1
 
 
 @pytest.mark.parametrize("comment", ["run ros-lint: it helps", "ros-lint: 5 lines", "as ros-lint: rules", "ros-lint:"])
-def test_sentences_about_ros_lint(comment: str) -> None:
+def test_sentences_about_ros_lint_are_not_suppressions(comment: str) -> None:
     assert collect(Text("a.py", f"# {comment}\n")) == ()
 
 
-def test_several_names_and_marks() -> None:
+def test_several_names_and_suppressions_in_a_comment() -> None:
     source = "# ros-lint: ignore[ROS201, unused-dependency] one # ros-lint: ignore[x] -- two\n"
     first, second = collect(Text("a.py", source))
     assert [name.text for name in first.names] == ["ROS201", "unused-dependency"]
@@ -276,16 +276,16 @@ def test_several_names_and_marks() -> None:
 # --- what becomes of the issues ------------------------------------------------------------------------------------
 
 
-def test_apply() -> None:
-    found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201, Missing-File, nosuch, unused-dependancy, ROS999]\n"))
-    wanted, other, elsewhere = (
+def test_suppressed_findings_are_removed() -> None:
+    suppressions = collect(Text("a.py", "x  # ros-lint: ignore[ROS201, Missing-File, nosuch, unused-dependancy, ROS999]\n"))
+    wanted, other_issue, elsewhere = (
         issue("undeclared-dependency", "a.py", 1),
         issue("unused-dependency", "a.py", 1),
         issue("undeclared-dependency", "a.py", 2),
     )
-    outcome = apply([wanted, other, elsewhere], found, RULES, NAMES)
-    assert outcome.kept == (other, elsewhere)
-    assert outcome.suppressed == ((wanted, found[0]),)
+    outcome = apply_suppressions([wanted, other_issue, elsewhere], suppressions, RULES, NAMES)
+    assert outcome.kept == (other_issue, elsewhere)
+    assert outcome.suppressed == ((wanted, suppressions[0]),)
     assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["Missing-File"]]
     assert [(unknown.name.text, unknown.suggestion) for unknown in outcome.use.unknown] == [
         ("nosuch", ""),
@@ -294,27 +294,27 @@ def test_apply() -> None:
     ]
 
 
-def test_a_rule_that_did_not_run_leaves_nothing_unused() -> None:
-    found = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
-    assert apply([], found, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
+def test_a_suppression_of_a_rule_that_did_not_run_is_not_unused() -> None:
+    suppressions = collect(Text("a.py", "x  # ros-lint: ignore[ROS201]\n"))
+    assert apply_suppressions([], suppressions, RULES, NAMES - {"undeclared-dependency"}).use.unused == ()
 
 
 def test_two_suppressions_for_one_finding_are_both_used() -> None:
-    found = collect(Text("a.py", "# ros-lint: ignore-file[ROS201]\nx\ny  # ros-lint: ignore[ROS201]\n"))
-    outcome = apply([issue("undeclared-dependency", "a.py", 3)], found, RULES, NAMES)
+    suppressions = collect(Text("a.py", "# ros-lint: ignore-file[ROS201]\nx\ny  # ros-lint: ignore[ROS201]\n"))
+    outcome = apply_suppressions([issue("undeclared-dependency", "a.py", 3)], suppressions, RULES, NAMES)
     assert (outcome.use.unused, outcome.kept) == ((), ())
 
 
-def test_what_is_said_about_a_suppression_can_be_suppressed() -> None:
+def test_findings_about_suppressions_can_be_suppressed() -> None:
     judge = RULES[0]._replace(name="unused-suppression", code="ROS901", suppressions=lambda outcome: ())
     known = (*RULES, judge)
     names = NAMES | {judge.name}
     for mark in ("x  # {}", "# {}\nx"):
-        found = collect(Text("a.py", mark.format("ros-lint: ignore[ROS201, ROS901] so\n")))
-        outcome = apply([], found, known, names)
+        suppressions = collect(Text("a.py", mark.format("ros-lint: ignore[ROS201, ROS901] so\n")))
+        outcome = apply_suppressions([], suppressions, known, names)
         assert [[name.text for name in unused.names] for unused in outcome.use.unused] == [["ROS201"]]
         about = [Issue(judge, "p", Finding("", unused.names[0].span, "")) for unused in outcome.use.unused]
-        assert apply(about, found, known, names).kept == ()
+        assert apply_suppressions(about, suppressions, known, names).kept == ()
 
 
 LINES = st.sampled_from(
@@ -323,24 +323,24 @@ LINES = st.sampled_from(
 
 
 @given(st.lists(LINES, max_size=12))
-def test_what_stays_is_what_no_suppression_covers(lines: list[str]) -> None:
-    found = collect(Text("a.py", "".join(lines)))
+def test_remaining_findings_are_not_covered_by_a_suppression(lines: list[str]) -> None:
+    suppressions = collect(Text("a.py", "".join(lines)))
     ends = [(first, last) for first in range(1, len(lines) + 2) for last in (first, first + 2)]
     issues = [issue("unused-dependency", "a.py", first, last) for first, last in ends]
-    covering = [each for each in found if any(name.text == "ROS204" for name in each.names)]
-    kept = tuple([each for each in issues if not any(one.covers(each.finding.span) for one in covering)])
-    outcome = apply(issues, found, RULES, NAMES)
-    assert outcome.kept == kept
-    idle = {each.suppression for each in outcome.use.unused if each.names[0].text == "ROS204"}
-    idle_by_place = {each for each in covering if not any(each.covers(spoken.finding.span) for spoken in issues)}
-    assert idle == {each for each in idle_by_place if not each.problem}
+    covering = [issue for issue in suppressions if any(name.text == "ROS204" for name in issue.names)]
+    remaining = tuple([issue for issue in issues if not any(single.covers(issue.finding.span) for single in covering)])
+    outcome = apply_suppressions(issues, suppressions, RULES, NAMES)
+    assert outcome.kept == remaining
+    unused = {issue.suppression for issue in outcome.use.unused if issue.names[0].text == "ROS204"}
+    idle_by_place = {issue for issue in covering if not any(issue.covers(covered_lines.finding.span) for covered_lines in issues)}
+    assert unused == {issue for issue in idle_by_place if not issue.problem}
 
 
 @pytest.mark.parametrize("lines", ["x  # {mark}\n" * 4000, "# {mark}\n" * 4000, "# {mark}\n" + "# so\n" * 20000])
 def test_thousands_of_comments_take_linear_time(lines: str) -> None:
     started = time.process_time()
-    found = collect(Text("a.py", lines.format(mark=MARK)))
-    apply([issue("missing-file", "a.py", line) for line in range(4000)], found, RULES, NAMES)
+    suppressions = collect(Text("a.py", lines.format(mark=MARK)))
+    apply_suppressions([issue("missing-file", "a.py", line) for line in range(4000)], suppressions, RULES, NAMES)
     assert time.process_time() - started < 5
 
 
@@ -348,7 +348,7 @@ def test_thousands_of_comments_take_linear_time(lines: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("path", "before", "after"),
+    ("path", "text_before", "text_after"),
     [
         ("a.py", f"import a  # {MARK} so\nb\n", "import a\nb\n"),
         ("a.py", f"a\n    # {MARK} so\nb\n", "a\nb\n"),
@@ -369,10 +369,10 @@ def test_thousands_of_comments_take_linear_time(lines: str) -> None:
         ("a.py", "# ros-lint: ignore[ROS201, ROS204,ROS301] so\n", "# ros-lint: ignore[ROS201, ROS301] so\n"),
     ],
 )
-def test_taking_a_name_out(path: str, before: str, after: str) -> None:
-    text = Text(path, before)
-    found = next(s for s in collect(text) if any(name.text == "ROS204" for name in s.names))
-    edit = found.without([name for name in found.names if name.text == "ROS204"])
+def test_the_fix_removes_a_name_from_a_suppression(path: str, text_before: str, text_after: str) -> None:
+    text = Text(path, text_before)
+    suppression = next(s for s in collect(text) if any(name.text == "ROS204" for name in s.names))
+    edit = suppression.without([name for name in suppression.names if name.text == "ROS204"])
     changed = edits.apply([Fix("", (edit,))], lambda _: text)[path]
     assert not any(name.text == "ROS204" for s in collect(Text(path, changed)) for name in s.names)
-    assert changed == after
+    assert changed == text_after

@@ -17,23 +17,23 @@ def test_offset_and_position_are_inverse(text: str, data: st.DataObject) -> None
 
 
 @given(TEXTS)
-def test_lines_are_those_that_universal_newlines_gives(text: str) -> None:
+def test_lines_are_those_of_universal_newlines(text: str) -> None:
     source = Text("f", text)
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     assert [source.line(number) for number in range(1, source.line_count + 1)] == lines
 
 
 @given(TEXTS, st.lists(st.integers(0, 39), max_size=6))
-def test_many_spans_are_as_one_by_one(text: str, places: list[int]) -> None:
+def test_spans_of_many_ranges_equal_the_span_of_each_range(text: str, places: list[int]) -> None:
     source = Text("f", text)
     ranges = [
         (place, place) for place in sorted(places) if place <= len(text) and not (place and text[place - 1 : place + 1] == "\r\n")
     ]
-    assert list(source.spans(ranges)) == [source.span(*each) for each in ranges]
+    assert list(source.spans(ranges)) == [source.span(*entry) for entry in ranges]
 
 
 @given(TEXTS, st.lists(st.integers(0, 40), min_size=4, max_size=4))
-def test_a_place_covers_another_as_its_offsets_do(text: str, offsets: list[int]) -> None:
+def test_a_span_covers_another_if_its_offsets_do(text: str, offsets: list[int]) -> None:
     source = Text("f", text)
     a, b, c, d = (min(offset, len(text)) for offset in offsets)
     one, other = (min(a, b), max(a, b)), (min(c, d), max(c, d))
@@ -57,7 +57,7 @@ BEGINNINGS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"<\0", b"\0<", b"# cod
     | TEXTS.map(lambda text: text.encode("utf-8", "surrogateescape"))
     | st.builds(bytes.__add__, st.sampled_from(BEGINNINGS), st.binary(max_size=9))
 )
-def test_bytes_survive(data: bytes) -> None:
+def test_decoding_and_encoding_keeps_all_bytes(data: bytes) -> None:
     text = read("f", data)
     assert text.encode(text.text) == data
 
@@ -76,11 +76,11 @@ def test_bytes_survive(data: bytes) -> None:
         (b"\xff\xfe\x00", "\udcff\udcfe\x00", "utf-8"),
     ],
 )
-def test_encodings(data: bytes, text: str, codec: str) -> None:
+def test_the_encoding_is_detected(data: bytes, text: str, codec: str) -> None:
     assert decode(data) == (text, codec)
 
 
-def test_a_place_in_bytes_is_the_one_in_the_text() -> None:
+def test_a_span_in_bytes_equals_the_span_in_the_text() -> None:
     text = Text("a.cpp", "# ä\nä ö word ß\nlast")
     data = text.text.encode()
     for word in ("ä ö", "word", "ß", "last"):
@@ -91,7 +91,7 @@ def test_a_place_in_bytes_is_the_one_in_the_text() -> None:
 @pytest.mark.parametrize(
     ("written", "found"), [('"robot"', "robot"), ("robot", "robot"), ("[[robot]]", None), ("'robots'", None), ("rob\not", None)]
 )
-def test_the_place_of_a_text_is_within_its_quotes(written: str, found: str | None) -> None:
+def test_the_inner_span_of_a_text_is_within_its_quotes(written: str, found: str | None) -> None:
     text = Text("setup.py", f"name={written}")
     place = text.span(5, 5 + len(written)).inner("robot")
     assert (text.slice(place) if place else None) == found

@@ -15,7 +15,7 @@ def on_disk(folder: Path) -> DiskTree:
     return DiskTree(str(folder))
 
 
-def test_a_mapping_is_like_a_disk(tmp_path: Path) -> None:
+def test_a_memory_tree_behaves_like_a_disk_tree(tmp_path: Path) -> None:
     disk, memory = on_disk(tmp_path), MemoryTree(FILES)
     for folder in ("", "a", "a/src", "a.b"):
         assert disk.list(folder) == memory.list(folder)
@@ -29,13 +29,13 @@ def test_a_mapping_is_like_a_disk(tmp_path: Path) -> None:
             tree.list("b.txt")
 
 
-def test_large_files_are_read_whole(tmp_path: Path) -> None:
+def test_large_files_are_read_completely(tmp_path: Path) -> None:
     for size in (0, 1, 65535, 65536, 65537, 131072, 3_000_000):
         (tmp_path / "f").write_bytes(bytes(range(256)) * (size // 256) + b"x" * (size % 256))
         assert DiskTree(str(tmp_path)).read("f") == (tmp_path / "f").read_bytes()
 
 
-def test_links(tmp_path: Path) -> None:
+def test_links_are_followed_and_broken_links_are_of_another_kind(tmp_path: Path) -> None:
     (tmp_path / "d").mkdir()
     (tmp_path / "d" / "up").symlink_to(tmp_path)
     (tmp_path / "itself").symlink_to(tmp_path / "itself")
@@ -57,7 +57,7 @@ def test_an_overlay_changes_content_only() -> None:
     assert tree.list("") == below.list("")
 
 
-def test_an_overlay_may_bring_files() -> None:
+def test_an_overlay_can_add_files() -> None:
     tree = OverlayTree(MemoryTree(FILES), {"a/new.txt": b"new"})
     assert [entry.name for entry in tree.list("a")] == sorted(["new.txt", *(e.name for e in MemoryTree(FILES).list("a"))])
     assert tree.read("a/new.txt") == b"new"

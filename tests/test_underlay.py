@@ -1,4 +1,4 @@
-"""Installed prefixes: made by colcon itself where it is there, and written by hand after what ament_cmake and rosidl leave."""
+"""Install prefixes: those that colcon creates, if it is installed, and others in the layouts of ament_cmake and rosidl."""
 
 from __future__ import annotations
 
@@ -96,15 +96,15 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.skipif(COLCON is None, reason="colcon is not installed")
 @pytest.mark.parametrize("layout", ["merged", "isolated"])
-def test_what_colcon_installs_is_read(layout: str, sources: Path, tmp_path: Path) -> None:
+def test_a_workspace_built_by_colcon_is_read(layout: str, sources: Path, tmp_path: Path) -> None:
     shutil.copytree(sources / "src", tmp_path / "src")
     extra = {"merged": "--merge-install", "isolated": "--symlink-install"}[layout]
     environment = {**os.environ, "COLCON_LOG_LEVEL": "error", "PYTHONWARNINGS": "ignore", "COLCON_HOME": str(tmp_path)}
     subprocess.run([str(COLCON), "build", extra], cwd=tmp_path, check=True, capture_output=True, env=environment, timeout=120)
-    found = {place: underlay.read([str(tmp_path / place)]) for place in ("install", ".")}
+    result = {place: underlay.read([str(tmp_path / place)]) for place in ("install", ".")}
     if layout == "isolated":
-        found["path"] = underlay.read([str(tmp_path / "install/talker"), str(tmp_path / "install/listener")])
-    for layers in found.values():
+        result["path"] = underlay.read([str(tmp_path / "install/talker"), str(tmp_path / "install/listener")])
+    for layers in result.values():
         packages = {name: installed for layer in layers for name, installed in layer.packages.items()}
         assert sorted(packages) == ["listener", "talker"]
         talker = packages["talker"]
@@ -222,7 +222,7 @@ def test_a_package_is_read_from_either_layout(layout: str, request: pytest.Fixtu
     assert layer.cmake("armlib") == layer.cmake("arm") == ("arm",)
 
 
-def test_a_merged_prefix_tells_owners_where_it_can(merged: Path) -> None:
+def test_a_merged_prefix_determines_owners_if_possible(merged: Path) -> None:
     (layer,) = underlay.read([str(merged)])
     assert list(layer.packages) == ["arm", "arm_msgs", "bare", "plain"]
     assert layer.modules("arm_tools") == ("arm",)
@@ -237,7 +237,7 @@ def test_a_merged_prefix_tells_owners_where_it_can(merged: Path) -> None:
     assert layer.packages["arm"].known("modules").ask("no_module") == "unknowable"
 
 
-def test_a_link_to_nowhere_is_no_executable_and_not_missing_either(merged: Path) -> None:
+def test_a_broken_link_makes_an_executable_unknowable(merged: Path) -> None:
     (merged / "lib/arm/lost_node").symlink_to(merged / "build/lost_node")
     (layer,) = underlay.read([str(merged)])
     executables = layer.packages["arm"].known("executables")
@@ -247,7 +247,7 @@ def test_a_link_to_nowhere_is_no_executable_and_not_missing_either(merged: Path)
     assert "P:controller_interface=arm/VeryFast,arm::Slow<arm::A>" in prov
 
 
-def test_tests_that_were_installed_by_mistake_are_no_modules_of_the_data(isolated: Path) -> None:
+def test_installed_test_modules_are_left_out_of_the_data(isolated: Path) -> None:
     modules = {f"lib/python3.12/site-packages/{name}/__init__.py": "" for name in ("arm_tools", "test")}
     prefix = write(isolated / "install/arm", modules)
     (layer,) = underlay.read([str(prefix)])
@@ -256,13 +256,13 @@ def test_tests_that_were_installed_by_mistake_are_no_modules_of_the_data(isolate
     assert [field for field in line.split("\t") if field.startswith("Y")] == ["Y:arm_tools"]
 
 
-def test_links_in_a_circle_end(merged: Path) -> None:
+def test_cyclic_links_end_the_search(merged: Path) -> None:
     (merged / "share/arm/again").symlink_to(merged / "share/arm")
     (layer,) = underlay.read([str(merged)])
     assert layer.packages["arm"].known("launch").names == ("launch/arm.launch.xml", "launch/deep/arm.yaml")
 
 
-def test_the_first_prefix_that_has_a_package_wins(merged: Path, tmp_path: Path) -> None:
+def test_the_first_prefix_with_a_package_counts(merged: Path, tmp_path: Path) -> None:
     above = write(tmp_path / "above", {"share/arm/package.xml": manifest("arm").replace("1.2.3", "9.0.0")})
     layers = underlay.read([str(above), str(merged)])
     assert World([], layers, Knowledge("jazzy")).version("arm") == "9.0.0"
@@ -270,7 +270,7 @@ def test_the_first_prefix_that_has_a_package_wins(merged: Path, tmp_path: Path) 
     assert World([], layers[::-1], Knowledge("jazzy")).version("arm") == "1.2.3"
 
 
-def test_what_is_scanned_can_be_used_as_knowledge(merged: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_scanned_data_can_be_loaded(merged: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     options = {"action": "scan", "prefixes": [str(merged)], "distro": "jazzy", "to": str(tmp_path / "data")}
     assert command.run(options) == 0
     assert "jazzy.idx: 4 lines" in capsys.readouterr().out
@@ -295,7 +295,7 @@ def test_what_is_scanned_can_be_used_as_knowledge(merged: Path, tmp_path: Path, 
         ({"install": "a file"}, "is not an install prefix"),
     ],
 )
-def test_a_folder_that_is_no_prefix_is_named(
+def test_a_folder_that_is_not_a_prefix_is_reported(
     files: dict[str, str] | None, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     place = tmp_path / "ws"
@@ -309,7 +309,7 @@ def test_a_folder_that_is_no_prefix_is_named(
     assert capsys.readouterr().err.startswith(f"ros-lint: underlay {place}")
 
 
-def test_an_empty_prefix_is_one(tmp_path: Path) -> None:
+def test_an_empty_prefix_is_valid(tmp_path: Path) -> None:
     for layout in ("isolated", "merged"):
         write(tmp_path / layout, {".colcon_install_layout": f"{layout}\n", "setup.bash": ""})
         assert [package for layer in underlay.read([str(tmp_path / layout)]) for package in layer.packages] == []
@@ -317,7 +317,7 @@ def test_an_empty_prefix_is_one(tmp_path: Path) -> None:
     assert underlay.read([str(tmp_path / "ament")])
 
 
-def test_the_workspaces_own_install_folder_is_no_underlay(isolated: Path, merged: Path) -> None:
+def test_the_install_folder_of_the_workspace_is_left_out(isolated: Path, merged: Path) -> None:
     own = [str(isolated / "install"), str(isolated / "install/arm"), str(isolated)]
     for base in (isolated, isolated / "src"):
         assert [layer.root for layer in underlay.read([*own[:2], str(merged)], base=str(base))] == [str(merged)]
@@ -325,7 +325,7 @@ def test_the_workspaces_own_install_folder_is_no_underlay(isolated: Path, merged
     assert len(underlay.read(own, base=str(merged))) == 3
 
 
-def test_damage_in_one_package_leaves_the_others(merged: Path) -> None:
+def test_a_damaged_package_does_not_affect_the_others(merged: Path) -> None:
     (merged / "share/arm/package.xml").write_bytes(b"\xff\xfe<package>\x00")
     (merged / "share/arm/plugins.xml").write_text("<library path='x'><class name='a'")
     (merged / f"{RESOURCES}/rosidl_interfaces/arm_msgs").unlink()
@@ -351,7 +351,7 @@ RUNTIME_BODIES = [
 
 
 @pytest.mark.parametrize("body", RUNTIME_BODIES)
-def test_what_comes_along_is_read_twice_alike(body: str, tmp_path: Path) -> None:
+def test_the_fast_and_the_full_reading_of_manifests_agree(body: str, tmp_path: Path) -> None:
     write(tmp_path, {"share/arm/package.xml": manifest("arm", body)})
     arm = underlay.read([str(tmp_path)], "jazzy")[0].packages["arm"]
     assert arm.released is not None
@@ -361,13 +361,13 @@ def test_what_comes_along_is_read_twice_alike(body: str, tmp_path: Path) -> None
 
 
 @pytest.mark.skipif("ROS_LINT_CORPUS" not in os.environ, reason="ROS_LINT_CORPUS names no folder of repositories")
-def test_what_comes_along_in_real_manifests(tmp_path: Path) -> None:
-    found = [path for path in Path(os.environ["ROS_LINT_CORPUS"]).rglob("package.xml") if path.is_file()]
-    for number, path in enumerate(found):
+def test_the_fast_and_the_full_reading_agree_for_real_manifests(tmp_path: Path) -> None:
+    result = [path for path in Path(os.environ["ROS_LINT_CORPUS"]).rglob("package.xml") if path.is_file()]
+    for number, path in enumerate(result):
         write(tmp_path, {f"share/p{number}/package.xml": ""})
         shutil.copy(path, tmp_path / f"share/p{number}/package.xml")
     (layer,) = underlay.read([str(tmp_path)], "jazzy")
-    assert len(layer.packages) == len(found)
+    assert len(layer.packages) == len(result)
     for installed in layer.packages.values():
         if installed.released is not None:
             assert installed.runtime == installed.released.on("eux"), installed.name

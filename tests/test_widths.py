@@ -1,4 +1,4 @@
-"""Columns of characters: those of the table against those of the Unicode that this Python knows."""
+"""The table of character widths agrees with the version of Unicode that the running Python has."""
 
 import unicodedata
 
@@ -17,7 +17,7 @@ def expected(character: str) -> int | None:
     return 2 if unicodedata.east_asian_width(character) in "WF" else 1
 
 
-def test_the_table_is_that_of_unicode() -> None:
+def test_the_table_agrees_with_unicodedata() -> None:
     assigned = [c for c in map(chr, range(0x80, 0x110000)) if unicodedata.category(c) != "Cn"]
     odd = [c for c in assigned if columns(c) != expected(c)]
     version = tuple(map(int, unicodedata.unidata_version.split(".")))
@@ -29,11 +29,11 @@ def test_the_table_is_that_of_unicode() -> None:
     ("character", "width"),
     [("é", 1), ("漢", 2), ("\u0301", 0), ("\U0001fae8", 2), ("\U0001e08f", 0), ("\U0001e030", 1), ("\U000323af", 2)],
 )
-def test_characters_that_came_with_unicode_15(character: str, width: int) -> None:
+def test_characters_that_are_new_in_unicode_15(character: str, width: int) -> None:
     """Python 3.11 knows Unicode 14."""
     assert glyph(character, False) == (character, width)
 
 
 @pytest.mark.parametrize("character", ["\x00", "\x1b", "\x7f", "\x85", "\u202e", "\ufeff", "\udc80", "\U0001343f"])
-def test_what_is_not_shown_as_it_is(character: str) -> None:
+def test_control_and_format_characters_are_escaped(character: str) -> None:
     assert glyph(character, False)[0].startswith("\\")

@@ -1,4 +1,4 @@
-"""Questions about names: which layer, what comes along, what packages provide, whose a name is, what was meant."""
+"""Look-ups of names: layers, closures, contents and providers."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ def prefix(tmp_path: Path) -> str:
 # --- layers ----------------------------------------------------------------------------------------------------------
 
 
-def test_the_topmost_layer_wins(prefix: str) -> None:
-    found = world(member("rclcpp", "100.0.0"), member("mine"), prefixes=(prefix,))
-    assert found.layer("rclcpp") == "workspace"
-    assert found.version("rclcpp") == "100.0.0"
+def test_the_topmost_layer_with_a_package_counts(prefix: str) -> None:
+    result = world(member("rclcpp", "100.0.0"), member("mine"), prefixes=(prefix,))
+    assert result.layer("rclcpp") == "workspace"
+    assert result.version("rclcpp") == "100.0.0"
     assert world(prefixes=(prefix,)).version("rclcpp") == "99.0.0"
-    assert world().version("rclcpp") == (JAZZY.index.get("rclcpp") or found.released("x")).version  # type: ignore[union-attr]
-    assert [found.layer(name) for name in ("mine", "private_tool", "rclpy", "eigen", "nonsense_pkg")] == [
+    assert world().version("rclcpp") == (JAZZY.index.get("rclcpp") or result.released("x")).version  # type: ignore[union-attr]
+    assert [result.layer(name) for name in ("mine", "private_tool", "rclpy", "eigen", "nonsense_pkg")] == [
         "workspace", "underlay", "index", None, None
     ]  # fmt: skip
-    assert found.version("nonsense_pkg") is None
+    assert result.version("nonsense_pkg") is None
 
 
-def test_packages_and_keys_are_two_things() -> None:
-    found = world(member("mine"))
-    assert [(found.is_package(n), found.is_key(n)) for n in ("mine", "eigen", "rclcpp", "nonsense_pkg")] == [
+def test_a_name_can_be_a_package_and_a_key() -> None:
+    result = world(member("mine"))
+    assert [(result.is_package(n), result.is_key(n)) for n in ("mine", "eigen", "rclcpp", "nonsense_pkg")] == [
         (True, False), (False, True), (True, False), (False, False)
     ]  # fmt: skip
 
@@ -56,32 +56,32 @@ def test_packages_and_keys_are_two_things() -> None:
         ("ament_python", "unknown"),
     ],
 )
-def test_what_a_declared_name_is(name: str, standing: str) -> None:
-    assert world(member("mine")).standing(name) == standing
+def test_a_declared_name_is_classified(name: str, standing: str) -> None:
+    assert world(member("mine")).resolution(name) == standing
 
 
 def test_nothing_is_unknown_without_an_index() -> None:
-    found = world(member("mine"), distro="iron")
-    assert found.standing("nonsense_pkg") == "unknowable"
-    assert found.standing("mine") == found.standing("eigen") == "known"
-    assert not found.closure(["rclcpp"]).complete
+    result = world(member("mine"), distro="iron")
+    assert result.resolution("nonsense_pkg") == "unknowable"
+    assert result.resolution("mine") == result.resolution("eigen") == "known"
+    assert not result.closure(["rclcpp"]).complete
 
 
-def test_of_two_members_with_a_name_the_first_counts() -> None:
+def test_of_two_members_with_one_name_the_first_counts() -> None:
     assert world(member("twin", "1.0.0"), member("twin", "2.0.0")).version("twin") == "1.0.0"
 
 
-def test_dependencies_by_kind(prefix: str) -> None:
-    found = world(member("mine", b=("rclcpp",), x=("rclpy", "eigen")), prefixes=(prefix,))
-    assert found.depends("mine", "bx") == ("eigen", "rclcpp", "rclpy")
-    assert found.depends("private_tool", "x") == ("rclcpp", "rclpy")
-    assert found.depends("private_tool", "b") == ("rclpy",)
-    assert "rosidl_default_runtime" in (found.depends("std_msgs", "x") or ())
-    assert found.depends("nonsense_pkg", "x") is None
-    assert found.depends("unbag", "x") is None  # only its name is known
+def test_dependencies_are_selected_by_kind(prefix: str) -> None:
+    result = world(member("mine", b=("rclcpp",), x=("rclpy", "eigen")), prefixes=(prefix,))
+    assert result.depends("mine", "bx") == ("eigen", "rclcpp", "rclpy")
+    assert result.depends("private_tool", "x") == ("rclcpp", "rclpy")
+    assert result.depends("private_tool", "b") == ("rclpy",)
+    assert "rosidl_default_runtime" in (result.depends("std_msgs", "x") or ())
+    assert result.depends("nonsense_pkg", "x") is None
+    assert result.depends("unbag", "x") is None  # only its name is known
 
 
-def test_who_below_depends_on_a_package(prefix: str) -> None:
+def test_dependents_in_underlays_are_found(prefix: str) -> None:
     assert world(member("rclcpp"), prefixes=(prefix,)).dependents_below("rclcpp") == ("private_tool",)
     assert world(member("rclcpp"), member("private_tool"), prefixes=(prefix,)).dependents_below("rclcpp") == ()
 
@@ -115,13 +115,13 @@ def _expected(known: Knowledge, starts: list[str]) -> set[str]:
     return set().union(*({start} | nx.descendants(graph, start) for start in starts))
 
 
-def test_closures_are_those_of_networkx() -> None:
+def test_closures_equal_those_of_networkx() -> None:
     chance = random.Random(3)
     names = list(JAZZY.index.names())
-    found = world()
+    result = world()
     for _ in range(15):
         starts = chance.sample(names, chance.randint(1, 8))
-        closure = found.closure(starts)
+        closure = result.closure(starts)
         expected = _expected(JAZZY, starts)
         assert closure.names == expected
         assert len(closure) == len(expected)
@@ -129,7 +129,7 @@ def test_closures_are_those_of_networkx() -> None:
         assert all((name in closure) == (name in expected) for name in names[::11])
 
 
-def test_circles_in_any_order_of_asking() -> None:
+def test_closures_of_cycles_do_not_depend_on_the_order_of_queries() -> None:
     chance = random.Random(5)
     for _ in range(200):
         count = chance.randint(1, 12)
@@ -160,39 +160,39 @@ def test_circles_in_any_order_of_asking() -> None:
         left = {**after, changed: tuple([name for name in after[changed] if name not in gone])}
         other = Reach(lambda name, after=left, dark=dark: None if name in dark else after[name])
         for names in ([name, asked[0]] for name in asked):
-            found, expected = reach.closure_without(names, changed, gone), other.closure(names)
-            assert (found.names, found.unknown) == (expected.names, expected.unknown)
+            result, expected = reach.closure_without(names, changed, gone), other.closure(names)
+            assert (result.names, result.unknown) == (expected.names, expected.unknown)
 
 
-def test_what_propagates_and_what_does_not() -> None:
-    found = world(
+def test_exported_and_run_time_dependencies_propagate() -> None:
+    result = world(
         member("app", b=("built",), t=("tool",), s=("tested",), d=("docs",), x=("run",)),
         *(member(name) for name in ("built", "tool", "tested", "docs", "run")),
     )
-    assert found.closure(["app"]).names == {"app", "run"}
+    assert result.closure(["app"]).names == {"app", "run"}
     kinds = {"e": ("exported",), "u": ("exported_tool",), "x": ("run",)}
-    found = world(member("app", **kinds), member("exported"), member("exported_tool"), member("run"))
-    assert found.closure(["app"]).names == {"app", "exported", "exported_tool", "run"}
+    result = world(member("app", **kinds), member("exported"), member("exported_tool"), member("run"))
+    assert result.closure(["app"]).names == {"app", "exported", "exported_tool", "run"}
 
 
-def test_members_of_a_group_come_along_from_the_workspace() -> None:
-    found = world(member("app", G=("talkers",)), member("ada", groups=("talkers",)), member("bob"))
-    assert found.closure(["app"]).names == {"app", "ada"}
-    assert found.group_members("talkers") == ("ada",)
-    assert found.group_members("nobody") == ()
-    assert "rmw_cyclonedds_cpp" in found.group_members("rmw_implementation_packages")
-    assert "std_msgs" in found.group_members("rosidl_interface_packages")
+def test_the_closure_has_workspace_members_of_a_group() -> None:
+    result = world(member("app", G=("talkers",)), member("ada", groups=("talkers",)), member("bob"))
+    assert result.closure(["app"]).names == {"app", "ada"}
+    assert result.group_members("talkers") == ("ada",)
+    assert result.group_members("nobody") == ()
+    assert "rmw_cyclonedds_cpp" in result.group_members("rmw_implementation_packages")
+    assert "std_msgs" in result.group_members("rosidl_interface_packages")
 
 
-def test_layers_are_followed_from_the_top(prefix: str) -> None:
-    found = world(member("mine", x=("private_tool",)), prefixes=(prefix,))
-    closure = found.closure(["mine"])
+def test_a_closure_follows_the_topmost_layer(prefix: str) -> None:
+    result = world(member("mine", x=("private_tool",)), prefixes=(prefix,))
+    closure = result.closure(["mine"])
     assert {"private_tool", "rclcpp", "private_base", "std_msgs", "builtin_interfaces", "rcl"} <= closure.names
     assert closure.complete
-    assert found.path(["mine"], "builtin_interfaces")[:2] == ("mine", "private_tool")
+    assert result.path(["mine"], "builtin_interfaces")[:2] == ("mine", "private_tool")
     # The rclcpp of the underlay needs nothing but private_base, and the one of the workspace nothing at all.
-    assert "libstatistics_collector" not in found.closure(["rclcpp"])
-    assert found.closure(["rclcpp"]).names >= {"private_base", "std_msgs"}
+    assert "libstatistics_collector" not in result.closure(["rclcpp"])
+    assert result.closure(["rclcpp"]).names >= {"private_base", "std_msgs"}
     assert world(member("rclcpp"), prefixes=(prefix,)).closure(["rclcpp"]).names == {"rclcpp"}
 
 
@@ -200,7 +200,7 @@ def test_layers_are_followed_from_the_top(prefix: str) -> None:
     ("name", "complete"),
     [("rclcpp", True), ("eigen", True), ("nonsense_pkg", False), ("unbag", False), ("roscpp", False)],
 )
-def test_a_closure_knows_whether_it_is_complete(name: str, complete: bool) -> None:
+def test_a_closure_is_complete_if_all_dependencies_are_known(name: str, complete: bool) -> None:
     closure = world(member("mine", x=(name,))).closure(["mine"])
     assert closure.complete is complete
     assert closure.unknown == (() if complete else (name,))
@@ -226,7 +226,7 @@ def test_a_closure_knows_whether_it_is_complete(name: str, complete: bool) -> No
         ("rclcpp", "rosidl_runtime_py", ""),
     ],
 )
-def test_closures_that_were_verified_elsewhere(declared: str, comes: str, distros: str) -> None:
+def test_closures_equal_independently_computed_ones(declared: str, comes: str, distros: str) -> None:
     """Taken from the packages as another distributor builds them (reference, section E3.7)."""
     known = {distro for distro in ("humble", "jazzy", "lyrical") if comes in world(distro=distro).closure([declared])}
     assert known == {*distros.split()}

@@ -1,4 +1,4 @@
-"""Writing files: whole or not at all, and never over what somebody else has written meanwhile."""
+"""Files are written completely or not at all, and never over concurrent changes."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ AFTER = {"a": b"new", "b": b"new"}
 
 
 @pytest.mark.parametrize("what", ["other bytes", "removed", "a folder"])
-def test_a_file_that_changed_keeps_everything_as_it_is(two: Path, what: str) -> None:
+def test_a_changed_file_prevents_all_changes(two: Path, what: str) -> None:
     (two / "b").unlink()
     if what == "other bytes":
         (two / "b").write_bytes(b"mine")
@@ -44,13 +44,13 @@ def test_a_file_that_changed_keeps_everything_as_it_is(two: Path, what: str) -> 
     assert (two / "a").read_bytes() == b"old"
 
 
-def test_a_file_that_came_into_being_is_kept(two: Path) -> None:
+def test_a_file_created_meanwhile_is_kept(two: Path) -> None:
     with pytest.raises(edits.EditError, match=f"^b: {CHANGED}; nothing was changed$"):
         edits.write_all(str(two), AFTER, {"a": b"old"})
     assert (two / "b").read_bytes() == b"old"
 
 
-def test_a_file_that_changes_while_others_are_written(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_changes_while_others_are_written_is_kept(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     replace = os.replace
 
     def slow(source: str, target: str) -> None:
@@ -64,7 +64,7 @@ def test_a_file_that_changes_while_others_are_written(two: Path, monkeypatch: py
     assert {path.name: path.read_bytes() for path in two.iterdir()} == {"a": b"new", "b": b"mine"}
 
 
-def test_a_disk_that_fails_in_the_middle(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_disk_is_reported_with_the_files_written_before(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     replace = os.replace
 
     def failing(source: str, target: str) -> None:
@@ -78,7 +78,7 @@ def test_a_disk_that_fails_in_the_middle(two: Path, monkeypatch: pytest.MonkeyPa
     assert {path.name: path.read_bytes() for path in two.iterdir()} == {"a": b"new", "b": b"old"}
 
 
-def test_a_folder_without_permission_keeps_everything_as_it_is(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_without_write_permission_prevents_all_changes(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The folder belongs to somebody else, so its permission bits say nothing."""
     (two / "d").mkdir()
     (two / "d" / "c").write_bytes(b"old")
@@ -89,7 +89,7 @@ def test_a_folder_without_permission_keeps_everything_as_it_is(two: Path, monkey
     assert (two / "a").read_bytes() == b"old"
 
 
-def test_an_interruption_leaves_no_file_behind(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interruption_leaves_no_temporary_file(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
@@ -99,7 +99,7 @@ def test_an_interruption_leaves_no_file_behind(two: Path, monkeypatch: pytest.Mo
     assert {path.name: path.read_bytes() for path in two.iterdir()} == BEFORE
 
 
-def test_files_of_runs_that_were_killed_are_removed(two: Path) -> None:
+def test_temporary_files_of_killed_runs_are_removed(two: Path) -> None:
     old = [".ros-lint-a_b1c2d3.part", ".ros-lint-a_b1c2d3.json", ".ros-lint-abc.part", "x.ros-lint-abcdefgh.part"]
     for name in (*old, ".ros-lint-abcdefgh.part"):
         (two / name).write_bytes(b"")
@@ -109,7 +109,7 @@ def test_files_of_runs_that_were_killed_are_removed(two: Path) -> None:
     assert {path.name for path in two.iterdir()} == {"a", "b", *old[1:], ".ros-lint-abcdefgh.part"}
 
 
-def test_places_of_another_reading_are_not_edited() -> None:
+def test_an_edit_with_a_line_beyond_the_text_is_rejected() -> None:
     fix = Fix("", (Edit(Span("f", 3, 1, 3, 2), "x"),))
     with pytest.raises(edits.EditError, match=f"^f: {CHANGED}$"):
         edits.apply([fix], lambda path: Text(path, "one\n"))
@@ -148,14 +148,14 @@ def lint_while_writing(tmp_path: Path, place: Path, text: str, call: int, flag: 
     (site / "mine_rules.py").write_text(RULE.format(package=place.parent.name, call=call, path=str(place), text=text))
     path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
     command = [sys.executable, "-m", "ros_lint", str(tmp_path / "ws"), flag, "--plugins", "--no-cache", "--distro", "jazzy"]
-    done = subprocess.run(
+    process = subprocess.run(
         command, capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "PYTHONPATH": path}
     )
-    assert "Traceback" not in done.stderr
-    return Ran(done.returncode, {}, done.stderr, done.stdout)
+    assert "Traceback" not in process.stderr
+    return Ran(process.returncode, {}, process.stderr, process.stdout)
 
 
-def test_a_file_that_changes_before_it_is_fixed_is_fixed_as_it_is(tmp_path: Path) -> None:
+def test_a_file_that_changes_before_its_fix_is_fixed_with_its_new_text(tmp_path: Path) -> None:
     place = package(tmp_path / "ws" / "robot", "robot") / "package.xml"
     text = place.read_text()
     short = " ".join(text.split("\n")).replace("<license>", "<license>BSD-3-Clause</license><license>")
@@ -178,13 +178,13 @@ def test_a_file_that_changes_after_it_was_read_is_not_overwritten(tmp_path: Path
     assert "Found 2 errors" in ran.text
 
 
-def test_a_patch_is_of_one_reading(tmp_path: Path) -> None:
+def test_a_patch_uses_one_state_of_each_file(tmp_path: Path) -> None:
     place = package(tmp_path / "ws" / "robot", "robot") / "package.xml"
     patch = lint_while_writing(tmp_path, place, " ".join(place.read_text().split("\n")), 2, "--diff").text
     assert [line for line in patch.splitlines() if line.startswith(("+ ", "-  "))] == ["+  <depend>sensor_msgs</depend>"]
 
 
-def test_what_is_written_before_a_write_fails_is_reported_as_fixed(tmp_path: Path) -> None:
+def test_files_written_before_a_failure_are_reported_as_fixed(tmp_path: Path) -> None:
     for name in ("arm", "leg"):
         package(tmp_path / "ws" / name, name)
     site = tmp_path / "site"
@@ -198,22 +198,22 @@ def test_what_is_written_before_a_write_fails_is_reported_as_fixed(tmp_path: Pat
     )
     path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
     command = [sys.executable, "-m", "ros_lint", str(tmp_path / "ws"), "--fix", "--no-cache", "--format", "concise"]
-    done = subprocess.run(
+    process = subprocess.run(
         command, capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "PYTHONPATH": path}
     )
-    assert done.returncode == 2
+    assert process.returncode == 2
     expected = (
         "leg/package.xml: cannot be written: File too large; written already: arm/package.xml; not written: leg/package.xml"
     )
-    assert expected in done.stderr
-    assert done.stdout.startswith("leg/CMakeLists.txt:4")
-    assert "arm/" not in done.stdout
+    assert expected in process.stderr
+    assert process.stdout.startswith("leg/CMakeLists.txt:4")
+    assert "arm/" not in process.stdout
 
 
 # --- reports ------------------------------------------------------------------------------------------------------
 
 
-def test_a_report_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
+def test_a_report_is_written_completely_or_not_at_all(tmp_path: Path) -> None:
     package(tmp_path / "ws" / "robot", "robot")
     place = tmp_path / "report"
     place.write_text("of yesterday")
@@ -223,9 +223,9 @@ def test_a_report_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
         "import resource, signal\nsignal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))\n"
     )
-    done = run_with(tmp_path / "site", tmp_path / "ws", "--output", place)
-    assert done.returncode == 2
-    assert done.stderr == f"ros-lint: {place}: cannot be written: File too large\n"
+    process = run_with(tmp_path / "site", tmp_path / "ws", "--output", place)
+    assert process.returncode == 2
+    assert process.stderr == f"ros-lint: {place}: cannot be written: File too large\n"
     assert place.read_text() == "of yesterday"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["report", "site", "ws"]
     assert lint(tmp_path / "ws", "--output", place, text=True).code == 1
@@ -233,7 +233,7 @@ def test_a_report_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     assert place.stat().st_mode & 0o777 == 0o640
 
 
-def test_a_report_goes_to_a_device_and_through_a_link(tmp_path: Path) -> None:
+def test_a_report_is_written_to_a_device_and_through_a_link(tmp_path: Path) -> None:
     package(tmp_path / "ws" / "robot", "robot")
     ran = lint(tmp_path / "ws", "--output", "/dev/stdout")
     assert rules(ran, "robot/") == ["undeclared-dependency"]

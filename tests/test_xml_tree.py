@@ -1,4 +1,4 @@
-"""The trees of launch files and plugin descriptions, against libxml2: an XML parser that shares no code with expat."""
+"""XML trees, compared with libxml2, which shares no code with expat."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
+from ros_lint.base.xml_tree import XmlElement, XmlError, attribute_places, parse
 
 pytestmark = pytest.mark.slow
 
@@ -48,12 +48,12 @@ def _element(draw: DrawFn, depth: int) -> str:
 
 
 @given(documents())
-def test_tags_attributes_and_places_are_those_of_libxml2(text: str) -> None:
+def test_tags_attributes_and_lines_equal_those_of_libxml2(text: str) -> None:
     _agree(text, parse(text), _libxml2(text))
 
 
 @given(documents(), st.data())
-def test_what_libxml2_refuses_is_refused(text: str, data: st.DataObject) -> None:
+def test_documents_that_libxml2_rejects_are_rejected(text: str, data: st.DataObject) -> None:
     at = data.draw(st.integers(parse(text).start, len(text)))  # expat alone forgives slips in the XML declaration
     put = data.draw(st.sampled_from(("", "<", ">", "&", '"', "a", "/", "]]>", "<a>", "</a>")))
     damaged = text[:at] + put + text[at + data.draw(st.integers(0, 2)) :]
@@ -67,7 +67,7 @@ def test_what_libxml2_refuses_is_refused(text: str, data: st.DataObject) -> None
         _agree(damaged, parse(damaged), expected)
 
 
-def test_a_second_byte_order_mark_is_no_white_space() -> None:
+def test_a_second_byte_order_mark_is_an_error() -> None:
     with pytest.raises(XmlError):
         parse("\ufeff<launch/>")  # the first one has been taken off with the encoding
 
@@ -78,7 +78,7 @@ def _libxml2(text: str) -> etree._Element:
     return etree.fromstring(text.encode(), parser)
 
 
-def _agree(text: str, found: Element, expected: etree._Element) -> None:
+def _agree(text: str, found: XmlElement, expected: etree._Element) -> None:
     assert found.tag == expected.tag
     assert found.attributes == dict(expected.attrib)
     assert text.startswith(f"<{found.tag}", found.start)

@@ -1,4 +1,4 @@
-"""Differences between texts, as patches."""
+"""Differences between two versions of a file, as patches."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from ros_lint.base.text import to_bytes
 
 
 def unified(path: str, before: str | None, after: str) -> str:
-    """Return the difference of two texts of a file, with one line of context. Line ends are kept.
+    """Return the unified diff of two texts of a file, with one line of context and its line ends.
 
-    ``before`` is None for a new file.
+    ``before`` is None for a new file. The result is "" for equal texts.
     """
     old = "/dev/null" if before is None else f"a/{path}"
     lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=1)
@@ -19,21 +19,21 @@ def unified(path: str, before: str | None, after: str) -> str:
 
 
 def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
-    """Return the difference of two contents of a file in any encoding, in the format of :func:`unified`."""
+    """Return the unified diff of two contents of a file in any encoding; see :func:`unified`."""
     # latin-1 maps each byte to a character, because difflib compares texts.
     was = None if before is None else before.decode("latin-1")
     return unified(to_bytes(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
 
 
 def _lines(text: str) -> list[str]:
-    """Split at line feeds only: str.splitlines splits at more characters than patch."""
+    """Split at line feeds only, because str.splitlines splits at more characters than the tool patch."""
     return re.findall(r"[^\n]*\n|[^\n]+", text)
 
 
 def line_before(before: str, after: str, line: int) -> int:
-    """Return the old line number that corresponds to a line of the new text. Lines count from 1.
+    """Return the line in the text ``before`` that corresponds to ``line`` of the text ``after``. Lines count from 1.
 
-    For an inserted line it is the old line before it, or the first line.
+    An inserted line corresponds to the old line that precedes it, or to the first line.
     """
     old, new = _lines(before), _lines(after)
     for _, old_start, old_end, new_start, new_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():

@@ -17,7 +17,7 @@ class Edit(NamedTuple):
     kind: int = 0
     """Rank among several insertions at one place: the lowest kind comes first.
 
-    Insertions of one kind form a group, which is separated by one blank line. Kind 0 forms no group.
+    Insertions of one kind form a group. Groups are separated by a blank line. Kind 0 forms no group.
     """
     order: str = ""
     """Sort key among insertions of one kind; equal keys keep the order of the edits."""

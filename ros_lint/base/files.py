@@ -1,6 +1,6 @@
 """Read files of the machine: regular files only, and never more bytes than a limit.
 
-Opening a file does not block, so a FIFO, a socket or a device is rejected at once.
+Files are opened without blocking, so that a FIFO, a socket or a device is rejected at once.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ _WRITABLE_BY_OTHERS = 0o022
 _NO_LINK: int = getattr(os, "O_NOFOLLOW", 0)
 
 
-def read(place: str, most: int = MOST_BYTES, *, links: bool = True, own: bool = False) -> bytes:
-    """Return the bytes of a regular file. A file that grows meanwhile is cut at its size when opened.
+def read(place: str, most: int = MOST_BYTES, *, links: bool = True, private: bool = False) -> bytes:
+    """Return the bytes of a regular file. If the file grows meanwhile, the result has its size at the opening.
 
     Raises OSError with one of these errors:
 
     * EFBIG for a file of more than ``most`` bytes,
     * EINVAL for a FIFO, socket or device,
     * ELOOP for a link, unless ``links``,
-    * EPERM, if ``own``, for a file that another user owns or can write.
+    * EPERM, with ``private``, for a file that another user owns or can write.
     """
     # os.open and one read of the right size are twice as fast as open() on the many small files of a workspace.
     handle = os.open(place, _FLAGS if links else _FLAGS | _NO_LINK)
@@ -34,14 +34,14 @@ def read(place: str, most: int = MOST_BYTES, *, links: bool = True, own: bool = 
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
             raise _irregular(place, status.st_mode)
-        if own and not _is_private(status):
-            raise PermissionError(errno.EPERM, "another user owns it or can write it", place)
+        if private and not _is_private(status):
+            raise PermissionError(errno.EPERM, "another user owns the file or can write it", place)
         size = status.st_size
         if size > most:
             raise OSError(errno.EFBIG, f"{_amount(size)} is more than the limit of {_amount(most)}", place)
         data = os.read(handle, size)
-        while len(data) < size and (more := os.read(handle, size - len(data))):
-            data += more
+        while len(data) < size and (chunk := os.read(handle, size - len(data))):
+            data += chunk
         return data
     finally:
         os.close(handle)

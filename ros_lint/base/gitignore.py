@@ -1,4 +1,4 @@
-"""The patterns of ``.gitignore`` files: an ignored file is generated or downloaded."""
+"""The patterns of ``.gitignore`` files. They matter because an ignored file is generated or downloaded."""
 
 from __future__ import annotations
 
@@ -18,43 +18,46 @@ class Pattern(NamedTuple):
     """A pattern of a ``.gitignore`` (gitignore(5))."""
 
     folder: str
-    """Folder of the file; the pattern applies below it."""
+    """Folder of the ``.gitignore``; the pattern applies below it."""
     glob: str
-    """Wildcard for a path below the folder. It is compiled at its first use, because most runs need none."""
+    """Wildcard for a path below the folder. It is compiled at its first use, because most runs use no pattern."""
     negated: bool
     """True if the pattern re-includes paths that an earlier pattern ignores."""
 
 
 def patterns(folder: str, text: str) -> Iterator[Pattern]:
-    """Yield the patterns in the text of a ``.gitignore`` in a folder."""
-    for written in text.split("\n"):
-        line = _trimmed(written.removesuffix("\r"))
+    """Yield the patterns in the text of the ``.gitignore`` of a folder, in order."""
+    for raw_line in text.split("\n"):
+        line = _trimmed(raw_line.removesuffix("\r"))
         if line.startswith("#"):
             continue
         negated = line.startswith("!")
-        whole = line[negated:].removesuffix("/")
-        if whole:
-            yield Pattern(folder, whole.removeprefix("/") if "/" in whole else f"**/{whole}", negated)
+        glob = line[negated:].removesuffix("/")
+        if glob:
+            yield Pattern(folder, glob.removeprefix("/") if "/" in glob else f"**/{glob}", negated)
 
 
 def _trimmed(line: str) -> str:
-    """Return a line without trailing spaces, except for an escaped one."""
+    """Return a line without its trailing spaces. A space after a backslash is kept."""
     stripped = line.rstrip(" ")
     backslashes = len(stripped) - len(stripped.rstrip("\\"))
     return line[: len(stripped) + backslashes % 2]
 
 
-def is_ignored(given: Iterable[Pattern], path: str) -> bool:
-    """Return whether git ignores a path, which may not exist, or a folder that contains it."""
-    ours = [
+def is_ignored(candidates: Iterable[Pattern], path: str) -> bool:
+    """Return whether git ignores a path, or a folder that contains it. The path need not exist.
+
+    ``candidates`` are the patterns in the order in which git reads them: the last match decides.
+    """
+    applicable = [
         (regex, len(octets(pattern.folder)) + 1 if pattern.folder else 0, pattern.negated)
-        for pattern in given
+        for pattern in candidates
         if (not pattern.folder or path.startswith(f"{pattern.folder}/")) and (regex := _compiled(pattern.glob))
     ]
     parts = octets(path).split("/")
-    for number in range(len(parts)) if ours else ():
-        place = "/".join(parts[: number + 1])
-        ignores = [not negated for regex, start, negated in ours if len(place) > start and regex.match(place, start)]
+    for depth in range(len(parts)) if applicable else ():
+        ancestor = "/".join(parts[: depth + 1])
+        ignores = [not negated for regex, start, negated in applicable if len(ancestor) > start and regex.match(ancestor, start)]
         if ignores and ignores[-1]:
             return True
     return False
@@ -79,7 +82,10 @@ class _MalformedError(Exception):
 
 @lru_cache(maxsize=1024)
 def _compiled(glob: str) -> re.Pattern[str] | None:
-    """Return an expression for a path as :func:`~ros_lint.base.text.octets`, None for a malformed pattern."""
+    """Return the regular expression of a pattern, None if it is malformed.
+
+    It matches a path as encoded by :func:`ros_lint.base.text.octets`.
+    """
     try:
         names = _names(octets(glob))
     except _MalformedError:
@@ -95,7 +101,7 @@ def _compiled(glob: str) -> re.Pattern[str] | None:
 
 
 def _names(glob: str) -> list[list[str]]:
-    """Return, for each path component of a pattern, the expressions between its stars; [] for ``**``."""
+    """Return the regular expressions between the stars of a pattern, as a list for each path component; [] for ``**``."""
     if len(glob) > LONGEST:
         raise _MalformedError
     names = [[""]]
@@ -124,7 +130,10 @@ def _names(glob: str) -> list[list[str]]:
 
 
 def _letter(glob: str, at: int) -> tuple[str, int]:
-    """Return an expression for the bracket that opened before an offset, and the offset after it."""
+    """Return the regular expression of a bracket such as ``[a-z]``, and the offset after it.
+
+    ``at`` is the offset after the opening bracket.
+    """
     negated = glob[at : at + 1] in ("!", "^")
     at += negated
     ranges: list[tuple[int, int]] = []

@@ -1,4 +1,4 @@
-"""Paths through a graph, the shortest first."""
+"""Find the shortest paths through a graph."""
 
 from __future__ import annotations
 
@@ -9,61 +9,66 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
 _MOST_STEPS = 20_000
-"""Limit of the steps of a search: a graph with many cycles has too many paths."""
+"""Maximum number of steps of a search, because a graph with many cycles has too many paths."""
 
 
-class Paths(NamedTuple):
+class GraphPaths(NamedTuple):
     """Paths from one node to another."""
 
-    found: tuple[tuple[str, ...], ...]
+    paths: tuple[tuple[str, ...], ...]
     """Paths without repeated nodes, from start to end, sorted by length, then by name."""
     more: bool
     """True if there are or may be further paths."""
 
 
-def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> Paths:
-    """Return up to ``most`` paths from a node to another one."""
+def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> GraphPaths:
+    """Return the shortest ``most`` paths from ``start`` to ``end``. ``successors`` returns the direct successors of a node.
+
+    If both are the same node, the paths are the cycles through it.
+    """
     distance = _distances(successors, start, end)
     if start not in distance:
-        return Paths((), False)
-    found: list[tuple[str, ...]] = []
-    todo: list[tuple[int, tuple[str, ...]]] = [(distance[start], (start,))]
+        return GraphPaths((), False)
+    result: list[tuple[str, ...]] = []
+    queue: list[tuple[int, tuple[str, ...]]] = [(distance[start], (start,))]
     for _ in range(_MOST_STEPS):
-        if not todo:
-            return Paths(tuple(found), False)
-        _, path = heappop(todo)
+        if not queue:
+            return GraphPaths(tuple(result), False)
+        _, path = heappop(queue)
         if len(path) > 1 and path[-1] == end:
-            if len(found) == most:
-                return Paths(tuple(found), True)
-            found.append(path)
+            if len(result) == most:
+                return GraphPaths(tuple(result), True)
+            result.append(path)
             continue
-        for other in successors(path[-1]):
-            if other in distance and (other not in path or other == end == start):
-                heappush(todo, (len(path) + distance[other], (*path, other)))
-    return Paths(tuple(found), True)
+        for successor in successors(path[-1]):
+            if successor in distance and (successor not in path or successor == end == start):
+                heappush(queue, (len(path) + distance[successor], (*path, successor)))
+    return GraphPaths(tuple(result), True)
 
 
 def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str) -> dict[str, int]:
-    """Return the distance to the end for each node on a path to it."""
-    before: dict[str, list[str]] = {}
-    seen = {start}
-    todo = [start]
-    while todo:
-        name = todo.pop()
-        for other in successors(name):
-            before.setdefault(other, []).append(name)
-            if other not in seen:
-                seen.add(other)
-                todo.append(other)
-    distance = {end: 0} if end in before else {}
+    """Return the number of edges to ``end``, for each node that ``start`` reaches and that reaches ``end``."""
+    predecessors: dict[str, list[str]] = {}
+    visited = {start}
+    stack = [start]
+    while stack:
+        name = stack.pop()
+        for successor in successors(name):
+            predecessors.setdefault(successor, []).append(name)
+            if successor not in visited:
+                visited.add(successor)
+                stack.append(successor)
+    distance = {end: 0} if end in predecessors else {}
     level = list(distance)
     while level:
-        level = [name for other in level for name in before.get(other, ()) if _closer(distance, name, other)]
+        edges = [(name, successor) for successor in level for name in predecessors.get(successor, ())]
+        level = [name for name, successor in edges if _set_distance(distance, name, successor)]
     return distance
 
 
-def _closer(distance: dict[str, int], name: str, other: str) -> bool:
+def _set_distance(distance: dict[str, int], name: str, successor: str) -> bool:
+    """Set the distance of a node to one more than that of its successor. Returns False if the node already has one."""
     if name in distance:
         return False
-    distance[name] = distance[other] + 1
+    distance[name] = distance[successor] + 1
     return True

@@ -1,4 +1,4 @@
-"""JSON that is readable and can be compared by lines: only the upper levels span several lines."""
+"""JSON that can be read and compared line by line: only its upper levels span several lines."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _HARMFUL = re.compile("[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def encode(value: Any, levels: int) -> str:
-    """Return a value as JSON that ends with a line feed.
+    """Return a value as JSON, with a line feed at the end.
 
-    The first ``levels`` levels have a line for each entry. Lone surrogates, which stand for bytes of an unknown
-    encoding, become U+FFFD.
+    The outermost ``levels`` levels have a line for each entry. Lone surrogates, which represent undecodable bytes,
+    become U+FFFD.
     """
     text = _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
-    return _HARMFUL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+    return _HARMFUL.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def _lines(value: Any, levels: int, indent: str) -> str:

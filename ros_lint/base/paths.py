@@ -13,7 +13,7 @@ def join(directory: str, name: str) -> str:
 
 
 def resolve(directory: str, path: str) -> str:
-    """Return the path that a relative path refers to from a directory. It may lead upwards."""
+    """Return a path that is relative to ``directory`` as a path relative to the base. It may begin with ``..``."""
     return posixpath.normpath(join(directory, path))
 
 
@@ -28,7 +28,7 @@ def is_outside(path: str) -> bool:
 
 
 def strip_folder(directory: str, path: str) -> str:
-    """Return ``path`` relative to a directory above it, the inverse of :func:`join`; else unchanged."""
+    """Return ``path`` relative to ``directory`` if that contains it, else unchanged. The inverse of :func:`join`."""
     return path.removeprefix(f"{directory}/") if directory else path
 
 
@@ -38,18 +38,18 @@ def parent(path: str) -> str:
 
 
 def is_below(path: str, folder: str) -> bool:
-    """Return whether a path is a folder or is inside it. The empty folder contains everything."""
+    """Return whether ``path`` is ``folder`` or is inside it. The empty folder contains everything."""
     return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
 
 
 def folders_of(path: str) -> Iterator[str]:
-    """Yield the directories that contain a path, innermost first, without the base."""
+    """Yield the directories that contain a path, innermost first. The base is left out."""
     while path := parent(path):
         yield path
 
 
 def upwards(folder: str) -> Iterator[str]:
-    """Yield a folder of the machine and the folders that contain it, innermost first."""
+    """Yield an absolute folder and the folders that contain it, innermost first."""
     while True:
         yield folder
         above = os.path.dirname(folder)

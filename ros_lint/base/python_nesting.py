@@ -1,7 +1,7 @@
-"""The code of a Python source without its strings and comments: whether it is plain, and how deep it nests.
+"""Fast checks of a Python source, on its code without strings and comments: whether it is plain, and how deep it nests.
 
-Nearly every source is plain: each Python from 3.10 on makes the same tree of it. All others take the long way through
-:mod:`ros_lint.collectors.python.newer_syntax`.
+A source is plain if each Python from 3.10 on parses it to the same tree, as nearly every source. Only the others need
+the slower :mod:`ros_lint.collectors.python.newer_syntax`.
 """
 
 from __future__ import annotations
@@ -22,34 +22,34 @@ STRINGS: Final = (
 )
 """Patterns of strings without their prefix, with the flag DOTALL."""
 DEEPEST: Final = 200
-"""How many expressions may stand in one another. Published workspaces have up to 52."""
+"""Maximum nesting of expressions. Published workspaces have up to 52 levels."""
 
-
-_MOST_GROUPS: Final = 3
-"""How many brackets may stand in one another in a field of a simple f-string."""
+_MOST_BRACKETS: Final = 3
+"""Maximum nesting of brackets in a field of a simple f-string."""
 
 
 @cache
-def _spared(*, every: bool) -> re.Pattern[str]:
-    """Return a pattern of comments, strings and simple f-strings: ``every`` one of these, or those with names in their fields.
+def _skipped(*, complete: bool) -> re.Pattern[str]:
+    """Return a pattern of comments, strings and simple f-strings.
 
-    The second is enough for most sources, and made in a quarter of the time.
+    With ``complete`` False, the fields of f-strings may only be names. This is enough for most sources, and the
+    pattern is compiled in a quarter of the time.
     """
     starts = ('"', "'")
-    strings = (f"{quote}(?:{_template(quote, _field(quote) if every else _NAMES)}|{_string(quote)})" for quote in starts)
+    strings = (f"{quote}(?:{_template(quote, _field(quote) if complete else _NAME_FIELD)}|{_string(quote)})" for quote in starts)
     return re.compile("|".join([r"\#[^\r\n]*", *strings]), re.DOTALL)
 
 
-_NAMES: Final = r"\{[\w.]+(?::[\w.]*)?\}"
+_NAME_FIELD: Final = r"\{[\w.]+(?::[\w.]*)?\}"
 
 
 def _field(quote: str) -> str:
-    """Return a pattern of the fields of f-strings with a quote of which every Python makes the same tree."""
-    other = "'" if quote == '"' else '"'
-    string = rf"{other}[^{{}}\"'\\\#\r\n]*{other}"
+    """Return a pattern of a field of an f-string with this quote, if every Python parses it to the same tree."""
+    other_quote = "'" if quote == '"' else '"'
+    string = rf"{other_quote}[^{{}}\"'\\\#\r\n]*{other_quote}"
     inside = rf"(?:[^(){{}}\[\]\"'\\\#\r\n]|{string})*"
     group = r"(?!)"
-    for _ in range(_MOST_GROUPS):
+    for _ in range(_MOST_BRACKETS):
         group = rf"[(\[]{inside}(?:{group}{inside})*[)\]]"
     # No starred expression, generator or tuple, unless in brackets.
     expression = rf"(?![ ]*\*)(?:[^(){{}}\[\],:!f\"'\\\#\r\n]|f(?!or\b)|!=|{string}|{group})*"
@@ -58,7 +58,7 @@ def _field(quote: str) -> str:
 
 
 def _template(quote: str, field: str) -> str:
-    """Return a pattern of the rest of an f-string, behind its first quote."""
+    """Return a pattern of an f-string after its first quote character. ``field`` is the pattern of its fields."""
     piece = rf"\\[^N{{}}\r\n]|\{{\{{|\}}\}}|{field}"
     before = rf"(?:(?<=[fF]{quote})|(?<=[fF][rR]{quote}))"
     long = rf"{quote}{quote}(?:[^{{}}{quote}\\]|{quote}(?!{quote}{quote})|{piece})*{quote}{quote}{quote}"
@@ -66,15 +66,15 @@ def _template(quote: str, field: str) -> str:
 
 
 def _string(quote: str) -> str:
-    """Return a pattern of the rest of a string, behind the first quote: neither an f-string nor a t-string."""
+    """Return a pattern of a string after its first quote character. It excludes f-strings and t-strings."""
     bodies = "|".join(body.removeprefix(quote) for body in STRINGS if body.startswith(quote))
     return rf"(?<![fFtT]{quote})(?<![fFtT][rR]{quote})(?:{bodies})"
 
 
 def _code(text: str) -> str:
-    """Return a source without its comments, and with a name for each string, but those that are not simple."""
-    code = _spared(every=False).sub("_", text)
-    return _spared(every=True).sub("_", text) if '"' in code or "'" in code else code
+    """Return a source in which comments, strings and simple f-strings are replaced by ``_``."""
+    code = _skipped(complete=False).sub("_", text)
+    return _skipped(complete=True).sub("_", text) if '"' in code or "'" in code else code
 
 
 _BLANK: Final = r"(?:[ \t\f]|\\\r?\n)"
@@ -87,7 +87,7 @@ _PERHAPS_NEWER: Final = (
     ("lazy", rf"lazy{_BLANK}+(?:from|import)\b"),
     ("0", r"0[xXoObB]\w{1000}"),
 )
-"""A word and the pattern of something with it that came after Python 3.10, or is beyond a bound."""
+"""Syntax that is newer than Python 3.10 or exceeds a limit: a word that it contains, and its pattern."""
 _STAR: Final = re.compile(r"\*\*?")
 _UNPACKED: Final = re.compile(r"[^,(){}\[\]]*\sfor\b")
 _ANNOTATED: Final = re.compile(r"\*\s*\w+\s*:\s*\*")
@@ -95,7 +95,7 @@ _LONGEST_SUBSCRIPT: Final = 500
 
 
 def plain(text: str) -> bool:
-    """Return whether each Python from 3.10 on makes the same tree of a source, or refuses it."""
+    """Return whether each Python from 3.10 on parses a source to the same tree, or rejects it."""
     code = _code(text)
     if '"' in code or "'" in code:
         return False
@@ -103,7 +103,7 @@ def plain(text: str) -> bool:
 
 
 def _is_in_subscript(before: str) -> bool:
-    """Return whether the innermost bracket that is open at the end of a text may be one of a subscript."""
+    """Return whether the innermost bracket that is still open at the end of a text may begin a subscript."""
     closed = 0
     for at in range(len(before) - 1, -1, -1):
         if before[at] in ")]}":
@@ -116,7 +116,7 @@ def _is_in_subscript(before: str) -> bool:
 
 
 def _has_newer_star(code: str) -> bool:
-    """Return whether a star may stand in a subscript, before an annotation, or at the start of a comprehension."""
+    """Return whether a star may be in a subscript, before an annotation, or at the start of a comprehension."""
     for match in _STAR.finditer(code):
         before = code[max(0, match.start() - _LONGEST_SUBSCRIPT) : match.start()].rstrip()
         if before.endswith(("(", "[", "{")) and _UNPACKED.match(code, match.end()):
@@ -131,9 +131,9 @@ def _has_newer_star(code: str) -> bool:
 # --- nesting
 
 LAMBDA: Final = "\x01"
-"""The symbol of the word."""
+"""The symbol that replaces the keyword ``lambda``."""
 PREFIX: Final = "~"
-"""The symbol of the words in front of an expression that it becomes part of."""
+"""The symbol that replaces keywords before an operand, such as ``not``."""
 SYMBOLS: Final = {**dict.fromkeys(("await", "else", "not", "yield"), PREFIX), "lambda": LAMBDA}
 _WORDS: Final = rf"\b(?:{'|'.join(SYMBOLS)})\b"
 _UNCOUNTED: Final = dict.fromkeys(map(ord, f"{ascii_letters}{digits}_ \t\f"))
@@ -142,46 +142,46 @@ _JOINED: Final = r"\\\r?\n"
 
 
 def may_be_paired(text: str) -> bool:
-    """Return whether there are as many opening brackets as closing ones."""
+    """Return whether a source has as many opening brackets of each kind as closing ones."""
     code = _code(text)
     return all(code.count(opening) == code.count(closing) for opening, closing in ("()", "[]", "{}"))
 
 
 def most_levels(text: str) -> int:
-    """Return a number that is no smaller than how deep the code of a source nests."""
+    """Return an upper bound for the nesting of the expressions of a source. It is 0 for short sources."""
     return sum(map(text.count, _COUNTED)) if len(text) > DEEPEST else 0
 
 
 def nests_too_deep(statement: str) -> bool:
-    """Return whether expressions of a plain statement nest too deeply."""
+    """Return whether the expressions of a plain statement may nest more deeply than DEEPEST."""
     code = re.sub(_JOINED, "", _code(statement))
     symbols = re.sub(_WORDS, lambda word: SYMBOLS[word[0]], code).translate(_UNCOUNTED)
     return first_too_deep(symbols) is not None
 
 
 def first_too_deep(symbols: Iterable[str]) -> int | None:
-    """Return the index of the first symbol at which expressions nest too deeply, None where they do not.
+    """Return the index of the first symbol at which expressions may nest more deeply than DEEPEST, else None.
 
-    The symbols are those of all operators, brackets, commas, colons and line ends, and of some words. Counted is what can
-    make the syntax tree deeper: operators and brackets up to the next comma, and those before each bracket that is open.
-    Commas in the parameters of a lambda end nothing.
+    ``symbols`` are all operators, brackets, commas, colons and line ends of a source, and the values of SYMBOLS for
+    keywords. Operators and brackets count, because each can make the syntax tree deeper. A comma resets the count to
+    that before its bracket, except in the parameters of a lambda.
     """
     total = count = parameters = 0
-    opened: list[tuple[int, int]] = []
+    outer_levels: list[tuple[int, int]] = []
     for index, symbol in enumerate(symbols):
         if symbol in ("(", "[", "{"):
             total += 1
-            opened.append((count + 1, parameters))
+            outer_levels.append((count + 1, parameters))
             count = parameters = 0
         elif symbol in (")", "]", "}"):
             total -= count
-            count, parameters = opened.pop() if opened else (0, 0)
+            count, parameters = outer_levels.pop() if outer_levels else (0, 0)
         elif symbol == ",":
             if not parameters:
                 total -= count
                 count = 0
         elif symbol in ("\n", "\r", ";"):
-            if not opened:
+            if not outer_levels:
                 total = count = parameters = 0
         elif symbol == ":":
             parameters = max(0, parameters - 1)

@@ -1,6 +1,7 @@
 """The parser of the running Python, without its warnings.
 
-:mod:`ros_lint.collectors.python.syntax` limits the texts that it gets.
+It may overflow the stack of the process for deeply nested texts. :mod:`ros_lint.collectors.python.syntax` rejects
+these before.
 """
 
 from __future__ import annotations
@@ -47,21 +48,20 @@ def expression(text: str) -> ast.expr:
 
 
 def literal(text: str) -> object:
-    """Return the value of a literal. Raises ValueError."""
+    """Return the value of a literal of Python, such as a string or a list. Raises ValueError for any other text."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            found: object = ast.literal_eval(text)
+            value: object = ast.literal_eval(text)
         except (SyntaxError, TypeError, RecursionError, MemoryError) as error:
             raise ValueError(str(error)) from None
-        return found
+        return value
 
 
-def compiled(tree: ast.Module) -> SyntaxError | None:
-    """Return the compiler's error for a tree, or None. Nothing is executed.
+def compile_error(tree: ast.Module) -> SyntaxError | None:
+    """Return the compiler's error for a tree; None if there is none or the compiler exceeds its stack.
 
-    None also if the compiler exceeds its stack. The file name is empty because the compiler opens the named file to
-    quote an erroneous line.
+    Nothing is executed. The file name is empty, because the compiler would open the named file to quote a line.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -40,7 +40,7 @@ def _token() -> re.Pattern[str]:
 
 @cache
 def _literal(quote: str, raw: bool) -> re.Pattern[str]:
-    """Return a pattern of the literal text of an f-string up to a brace or its end."""
+    """Return a pattern of the literal text of an f-string, up to the next brace or the closing quote."""
     escape = rf"{'' if raw else _NAMED}\\(?:\r\n|[^{{}}]|(?=[{{}}]))"
     return re.compile(rf"(?:\{{\{{|\}}\}}|{escape}|(?!{quote})[^{{}}\\{_ENDS[quote]}])*", re.DOTALL)
 
@@ -54,7 +54,7 @@ _MOST_TEMPLATES: Final = 5
 
 
 class Token(NamedTuple):
-    """A token with its place. Blanks, line ends in brackets and line continuations are not tokens."""
+    """A token with its offsets. Blanks, line ends in brackets and line continuations are not tokens."""
 
     kind: Kind
     start: int
@@ -68,10 +68,11 @@ class Field(NamedTuple):
     """Offset of the opening brace."""
     expression: tuple[int, int]
     debug: str
-    """Expression with the equals sign after it, as ``f"{a = }"`` displays them, else ""."""
+    """Text that ``f"{a = }"`` shows before the value: the expression and the equals sign. Otherwise ""."""
     conversion: str
-    """Letter of the conversion, or ""."""
+    """Letter of the conversion (a, r, s), or ""."""
     format: tuple[Piece, ...] | None
+    """Pieces of the format specification, None if the field has none."""
 
 
 class Piece(NamedTuple):
@@ -93,7 +94,7 @@ class Template(NamedTuple):
     """True for a t-string."""
     pieces: tuple[Piece, ...]
     newer: tuple[str, ...]
-    """Constructs in it that require Python 3.12, as nouns in the plural."""
+    """Names of its constructs that require Python 3.12, in the plural: "comments in braces"."""
 
 
 class TokenError(Exception):
@@ -118,7 +119,7 @@ def tokens(text: str) -> Iterator[Token]:
     while at < len(text):
         match = _token().match(text, at)
         if match is None:
-            raise _strange(text, at)
+            raise _no_token(text, at)
         kind, end = match.lastgroup, match.end()
         if kind == "template":
             end = template(text, at).end
@@ -138,11 +139,12 @@ def tokens(text: str) -> Iterator[Token]:
 
 
 def template(text: str, start: int) -> Template:
-    """Return the f-string or t-string that begins at an offset. Raises TokenError."""
-    return _Reader(text).template(start, 0)
+    """Return the f-string or t-string whose prefix begins at an offset. Raises TokenError."""
+    return _TemplateParser(text).template(start, 0)
 
 
-def _strange(text: str, at: int) -> TokenError:
+def _no_token(text: str, at: int) -> TokenError:
+    """Return the error for an offset at which no token begins."""
     match = _QUOTE.match(text, at)
     if match is None and (prefix := re.compile(r"[a-zA-Z]{1,2}(?=[\"'])").match(text, at)):
         match = _QUOTE.match(text, prefix.end())
@@ -151,12 +153,12 @@ def _strange(text: str, at: int) -> TokenError:
     if text[at] == "\\":
         return TokenError("only the end of a line may stand after a backslash", at)
     if "\udc80" <= text[at] <= "\udcff":
-        return TokenError("a byte that is no UTF-8", at)
+        return TokenError("a byte that is not UTF-8", at)
     return TokenError("Python has no such character", at)
 
 
-class _Reader:
-    """Parses f-strings of a text."""
+class _TemplateParser:
+    """Parses the f-strings and t-strings of a text."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -174,33 +176,33 @@ class _Reader:
             return Template(start, at + 1, quote, "r" in prefix, "t" in prefix, (), ())
         outer, self._newer = self._newer, {}
         pieces, at = self._pieces(at, quote, "r" in prefix, depth, 0, start)
-        found = Template(start, at + len(quote), quote, "r" in prefix, "t" in prefix, pieces, tuple(self._newer))
+        result = Template(start, at + len(quote), quote, "r" in prefix, "t" in prefix, pieces, tuple(self._newer))
         self._newer = outer
-        return found
+        return result
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
         """Return the pieces of a string or format specification, and the offset of its closing quote or brace."""
-        text, found = self._text, list[Piece]()
+        text, pieces = self._text, list[Piece]()
         literal = _literal(quote, raw)
         while True:
             end = _literal_end(literal, text, at, in_format=level > 0)
             if end > at:
-                found.append(Piece(at, end))
+                pieces.append(Piece(at, end))
             at = end
             if level and text.startswith("}", at):
-                return tuple(found), at
+                return tuple(pieces), at
             if not level and text.startswith(quote, at):
-                return tuple(found), at
+                return tuple(pieces), at
             if text.startswith("{", at):
                 field, end = self._field(at, quote, raw, depth, level, start)
-                found.append(Piece(at, end, field))
+                pieces.append(Piece(at, end, field))
                 at = end
             elif text.startswith("}", at):
                 raise TokenError('a single "}" in an f-string', at)
             else:
                 raise TokenError("this string is not closed", start)
 
-    def _field(self, start: int, quote: str, raw: bool, depth: int, level: int, begun: int) -> tuple[Field, int]:
+    def _field(self, start: int, quote: str, raw: bool, depth: int, level: int, string_start: int) -> tuple[Field, int]:
         text = self._text
         end = self._expression_end(start + 1, depth)
         inside = text[start + 1 : end]
@@ -220,7 +222,7 @@ class _Reader:
         if text.startswith(":", at):
             if level >= _MOST_TEMPLATES:
                 raise TemplateDepthError(f"f-strings nested more than {_MOST_TEMPLATES} levels deep", at)
-            form, at = self._pieces(at + 1, quote, raw, depth, level + 1, begun)
+            form, at = self._pieces(at + 1, quote, raw, depth, level + 1, string_start)
         if not text.startswith("}", at):
             raise TokenError('the "{" of an f-string is not closed', start)
         if len(quote) == 1 and ("\n" in inside or "\r" in inside):
@@ -235,23 +237,23 @@ class _Reader:
 
     def _expression_end(self, at: int, depth: int) -> int:
         """Return the end of a field's expression: before the brace, colon, conversion or equals sign."""
-        text, opened = self._text, list[str]()
+        text, closing_brackets = self._text, list[str]()
         while at < len(text):
             match = _token().match(text, at)
             if match is None:
-                if text[at] == "!" and not opened:
+                if text[at] == "!" and not closing_brackets:
                     return at
-                raise _strange(text, at)
-            kind, found = match.lastgroup, match[0]
+                raise _no_token(text, at)
+            kind, symbol = match.lastgroup, match[0]
             if kind == "op":
-                if not opened and (found in ("}", ":", ":=") or (found == "=" and _DEBUG.match(text, at))):
+                if not closing_brackets and (symbol in ("}", ":", ":=") or (symbol == "=" and _DEBUG.match(text, at))):
                     return at
-                if found in _CLOSES:
-                    opened.append(_CLOSES[found])
-                elif opened and found == opened[-1]:
-                    opened.pop()
-                elif found in _CLOSES.values():
-                    raise TokenError(f'"{found}" closes nothing', at)
+                if symbol in _CLOSES:
+                    closing_brackets.append(_CLOSES[symbol])
+                elif closing_brackets and symbol == closing_brackets[-1]:
+                    closing_brackets.pop()
+                elif symbol in _CLOSES.values():
+                    raise TokenError(f'"{symbol}" closes nothing', at)
             elif kind == "comment":
                 self._newer["comments in braces"] = None
             at = self.template(at, depth + 1).end if kind == "template" else match.end()
@@ -259,7 +261,7 @@ class _Reader:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the end of literal text. In a format specification, doubled braces are not an escape."""
+    """Return the offset at which literal text ends. In a format specification, doubled braces are not an escape."""
     match = literal.match(text, at)
     end = match.end() if match is not None else at
     if in_format:

@@ -1,7 +1,7 @@
-"""YAML of unknown origin: the only module that calls the yaml library, with limits for its input.
+"""Safe reading of YAML of unknown origin. This is the only module that calls the yaml library.
 
 libyaml recurses for each level of nesting, so a text of a hundred kilobytes can overflow the stack, which ends the
-process. A few aliases can stand for any number of values. Both are rejected before a node or an object is created.
+process. A few aliases can expand to any number of values. Both are rejected before a node or an object is created.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     import yaml
 
-_Taken = TypeVar("_Taken")
+_Result = TypeVar("_Result")
 
 DEEPEST: Final = 100
 """Maximum nesting of lists and mappings. Published workspaces have up to 27 levels."""
@@ -29,10 +29,7 @@ _LEADING: Final = re.compile(r"^[ \t?:-]+", re.MULTILINE)
 
 
 class YamlError(Exception):
-    """A text is not YAML, or a value cannot be constructed.
-
-    ``offset`` is from 0 to the length of the text.
-    """
+    """A text is not YAML, or a value in it cannot be constructed. ``offset`` is from 0 to the length of the text."""
 
     def __init__(self, message: str, offset: int = 0) -> None:
         super().__init__(message)
@@ -45,7 +42,7 @@ class YamlBoundError(YamlError):
 
 
 def compose(text: str) -> yaml.Node | None:
-    """Return the root node of the only document, None if there is none. Raises YamlError.
+    """Return the root node of a text with at most one document, None if it has none. Raises YamlError.
 
     The marks of the nodes count characters of the text. launch and colcon read with the library's pure Python code,
     which rejects a tab within a plain text and treats "?" in brackets as a key marker; libyaml does neither. Such
@@ -56,12 +53,12 @@ def compose(text: str) -> yaml.Node | None:
 
 
 def load(text: str) -> Any:
-    """Return the value of the only document, None if there is none. Raises YamlError."""
+    """Return the value of a text with at most one document, None if it has none. Raises YamlError."""
     return _read(text, _loader(fast=True), _value)
 
 
 def scalar(node: yaml.ScalarNode) -> Any:
-    """Return the value of a scalar. Raises YamlError."""
+    """Return the Python value of a scalar node. Raises YamlError."""
     return _read("", _loader(fast=True), lambda loader, _: loader.construct_object(node))
 
 
@@ -81,20 +78,20 @@ def _loader(*, fast: bool) -> Any:
     """Return the safe loader of the library in C or in Python, with a limit for integers."""
     import yaml  # noqa: PLC0415
 
-    class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
-        """The safe loader."""
+    class LimitedLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
+        """A loader class of its own, because constructors belong to a class."""
 
     def integer(loader: Any, node: yaml.ScalarNode) -> int:
-        found: int = loader.construct_yaml_int(node)
-        if found.bit_length() > _MOST_BITS:
+        value: int = loader.construct_yaml_int(node)
+        if value.bit_length() > _MOST_BITS:
             raise YamlBoundError(f"an integer of more than {_MOST_BITS:,} bits", _start(node))
-        return found
+        return value
 
-    Loader.add_constructor("tag:yaml.org,2002:int", integer)
-    return Loader
+    LimitedLoader.add_constructor("tag:yaml.org,2002:int", integer)
+    return LimitedLoader
 
 
-def _read(text: str, kind: Any, take: Callable[[Any, str], _Taken]) -> _Taken:
+def _read(text: str, kind: Any, take: Callable[[Any, str], _Result]) -> _Result:
     """Return the result of ``take`` for a loader of a text. Raises YamlError for every error."""
     text = _bounded(text)
     loader = None
@@ -133,11 +130,11 @@ def _as_yaml_error(error: Exception, length: int) -> YamlError:
         return YamlError(str(error).partition("\n")[0])
     if isinstance(error, UnicodeError):
         return YamlError("not text that YAML allows")
-    return YamlError(f"a value that YAML cannot make ({type(error).__name__})")
+    return YamlError(f"a value that cannot be constructed ({type(error).__name__})")
 
 
 def _bounded(text: str) -> str:
-    """Return a text that the library can read: an exact str, not nested more deeply than the limit."""
+    """Return a text as exact str, which the library needs. Raises YamlBoundError if it nests too deeply."""
     import yaml  # noqa: PLC0415
 
     text = str(text)  # the library rejects subclasses
@@ -174,14 +171,14 @@ def _check_aliases(root: yaml.Node) -> None:
                 raise YamlBoundError(f"aliases repeat more than {_MOST_REPEATED:,} values", _start(node))
         elif key not in sizes:
             if key in entered:
-                raise YamlBoundError("a value holds itself by an alias", _start(node))
+                raise YamlBoundError("a value contains itself through an alias", _start(node))
             entered.add(key)
             waiting.append((node, True))
             waiting += [(inner, False) for inner in _within(node)]
 
 
-def _start(found: yaml.Node | yaml.Event) -> int:
-    return found.start_mark.index if found.start_mark is not None else 0
+def _start(node: yaml.Node | yaml.Event) -> int:
+    return node.start_mark.index if node.start_mark is not None else 0
 
 
 def _within(node: yaml.Node) -> Iterator[yaml.Node]:

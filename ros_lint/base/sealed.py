@@ -6,9 +6,10 @@ from typing import NoReturn
 
 
 class Sealed:
-    """A base class for cached objects with a ``__dict__``: a pickle cannot set their attributes.
+    """Base class of cached objects with a ``__dict__``: a pickle cannot set their attributes.
 
-    Enumerations need it because the whole process shares their members. A named tuple has no ``__dict__``.
+    Enumerations need it, because their members are shared by the whole process. Named tuples do not need it, because
+    they have no ``__dict__``.
     """
 
     __slots__ = ()

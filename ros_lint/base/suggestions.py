@@ -10,13 +10,16 @@ def similar_names(name: str, names: Iterable[str], most: int = 1, least: float =
 
     ``least`` is the minimum similarity, from 0 to 1.
     """
-    from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for a slip only)
+    from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for unknown names only)
 
     return get_close_matches(name, list(names), most, least)
 
 
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
-    """Return the end of a message that suggests ``names``, joined to it by ``after``; "" without names."""
+    """Return the end of a message that suggests ``names``: "; did you mean 'a' or 'b'?"; "" without names.
+
+    ``after`` separates it from the rest of the message.
+    """
     return f"{after}did you mean {' or '.join(map(_quoted, names))}?" if names else ""
 
 
@@ -26,7 +29,7 @@ def ask_if_meant(names: Sequence[str]) -> str:
 
 
 def _quoted(name: str) -> str:
-    """Return a name as in messages: in quotes, except tags."""
+    """Return a name as messages show it: in quotes, except for tags such as <depend>."""
     return name if name.startswith("<") else f"'{name}'"
 
 
@@ -34,7 +37,7 @@ _MOST_NAMES = 3
 
 
 def shorten_list(names: Iterable[str]) -> str:
-    """Return the first three names in quotes, and the number of the others."""
+    """Return up to three names in quotes, and the number of the others: "'a', 'b', 'c' and 2 more"."""
     names = list(names)
     first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])
     return f"{first} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else first

@@ -40,15 +40,18 @@ class Span(NamedTuple):
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
     def inner(self, text: str) -> Span | None:
-        """Return the span of ``text``, written here with or without quotes; None if it is written differently."""
+        """Return the span of ``text`` within this span, which has ``text`` with or without quotes.
+
+        None if the span has another length, for example because of an escape.
+        """
         quotes, odd = divmod(self.end_column - self.column - len(text), 2)
         if self.line != self.end_line or odd or quotes not in (0, 1):
             return None
         return self._replace(column=self.column + quotes, end_column=self.end_column - quotes)
 
-    def covers(self, other: Span) -> bool:
-        """Return whether another span is within this one, or equal to it."""
-        return self.path == other.path and self[1:3] <= other[1:3] and other[3:5] <= self[3:5]
+    def covers(self, span: Span) -> bool:
+        """Return whether a span is within this one, or equal to it."""
+        return self.path == span.path and self[1:3] <= span[1:3] and span[3:5] <= self[3:5]
 
 
 def file_start(path: str) -> Span:
@@ -79,11 +82,12 @@ class Text:
     @property
     def newline(self) -> str:
         """First line end in the file, or a line feed."""
-        found = _NEWLINE.search(self.text)
-        return found[0] if found else "\n"
+        match = _NEWLINE.search(self.text)
+        return match[0] if match else "\n"
 
     @property
     def line_count(self) -> int:
+        """Number of lines; a text that ends with a line end has an empty last line."""
         return len(self._line_starts())
 
     def span(self, start: int, end: int) -> Span:
@@ -97,7 +101,7 @@ class Text:
         return _make(Span, (self.path, line, start - before, line, end - before))
 
     def spans(self, ranges: Iterable[tuple[int, int]]) -> Iterator[Span]:
-        """Return the spans of sorted ranges, each of which is within a line.
+        """Yield the spans of sorted pairs of offsets, each pair within one line.
 
         This is faster than :meth:`span` for a few places in a long file, because the C library counts the lines.
         """
@@ -108,8 +112,8 @@ class Text:
         count, rfind = text.count, text.rfind
         line, at, before = 1, 0, -1
         for start, end in ranges:
-            if passed := count("\n", at, start):
-                line += passed
+            if line_feeds := count("\n", at, start):
+                line += line_feeds
                 before = rfind("\n", at, start)
             at = start
             yield _make(Span, (path, line, start - before, line, end - before))
@@ -178,8 +182,8 @@ def decode(data: bytes) -> tuple[str, str]:
     Bytes that are not UTF-8 become lone surrogates, so nothing raises and nothing is lost.
     """
     head = data[:400]
-    named = b"coding" in head
-    if not named and data.isascii() and b"\0" not in head[:2]:
+    has_coding = b"coding" in head
+    if not has_coding and data.isascii() and b"\0" not in head[:2]:
         return data.decode("ascii"), "utf-8"  # nearly every file
     for mark, codec in _BOMS:
         if data.startswith(mark):
@@ -192,7 +196,7 @@ def decode(data: bytes) -> tuple[str, str]:
         if b"\0" in head[:2] and begins.match(data):
             with suppress(UnicodeDecodeError):
                 return data.decode(codec), codec
-    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if named else None)
+    declared = _XML_ENCODING.match(data) or (_PYTHON_ENCODING.match(data) if has_coding else None)
     if declared:
         try:
             codec = codecs.lookup(declared[1].decode("ascii")).name
@@ -205,9 +209,9 @@ def decode(data: bytes) -> tuple[str, str]:
 
 
 def span_in(path: str, data: bytes, start: int, end: int) -> Span:
-    """Return the span between two offsets of a line, given the bytes of the file.
+    """Return the span between two byte offsets in one line of a file. Its columns count code points.
 
-    This serves searches in undecoded files, because few of them contain the text.
+    It serves searches in undecoded files: few files have a match, so decoding all of them would take longer.
     """
     line_start = data.rfind(b"\n", 0, start) + 1
     line = data.count(b"\n", 0, start) + 1
@@ -231,6 +235,6 @@ def from_bytes(data: bytes) -> str:
 
 
 def read(path: str, data: bytes) -> Text:
-    """Return the bytes of a file as a Text."""
+    """Return the bytes of a file as a Text; see :func:`decode`."""
     text, codec = decode(data)
     return Text(path, text, codec)

@@ -1,4 +1,4 @@
-"""Sources of files: a disk, a mapping, or an overlay.
+"""Trees of files: on a disk, in memory, or a disk with changed files.
 
 All other modules read files through a tree, so that a patched workspace or a test case is read by the same code as
 a real one. Paths are relative to the base of the tree, with forward slashes; the base itself is ``""``.
@@ -20,7 +20,7 @@ Kind = Literal["file", "directory", "other"]
 
 
 class Entry(NamedTuple):
-    """A name in a directory. Links are followed; a broken link and a device are ``other``."""
+    """A name in a directory. ``kind`` is that of a link's target; a broken link and a device are ``other``."""
 
     name: str
     kind: Kind
@@ -43,6 +43,7 @@ class Stamp(NamedTuple):
 
     @property
     def executable(self) -> bool:
+        """True if the owner, the group or others may execute the file."""
         return bool(self.mode & 0o111)
 
 
@@ -74,7 +75,7 @@ def text_of(tree: Tree, path: str) -> Text | None:
 
 
 def contents(tree: Tree, folder: str, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-    """Yield the readable files below a folder: path in the tree and contents."""
+    """Yield path and contents of files given relative to a folder. Unreadable files are left out."""
     for path in (join(folder, file) for file in files):
         try:
             yield path, tree.read(path)
@@ -87,7 +88,7 @@ _make = tuple.__new__
 
 
 def repository_of(folder: str) -> str:
-    """Return the root of the repository that contains a folder of the machine, or ""."""
+    """Return the root of the git repository that contains an absolute folder, or ""."""
     return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
 
 
@@ -99,15 +100,15 @@ def _followed(entry: os.DirEntry[str]) -> Entry:
     return Entry(entry.name, kind, entry.is_symlink())
 
 
-LEADS_OUT = "links to a place outside of the workspace"
+LEADS_OUT = "links to a place outside the workspace"
 
 
 class DiskTree:
     """The files below a directory, read-only.
 
-    ``inside`` are the real paths of the folders to which links to files may lead, by default the directory itself.
-    A folder reached by a link to elsewhere extends this for its own files: their links may also lead into that
-    folder and its repository.
+    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. If
+    a file is in a folder that is itself a link to elsewhere, its links may also lead into that folder's target and the
+    repository of the target.
     """
 
     __slots__ = ("_base", "_inside")
@@ -121,18 +122,18 @@ class DiskTree:
         return f"{self._base}/{path}" if path else self._base
 
     def list(self, path: str) -> list[Entry]:
-        found = []
+        result = []
         with os.scandir(self.place(path)) as entries:
             for entry in entries:
                 # The two common cases need no system call and little Python code.
                 if entry.is_file(follow_symlinks=False):
-                    found.append(_make(Entry, (entry.name, "file", False)))
+                    result.append(_make(Entry, (entry.name, "file", False)))
                 elif entry.is_dir(follow_symlinks=False):
-                    found.append(_make(Entry, (entry.name, "directory", False)))
+                    result.append(_make(Entry, (entry.name, "directory", False)))
                 else:
-                    found.append(_followed(entry))
-        found.sort(key=_NAME)
-        return found
+                    result.append(_followed(entry))
+        result.sort(key=_NAME)
+        return result
 
     def read(self, path: str) -> bytes:
         """Return the bytes of a file. Raises OSError, with EXDEV for a link that leads out of the workspace."""
@@ -157,8 +158,8 @@ class DiskTree:
         return bool(linked) and _is_in(target, (linked, repository_of(linked) or linked))
 
     def stamp(self, path: str) -> Stamp:
-        found = os.stat(self.place(path))
-        return Stamp(found.st_mtime_ns, found.st_size, found.st_mode & 0o777, found.st_ctime_ns, found.st_ino)
+        status = os.stat(self.place(path))
+        return Stamp(status.st_mtime_ns, status.st_size, status.st_mode & 0o777, status.st_ctime_ns, status.st_ino)
 
     def identity(self, path: str) -> str:
         return os.path.realpath(os.path.join(self._base, path))
@@ -172,7 +173,7 @@ def _is_in(path: str, folders: Iterable[str]) -> bool:
     return any(is_below(path, folder) for folder in folders)
 
 
-class Machine(DiskTree):
+class MachineTree(DiskTree):
     """All files of the machine, by absolute path. Links may lead anywhere."""
 
     __slots__ = ()
@@ -187,28 +188,29 @@ class Machine(DiskTree):
         return files.read(path)
 
 
-Told = list[Entry] | Stamp | str | int
-"""The answer of a tree to a query, or the number of the error."""
+TreeAnswer = list[Entry] | Stamp | str | int
+"""The answer of a tree to a query, or the errno of the error."""
 
 
 class RecordedTree:
     """A disk that records queries and answers, so that a later run can repeat the queries.
 
-    ``steady`` becomes False if a query has two answers: then a file changes during the run.
+    ``answers`` has them by query and path. ``steady`` becomes False if a query has two different answers, because a
+    file changed during the run.
     """
 
     def __init__(self, disk: DiskTree) -> None:
         self.disk = disk
-        self.said: dict[tuple[str, str], Told] = {}
+        self.answers: dict[tuple[str, str], TreeAnswer] = {}
         self.steady = True
-        self._known: dict[tuple[str, str], Told] = {}
+        self._known: dict[tuple[str, str], TreeAnswer] = {}
 
-    def still_says(self, said: Iterable[tuple[tuple[str, str], Told]]) -> bool:
-        """Return whether the disk still gives the recorded answers, and keep the current answers for reuse."""
-        for (question, path), answer in said:
-            now = self._told(question, path)
-            self._known[question, path] = now
-            if now != answer:
+    def is_unchanged(self, answers: Iterable[tuple[tuple[str, str], TreeAnswer]]) -> bool:
+        """Return whether the disk still gives these recorded answers. Keeps the current answers for reuse."""
+        for (query, path), answer in answers:
+            current = self._ask(query, path)
+            self._known[query, path] = current
+            if current != answer:
                 return False
         return True
 
@@ -226,7 +228,7 @@ class RecordedTree:
             raise
 
     def stamp(self, path: str) -> Stamp:
-        answer = self.said.get(("stamp", path)) or self._answer("stamp", path)
+        answer = self.answers.get(("stamp", path)) or self._answer("stamp", path)
         if not isinstance(answer, Stamp):
             raise self._error(answer, path)
         return answer
@@ -236,31 +238,31 @@ class RecordedTree:
         assert isinstance(answer, str)
         return answer
 
-    def _answer(self, question: str, path: str) -> Told:
-        answer = self._known.pop((question, path), None)
+    def _answer(self, query: str, path: str) -> TreeAnswer:
+        answer = self._known.pop((query, path), None)
         if answer is None:
-            answer = self._told(question, path)
-        self._note(question, path, answer)
+            answer = self._ask(query, path)
+        self._note(query, path, answer)
         if isinstance(answer, int):
             raise self._error(answer, path)
         return answer
 
-    def _told(self, question: str, path: str) -> Told:
+    def _ask(self, query: str, path: str) -> TreeAnswer:
         disk = self.disk
         try:
-            if question == "list":
+            if query == "list":
                 return disk.list(path)
-            if question == "stamp":
+            if query == "stamp":
                 return disk.stamp(path)
-            if question == "identity":
+            if query == "identity":
                 return disk.identity(path)
             disk.read(path)
         except OSError as error:
             return error.errno or 0
         return "read"
 
-    def _note(self, question: str, path: str, answer: Told) -> None:
-        if self.said.setdefault((question, path), answer) != answer:
+    def _note(self, query: str, path: str, answer: TreeAnswer) -> None:
+        if self.answers.setdefault((query, path), answer) != answer:
             self.steady = False
 
     def _error(self, answer: object, path: str) -> OSError:
@@ -269,7 +271,7 @@ class RecordedTree:
 
 
 class MemoryTree:
-    """Files from a mapping of path to contents. ``executable`` names the files with the executable bit."""
+    """Files in memory, from a mapping of path to contents. ``executable`` has the paths of the executable files."""
 
     __slots__ = ("_directories", "_executable", "_files")
 
@@ -305,7 +307,7 @@ class MemoryTree:
 
 
 class OverlayTree:
-    """A tree in which some files are replaced or added to existing directories. No file is removed."""
+    """A tree with changed contents of some files. New files must be in existing directories."""
 
     __slots__ = ("_below", "_changed", "_names")
 

@@ -1,4 +1,7 @@
-"""Compile wildcards to regular expressions that run in linear time. Each format defines its wildcards."""
+"""Parts of regular expressions for wildcards, which match in linear time.
+
+The callers define the syntax of the wildcards, because it differs between git, CMake and others.
+"""
 
 from __future__ import annotations
 
@@ -10,22 +13,26 @@ LONGEST = 4096
 
 
 def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
-    """Return an expression for expressions with gaps between them; ``gap`` is one that ends with ``*``.
+    """Return a regular expression for ``pieces`` in order, with ``gap`` between two of them.
 
-    Each piece except the last one keeps its first match, because a later match leaves less text for the other
-    pieces. ``numbers`` are unused numbers for names of groups.
+    ``pieces`` and ``gap`` are regular expressions; ``gap`` ends with ``*``. ``numbers`` are unused numbers for the
+    names of groups. Each piece except the last one keeps its first match, because a later match would leave less text
+    for the following pieces.
     """
-    first, *others = pieces
-    if not others:
+    first, *later_pieces = pieces
+    if not later_pieces:
         return first
-    *middle, last = others
-    # A lookahead is not retried: it works like an atomic group, which Python has from 3.11.
-    kept = [f"(?=(?P<g{number}>{gap}?{piece}))(?P=g{number})" for piece, number in zip(middle, numbers, strict=False)]
-    return f"{first}{''.join(kept)}{gap}{last}"
+    *middle, last = later_pieces
+    # A lookahead is not retried. It replaces an atomic group, which Python has only from 3.11.
+    lookaheads = [f"(?=(?P<g{number}>{gap}?{piece}))(?P=g{number})" for piece, number in zip(middle, numbers, strict=False)]
+    return f"{first}{''.join(lookaheads)}{gap}{last}"
 
 
 def letters(ranges: Iterable[tuple[int, int]], *, negated: bool) -> str:
-    """Return an expression for a character, not a slash, in ranges of code points or in none of them."""
+    """Return a regular expression for one character in the given ranges of code points, but not a slash.
+
+    With ``negated`` the character must be in none of the ranges.
+    """
     inside = "".join([f"{_escaped(low)}-{_escaped(high)}" for low, high in ranges if low <= high])
     if negated:
         return f"[^/{inside}]"

@@ -1,4 +1,4 @@
-"""XML as a tree with exact offsets. Entities and external files are not resolved."""
+"""XML as a tree of elements with exact offsets. Entities and external files are not resolved."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class XmlError(Exception):
         self.offset: Final = offset
 
 
-class Element:
+class XmlElement:
     """An element; ``start`` is the offset of its ``<``. Comments and text between elements are left out."""
 
     __slots__ = ("attributes", "children", "start", "tag")
@@ -28,15 +28,15 @@ class Element:
         self.tag = tag
         self.attributes = attributes
         self.start = start
-        self.children: list[Element] = []
+        self.children: list[XmlElement] = []
 
-    def walk(self) -> Iterator[Element]:
+    def walk(self) -> Iterator[XmlElement]:
         """Yield the element and its descendants in document order."""
-        waiting = [self]
-        while waiting:
-            found = waiting.pop()
-            yield found
-            waiting += reversed(found.children)
+        stack = [self]
+        while stack:
+            element = stack.pop()
+            yield element
+            stack += reversed(element.children)
 
 
 _DEEPEST = 200
@@ -52,16 +52,19 @@ class _Parent(Protocol):
 _E = TypeVar("_E", bound=_Parent)
 
 
-def parse(text: str) -> Element:
+def parse(text: str) -> XmlElement:
     """Return the root element. Raises XmlError, also for a declared entity.
 
     An entity could expand without limit or read other files.
     """
-    return parse_as(text, Element)
+    return parse_as(text, XmlElement)
 
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
-    """Return the root as created by ``make`` from tag, attributes and offset; see :func:`parse`."""
+    """Return the root element of a text. ``make`` creates an element from tag, attributes and offset.
+
+    Raises XmlError like :func:`parse`.
+    """
     data = unmarked(to_bytes(text))
     offset = _Offsets(data).of
     parser = expat.ParserCreate("utf-8")  # the text is decoded already, whatever its declaration says
@@ -94,15 +97,16 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
 
 
 def unmarked(data: bytes) -> bytes:
-    """Return the bytes for expat, with a leading byte order mark replaced.
+    """Return the bytes for expat, with a leading byte order mark replaced by an invalid character.
 
-    The first mark was removed when the file was decoded. A second one is an error, but expat would skip it.
+    The first mark was removed when the file was decoded, so this is a second one. It is an error that expat would
+    ignore.
     """
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 
 
-def attribute_places(text: str, element: Element) -> dict[str, tuple[int, int]]:
-    """Return the start and end offsets of the attribute values between their quotes."""
+def attribute_places(text: str, element: XmlElement) -> dict[str, tuple[int, int]]:
+    """Return the start and end offsets of each attribute value, without its quotes, by attribute name."""
     name = _NAME.match(text, element.start)
     at = name.end() if name else element.start
     places = {}

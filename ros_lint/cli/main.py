@@ -1,4 +1,4 @@
-"""The command line: argv in, exit code out.
+"""Run a command: from the arguments of the command line to the exit code.
 
 Exit codes: 0 no findings, 1 findings, 2 the run failed. Each command imports its own dependencies, so that
 ``--version`` and ``--help`` start fast.
@@ -20,43 +20,46 @@ if TYPE_CHECKING:
 
 def run() -> NoReturn:
     """Run the command of this process and exit."""
-    gc.disable()  # a run builds one model and exits: garbage collection would take a seventh of the time
+    gc.disable()  # a run builds one model and exits, and garbage collection would take a seventh of the time
     prepare()
     try:
-        code = _flushed(main())
+        code = _flush(main())
     except SystemExit as end:  # from argparse: after help, and for invalid arguments
-        code = _flushed(end.code if isinstance(end.code, int) else 2)
+        code = _flush(end.code if isinstance(end.code, int) else 2)
     except OSError:
         code = 2  # standard error cannot be written
-    # Nothing is left to be saved. Freeing the model of a large workspace would take as long as reading it.
+    # All files are written. Freeing the model of a large workspace would take as long as reading it.
     os._exit(code)
 
 
-def _flushed(code: int) -> int:
+def _flush(code: int) -> int:
     """Flush the standard streams. Returns the exit code, which is 2 if that fails."""
     try:
         sys.stdout.flush()
         sys.stderr.flush()
     except OutputError as error:
-        return _without_output(error)
+        return _report_output_error(error)
     except BrokenPipeError:
         return code or 2  # the reader has exited
     return code
 
 
-def _without_output(error: OutputError) -> int:
-    """Print why standard output cannot be written, and drop its buffer. Returns the exit code."""
+def _report_output_error(error: OutputError) -> int:
+    """Print why standard output cannot be written, and discard its buffer. Returns the exit code 2."""
     print(f"ros-lint: {error}", file=sys.stderr)
-    _drop_output()
+    _discard_output()
     return 2
 
 
-def _drop_output() -> None:
+def _discard_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command. Returns the exit code; only raises exceptions that end the process."""
+    """Run the command in ``argv`` (default: the arguments of this process). Returns the exit code.
+
+    Errors are printed. Only SystemExit and exceptions that end the process are raised.
+    """
     arguments = list(sys.argv[1:] if argv is None else argv)
     if arguments == ["--version"]:
         from ros_lint import __version__  # noqa: PLC0415
@@ -68,16 +71,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     try:
         command, options = parse(arguments)
-        return _run(command, options)
+        return _run_command(command, options)
     except BrokenPipeError:
-        _drop_output()  # the reader has exited, as in `ros-lint | head`
+        _discard_output()  # the reader has exited, as in `ros-lint | head`
         return 2
     except OutputError as error:
-        return _without_output(error)
+        return _report_output_error(error)
     except KeyboardInterrupt:
         print("ros-lint: interrupted", file=sys.stderr)
         return 130
-    except Exception:  # exit code 1 would mean that there are findings
+    except Exception:  # Python would exit with 1, which means that there are findings
         import traceback  # noqa: PLC0415
 
         traceback.print_exc()
@@ -85,11 +88,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
 
 
-def _run(command: str, options: dict[str, object]) -> int:
+def _run_command(command: str, options: dict[str, object]) -> int:
     if command in ("rules", "rule", "schema", "completion"):
-        from ros_lint.cli.commands import info as papers  # noqa: PLC0415
+        from ros_lint.cli.commands import info  # noqa: PLC0415
 
-        return papers.run(command, options)
+        return info.run(command, options)
     if command == "index":
         from ros_lint.cli.commands import index  # noqa: PLC0415
 
@@ -102,6 +105,6 @@ def _run(command: str, options: dict[str, object]) -> int:
         from ros_lint.cli.commands.launch import launch  # noqa: PLC0415
 
         return launch.run(options)
-    from ros_lint.cli.commands import graph_queries as graphs  # noqa: PLC0415
+    from ros_lint.cli.commands import graph_queries  # noqa: PLC0415
 
-    return graphs.run(command, options)
+    return graph_queries.run(command, options)

@@ -1,4 +1,4 @@
-"""The table of options: source of the command line, the settings, their JSON schema and their docs."""
+"""The table of options, from which the command line, the settings, their JSON schema and their docs are generated."""
 
 from __future__ import annotations
 
@@ -12,8 +12,11 @@ MOST = 1_000_000
 """The largest number that an option accepts."""
 
 
-class Option(NamedTuple):
-    """An option. ``table`` maps a pattern or rule to words and is only allowed in files."""
+class CliOption(NamedTuple):
+    """An option of the command line, a setting of configuration files, or both.
+
+    The type ``table`` maps patterns or rules to words; only files can have it.
+    """
 
     name: str
     type: Type
@@ -26,13 +29,11 @@ class Option(NamedTuple):
     environment: str = ""
     """The environment variable that is read if neither the command line nor the file sets the option."""
     loads_code: bool = False
-    """True if the option loads code.
-
-    It causes a warning in a file, which can be part of the checked workspace."""
+    """True if the option loads code. Files cannot set it, because they can be part of the checked workspace."""
 
 
-OPTIONS: tuple[Option, ...] = (
-    Option(
+OPTIONS: tuple[CliOption, ...] = (
+    CliOption(
         "distro",
         "word",
         "",
@@ -40,7 +41,7 @@ OPTIONS: tuple[Option, ...] = (
         metavar="NAME",
         environment="ROS_DISTRO",
     ),
-    Option(
+    CliOption(
         "underlay",
         "paths",
         (),
@@ -48,19 +49,19 @@ OPTIONS: tuple[Option, ...] = (
         metavar="PREFIX",
         environment="AMENT_PREFIX_PATH",
     ),
-    Option("select", "words", ("default",), "rules to run: names, codes, code prefixes, default, all", metavar="RULES"),
-    Option("extend-select", "words", (), "additional rules to run", metavar="RULES"),
-    Option("ignore", "words", (), "rules not to run", metavar="RULES"),
-    Option("pedantic", "flag", False, "run every rule and show findings of lower confidence"),
-    Option(
+    CliOption("select", "words", ("default",), "rules to run: names, codes, code prefixes, default, all", metavar="RULES"),
+    CliOption("extend-select", "words", (), "additional rules to run", metavar="RULES"),
+    CliOption("ignore", "words", (), "rules not to run", metavar="RULES"),
+    CliOption("pedantic", "flag", False, "run every rule and show findings of lower confidence"),
+    CliOption(
         "fail-on",
         "word",
         "warning",
         "lowest severity that makes the exit code 1",
         choices=(*SEVERITIES, "never"),
     ),
-    Option("exclude", "words", (), "folders or files not to read, as patterns like build_* or src/vendor", metavar="PATTERNS"),
-    Option(
+    CliOption("exclude", "words", (), "patterns of files or folders not to read, such as build_*", metavar="PATTERNS"),
+    CliOption(
         "severity",
         "table",
         {},
@@ -68,29 +69,29 @@ OPTIONS: tuple[Option, ...] = (
         choices=(*SEVERITIES, "off"),
         on_command_line=False,
     ),
-    Option("per-path-ignores", "table", {}, "rules to ignore in files that match a pattern", on_command_line=False),
-    Option("baseline", "path", "", "file of known findings, which are hidden", metavar="FILE"),
-    Option(
+    CliOption("per-path-ignores", "table", {}, "rules to ignore in files that match a pattern", on_command_line=False),
+    CliOption("baseline", "path", "", "file of known findings, which are hidden", metavar="FILE"),
+    CliOption(
         "plugins",
         "flag",
         False,
-        "load rules from installed Python packages (entry point group ros_lint.rules)",
+        "also load rules from installed Python packages (entry point group ros_lint.rules)",
         in_file=False,
         loads_code=True,
     ),
-    Option("jobs", "number", 0, "processes that read files, at most one a core; 0: by the size of the workspace", metavar="N"),
-    Option("cache", "flag", True, "cache results in the user's cache folder"),
-    Option("format", "word", "text", "output format", choices=FORMATS, in_file=False),
-    Option("output", "path", "", "write the findings to a file instead of standard output", metavar="FILE", in_file=False),
-    Option("color", "word", "auto", "when to colour the text", choices=("auto", "always", "never"), in_file=False),
-    Option("write-baseline", "flag", False, "write all findings to the baseline file and exit", in_file=False),
-    Option("fix", "flag", False, "apply safe fixes", in_file=False),
-    Option("unsafe-fixes", "flag", False, "with --fix or --diff, include fixes that may change behaviour", in_file=False),
-    Option("diff", "flag", False, "show what --fix would change, without changing files", in_file=False),
-    Option("config", "path", "", "configuration file to use instead of the nearest one", metavar="FILE", in_file=False),
-    Option("isolated", "flag", False, "ignore configuration files and environment variables", in_file=False),
-    Option("show-settings", "flag", False, "print every setting with its origin and exit", in_file=False),
-    Option("progress", "flag", True, "show progress on a terminal", in_file=False),
+    CliOption("jobs", "number", 0, "processes that read files, at most one per core; 0: by workspace size", metavar="N"),
+    CliOption("cache", "flag", True, "cache results in the user's cache folder"),
+    CliOption("format", "word", "text", "output format", choices=FORMATS, in_file=False),
+    CliOption("output", "path", "", "write the findings to a file instead of standard output", metavar="FILE", in_file=False),
+    CliOption("color", "word", "auto", "when to colour the text", choices=("auto", "always", "never"), in_file=False),
+    CliOption("write-baseline", "flag", False, "write all findings to the baseline file and exit", in_file=False),
+    CliOption("fix", "flag", False, "apply safe fixes", in_file=False),
+    CliOption("unsafe-fixes", "flag", False, "with --fix or --diff, include fixes that may change behaviour", in_file=False),
+    CliOption("diff", "flag", False, "show what --fix would change, without changing files", in_file=False),
+    CliOption("config", "path", "", "configuration file to use instead of the nearest one", metavar="FILE", in_file=False),
+    CliOption("isolated", "flag", False, "ignore configuration files and environment variables", in_file=False),
+    CliOption("show-settings", "flag", False, "print every setting with its origin and exit", in_file=False),
+    CliOption("progress", "flag", True, "show progress on a terminal", in_file=False),
 )
 COMMANDS = {
     "check": "report problems (the default command)",
@@ -121,7 +122,7 @@ def schema() -> dict[str, Any]:
     }
 
 
-def _property(option: Option) -> dict[str, Any]:
+def _property(option: CliOption) -> dict[str, Any]:
     word: dict[str, Any] = {"type": "string"}
     if option.choices:
         word["enum"] = list(option.choices)

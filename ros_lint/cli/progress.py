@@ -7,21 +7,24 @@ import time
 from collections.abc import Callable
 from typing import TextIO
 
-_PATIENCE = 0.5
-"""Seconds until the line is shown: most runs end before."""
-_PAUSE = 0.1
+_DELAY = 0.5
+"""Seconds until the line is first shown, because most runs end before."""
+_INTERVAL = 0.1
 """Seconds between two updates of the line."""
 
 
 class Progress:
-    """Shows the progress of a long run on a terminal. A context manager: it clears the line at the end."""
+    """Shows the progress of a long run on a terminal. As a context manager, it clears the line at the end.
+
+    Nothing is shown if ``wanted`` is False or the stream is not a terminal. ``clock`` returns the time in seconds.
+    """
 
     def __init__(self, stream: TextIO, wanted: bool = True, clock: Callable[[], float] = time.monotonic) -> None:
         self._stream = stream
         self._clock = clock
         self._shown = False
         on = wanted and stream.isatty() and os.environ.get("TERM") != "dumb"
-        self._next = clock() + _PATIENCE if on else float("inf")
+        self._next = clock() + _DELAY if on else float("inf")
 
     def __enter__(self) -> Progress:
         return self
@@ -29,11 +32,11 @@ class Progress:
     def __exit__(self, *error: object) -> None:
         self.clear()
 
-    def tell(self, what: str, done: int, total: int) -> None:
-        """Show that ``done`` of ``total`` items are done. ``what`` names the step; ``total`` is 0 if unknown."""
+    def update(self, what: str, done: int, total: int) -> None:
+        """Show that ``done`` of ``total`` items of a step are done. ``what`` is its name; ``total`` is 0 if unknown."""
         if (now := self._clock()) < self._next:
             return
-        self._next = now + _PAUSE
+        self._next = now + _INTERVAL
         text = f"{what} {done}/{total}" if total else what
         self._write(f"\r{text[: self._columns() - 1]}\x1b[K")
         self._shown = True

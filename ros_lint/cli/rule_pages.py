@@ -1,11 +1,11 @@
-"""Documentation of rules and options: lists, the page of a rule and the table of options."""
+"""Documentation of rules and options: lists of rules, the page of a rule and the table of options."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
 from ros_lint.analysis.rule import Rule
-from ros_lint.cli.options import Option
+from ros_lint.cli.options import CliOption
 from ros_lint.cli.settings import toml
 
 GROUPS = {
@@ -19,12 +19,12 @@ GROUPS = {
 
 
 def group(rule: Rule) -> str:
-    """Return the heading under which a rule is listed."""
+    """Return the name of the group that a rule belongs to, by the first digit of its code."""
     return GROUPS[rule.code[3]]
 
 
 def listing(rules: Iterable[Rule]) -> str:
-    """Return one line for each rule: code, name, severity, whether it is on and fixable, summary."""
+    """Return a line for each rule: code, name, severity, on or off, whether it has fixes, and summary."""
     rules = list(rules)
     width = max((len(rule.name) for rule in rules), default=0)
     lines = []
@@ -35,7 +35,7 @@ def listing(rules: Iterable[Rule]) -> str:
 
 
 def page(rule: Rule, example: str = "") -> str:
-    """Return the page of a rule in Markdown. An example of its output follows the section "What it finds"."""
+    """Return the page of a rule in Markdown. ``example`` is output of the rule, shown in the section "What it finds"."""
     facts = [
         f"{rule.severity!s}",
         "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",
@@ -57,20 +57,20 @@ def overview(rules: Sequence[Rule]) -> str:
     """Return the page that lists all rules in Markdown, with links to their pages."""
     parts = ["# Rules\n\nGenerated from the rules and their cases by `pytest --bless`. `ros-lint rule NAME` prints a page.\n"]
     for digit, heading in GROUPS.items():
-        mine = [rule for rule in rules if rule.code[3] == digit]
-        if not mine:
+        in_group = [rule for rule in rules if rule.code[3] == digit]
+        if not in_group:
             continue
         parts.append(f"\n## {heading}\n\n| code | rule | severity | default | fix | checks that |\n|---|---|---|---|---|---|\n")
         parts += [
             f"| {rule.code} | [{rule.name}]({rule.name}.md) | {rule.severity!s} | {'on' if rule.default else 'off'} "
             f"| {'yes' if rule.fixable else ''} | {rule.summary} |\n"
-            for rule in mine
+            for rule in in_group
         ]
     return "".join(parts)
 
 
-def settings(options: Iterable[Option]) -> str:
-    """Return the table of options in Markdown, first those that are allowed in a file."""
+def settings(options: Iterable[CliOption]) -> str:
+    """Return a table of options in Markdown. Those that configuration files can set come first."""
     lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
     for option in sorted(options, key=lambda option: not option.in_file):
         name = f"`{option.name}`" if option.in_file else ""
@@ -80,7 +80,7 @@ def settings(options: Iterable[Option]) -> str:
     return "\n".join(lines)
 
 
-def _flag(option: Option) -> str:
+def _flag(option: CliOption) -> str:
     if not option.on_command_line:
         return ""
     if option.type == "flag":
@@ -89,7 +89,7 @@ def _flag(option: Option) -> str:
 
 
 def as_json(rules: Iterable[Rule]) -> str:
-    """Return all data about rules as a JSON list."""
+    """Return the names, codes, severities, documentation and other data of rules as a JSON list."""
     import json  # noqa: PLC0415
 
     return (

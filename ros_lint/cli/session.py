@@ -1,4 +1,4 @@
-"""From the options of the command line to a workspace that can be loaded."""
+"""Open a workspace: from the options of the command line to a loader."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from ros_lint.engine.report_cache import ReportCache
 from ros_lint.errors import UserError
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
-from ros_lint.workspace import fact_cache as cache
+from ros_lint.workspace import fact_cache
 from ros_lint.workspace.target import TargetDistro
 
 if TYPE_CHECKING:
     from ros_lint.base.tree import Tree
-    from ros_lint.knowledge import underlays as underlay
+    from ros_lint.knowledge.underlays import Underlay
     from ros_lint.workspace.loader import Loader, Progress
 
 
 class UsageError(UserError):
-    """An invalid request. The message names the problem and the remedy."""
+    """A request of the user that is invalid. The message names the problem and the remedy."""
 
 
 class Request(NamedTuple):
-    """A workspace and settings that have been validated. The workspace has not been read yet."""
+    """Validated options: which workspace to check with which settings. Nothing of the workspace is read yet."""
 
     settings: Settings
     base: str
@@ -37,13 +37,14 @@ class Request(NamedTuple):
     roots: tuple[str, ...]
     """The requested paths, relative to the base."""
     inside: tuple[str, ...]
-    """Absolute folders that links of the workspace may lead into: the repository or requested paths."""
+    """Absolute folders that links in the workspace may lead into: the repository, or the requested paths."""
     target: TargetDistro
     places: tuple[str, ...]
-    """Folders with data of the released world that override the shipped data."""
+    """Folders with data about released packages that override the shipped data."""
     cache: str
-    """The cache folder, or ""."""
+    """The cache folder, or "" if nothing is cached."""
     warnings: tuple[str, ...]
+    """Warnings about the settings."""
 
     @property
     def disk(self) -> DiskTree:
@@ -52,7 +53,7 @@ class Request(NamedTuple):
 
 
 class Session(NamedTuple):
-    """A workspace that can be loaded."""
+    """A loader for the requested workspace, with the data that a command needs."""
 
     loader: Loader
     settings: Settings
@@ -69,18 +70,19 @@ class Session(NamedTuple):
         return self.roots[0] if len(self.roots) == 1 else ""
 
 
-def open_workspace(said: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
-    """Return the workspace that the options name. It is not loaded yet.
+def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
+    """Return a session for the workspace that the options name. It is not loaded yet.
 
-    ``said`` is the result of :func:`ros_lint.cli.arguments.parse`. Raises UsageError, ConfigError and KnowledgeError.
+    ``options`` are those of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
+    :meth:`ros_lint.cli.progress.Progress.update`. Raises UsageError, ConfigError and KnowledgeError.
     """
-    return open_session(parse_request(said, environment), progress)
+    return open_session(parse_request(options, environment), progress)
 
 
-def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
-    """Return the validated request. Raises UsageError and ConfigError."""
-    paths = [os.path.realpath(path) for path in said.get("paths") or ["."]]
-    for path, written in zip(paths, said.get("paths") or ["."], strict=True):
+def parse_request(options: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
+    """Validate the options of the command line. Raises UsageError and ConfigError."""
+    paths = [os.path.realpath(path) for path in options.get("paths") or ["."]]
+    for path, written in zip(paths, options.get("paths") or ["."], strict=True):
         if not os.path.exists(path):
             raise UsageError(f"{written}: no such file or directory{_command(written)}")
         if not os.path.isdir(path):
@@ -88,116 +90,115 @@ def parse_request(said: Mapping[str, Any], environment: Mapping[str, str]) -> Re
     base = _base(paths)
     inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in paths)
     settings = settle(
-        {name: value for name, value in said.items() if name != "paths"}, os.path.commonpath(paths), environment, base
+        {name: value for name, value in options.items() if name != "paths"}, os.path.commonpath(paths), environment, base
     )
     places = (user_directory(environment),)
     target, warnings = _target(settings, places)
     roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
     return Request(
-        settings, base, roots, inside, target, places, cache.folder(environment) if settings["cache"] else "", warnings
+        settings, base, roots, inside, target, places, fact_cache.folder(environment) if settings["cache"] else "", warnings
     )
 
 
-def open_session(asked: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
-    """Return a workspace that can be loaded. ``workspace`` and ``machine`` replace the trees on disk.
+def open_session(request: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
+    """Return a session for a request. ``workspace`` and ``machine`` replace the trees on disk.
 
     Raises UsageError and KnowledgeError.
     """
     from ros_lint.workspace.loader import Loader  # noqa: PLC0415  (not needed for a cached report)
 
-    settings, base = asked.settings, asked.base
-    knowledge = Knowledge(asked.target.distro, asked.places)
-    underlays, unread = _underlays(settings, asked.target.distro, base, machine)
+    settings, base = request.settings, request.base
+    knowledge = Knowledge(request.target.distro, request.places)
+    underlays, unread = _underlays(settings, request.target.distro, base, machine)
     loader = Loader(
-        workspace or asked.disk,
-        asked.roots,
-        asked.target,
+        workspace or request.disk,
+        request.roots,
+        request.target,
         underlays=underlays,
         knowledge=knowledge,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=cache.FactCache(asked.cache, _kept_by(asked)),
+        cache=fact_cache.FactCache(request.cache, _fact_cache_key(request)),
         progress=progress,
     )
-    return Session(loader, settings, knowledge, base, asked.roots, (*asked.warnings, *unread))
+    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread))
 
 
-def _kept_by(asked: Request) -> str:
-    """Return the key of cached file facts: they depend on the folders that links may lead into."""
-    return asked.base if asked.inside == (asked.base,) else os.pathsep.join((asked.base, *asked.inside))
+def _fact_cache_key(request: Request) -> str:
+    """Return the key under which facts of files are cached. They depend on the folders that links may lead into."""
+    return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
 
 
-_OF_NO_MATTER = frozenset((
+_WITHOUT_EFFECT = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
     "show-settings", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
-"""Settings that do not change the report.
-
-It depends on the contents of the configuration file, not on its path."""
+"""Settings that do not affect the report. Of the configuration file only the contents do, not the path."""
 
 
 _LIBRARIES = ("libcst", "networkx", "yaml")
-"""Libraries that take part in reading a workspace, so that their versions invalidate the cache."""
+"""Libraries that read files of a workspace. A new version of one invalidates the cache."""
 
 
-def reports(asked: Request) -> ReportCache:
-    """Return the cached reports of a request.
+def report_cache(request: Request) -> ReportCache:
+    """Return the cache of the reports of a request.
 
-    There are none if plugins are enabled, because the files that plugins consist of are not watched.
+    It is off if plugins are enabled, because a change in the files of plugins would not be noticed.
     """
-    settings = asked.settings
-    if not asked.cache or settings["plugins"]:
-        return ReportCache("", asked.base, "", ())
+    settings = request.settings
+    if not request.cache or settings["plugins"]:
+        return ReportCache("", request.base, "", ())
     from importlib.util import find_spec  # noqa: PLC0415
 
-    values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _OF_NO_MATTER]
+    values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _WITHOUT_EFFECT]
     rules = find_spec(BUILTIN)
-    folders = [*(rules.submodule_search_locations or () if rules else ()), *asked.places]
+    folders = [*(rules.submodule_search_locations or () if rules else ()), *request.places]
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
-    data = [*libraries, *(file for folder in folders for file in cache.files_below(folder))]
+    data = [*libraries, *(file for folder in folders for file in fact_cache.files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
-    request_key = repr((asked.roots, asked.inside, asked.target, values, prefixes, settings.origin("underlay")))
-    return ReportCache(asked.cache, asked.base, request_key, data)
+    request_key = repr((request.roots, request.inside, request.target, values, prefixes, settings.origin("underlay")))
+    return ReportCache(request.cache, request.base, request_key, data)
 
 
 def _underlays(
     settings: Settings, distro: str, base: str, machine: Tree | None
-) -> tuple[tuple[underlay.Underlay, ...], tuple[str, ...]]:
-    """Return the underlays and warnings.
+) -> tuple[tuple[Underlay, ...], tuple[str, ...]]:
+    """Return the underlays and warnings. An invalid prefix from the environment causes a warning only.
 
-    A requested prefix must be valid; one from the environment is skipped.
+    Raises UsageError for an invalid prefix from the command line or the configuration file.
     """
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
     if not prefixes:
         return (), ()
-    from ros_lint.knowledge import underlays as underlay  # noqa: PLC0415
+    from ros_lint.knowledge import underlays  # noqa: PLC0415
 
     if settings.origin("underlay") != "AMENT_PREFIX_PATH":
         try:
-            return underlay.read(prefixes, distro, machine=machine), ()
-        except underlay.UnderlayError as error:
+            return underlays.read(prefixes, distro, machine=machine), ()
+        except underlays.UnderlayError as error:
             raise UsageError(str(error)) from error
-    result: list[underlay.Underlay] = []
+    result: list[Underlay] = []
     warnings: list[str] = []
     for prefix in prefixes:
         try:
-            result += underlay.read([prefix], distro, base, machine)
-        except underlay.UnderlayError as error:
+            result += underlays.read([prefix], distro, base, machine)
+        except underlays.UnderlayError as error:
             warnings.append(f"AMENT_PREFIX_PATH: {error}")
     return tuple(result), tuple(warnings)
 
 
-def no_packages(asked: Request | Session) -> str:
-    """Return the message for a run without packages."""
+def no_packages(request: Request | Session) -> str:
+    """Return the message for a workspace without packages, with the folders that were skipped."""
     from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (not needed for a cached report)
 
-    places = ", ".join(root or asked.base for root in asked.roots)
-    skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in discover(DiskTree(asked.base), asked.roots, {}).skipped]
+    places = ", ".join(root or request.base for root in request.roots)
+    folders = discover(DiskTree(request.base), request.roots, {}).skipped
+    skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in folders]
     if not skipped:
         return f"ros-lint: no package found below {places}; is there a package.xml?"
-    more = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
-    named = ", ".join(skipped[:_MOST_SKIPPED])
-    nothing = f"ros-lint: no package found below {places}; skipped: {named}{more}"
+    remaining = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
+    listed = ", ".join(skipped[:_MOST_SKIPPED])
+    nothing = f"ros-lint: no package found below {places}; skipped: {listed}{remaining}"
     return f"{nothing}; to check a skipped folder, pass its path"
 
 
@@ -205,7 +206,7 @@ _MOST_SKIPPED = 3
 
 
 def _command(written: str) -> str:
-    """Return the suggestion for a path that does not exist and resembles the name of a command."""
+    """Return the suggestion of a command for a path that does not exist: "; did you mean the command 'why'?", or ""."""
     return next((f"; did you mean the command '{command}'?" for command in similar_names(written, COMMANDS)), "")
 
 
@@ -222,17 +223,17 @@ def _target(settings: Settings, places: Sequence[str]) -> tuple[TargetDistro, tu
     distro = settings["distro"]
     if not distro:
         return TargetDistro(newest_lts(places), "newest LTS", explicit=False), ()
-    known = [known.name for known in distros(places)]
-    if distro in known:
+    available_names = [available_names.name for available_names in distros(places)]
+    if distro in available_names:
         return TargetDistro(distro, settings.origin("distro")), ()
     if settings.origin("distro") == "ROS_DISTRO":
         return TargetDistro(distro, "ROS_DISTRO"), (
-            f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(known)}",
+            f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(available_names)}",
         )
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar_names(distro, known)))
-    available = f"(available: {', '.join(known)})"
+    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar_names(distro, available_names)))
+    available = f"(available: {', '.join(available_names)})"
     raise UsageError(f"{settings.origin('distro')}: {kind} distribution '{distro}'{hint} {available}")
 
 

@@ -1,4 +1,4 @@
-"""Settings with their origins: command line over configuration file over environment over defaults.
+"""Settings with their origins. The command line overrides the configuration file, this the environment and the defaults.
 
 The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace
 folder or above it.
@@ -15,19 +15,17 @@ from typing import Any, NamedTuple
 from ros_lint.base import files
 from ros_lint.base.paths import upwards
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, Option
+from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, CliOption
 from ros_lint.errors import UserError
 
 _MOST_BYTES = 256 << 10
 """Size limit of a configuration file, much larger than any real one."""
 
 _MOST_SEARCHED = 16 << 20
-"""Size limit up to which a pyproject.toml is searched for our table."""
+"""Number of bytes of a pyproject.toml that are searched for the table of ros-lint."""
 
 _LONG_KEY = r"""(?:\.[ \t]*(?:[\w-]+|"(?:[^"\\\n]|\\.){0,50}"|'[^'\n]{0,50}')[ \t]*){50}"""
-"""The rest of a key with more than 50 parts.
-
-The time that tomllib takes grows with the square of the parts."""
+"""Pattern of a key with more than 50 parts, without the first. tomllib takes time with the square of their number."""
 
 
 class ConfigError(UserError):
@@ -42,11 +40,9 @@ class Setting(NamedTuple):
 
 
 class Settings:
-    """The values of all options: ``settings["fail-on"]``.
+    """The values of all options with their origins: ``settings["fail-on"]``, ``settings.origin("fail-on")``.
 
-    ``settings.origin("fail-on")`` is the origin of a value.
-
-    ``warnings`` names settings of the file that have no effect.
+    ``warnings`` are messages about settings of the file that have no effect.
     """
 
     def __init__(self, values: Mapping[str, Setting], warnings: tuple[str, ...] = ()) -> None:
@@ -66,23 +62,23 @@ class Settings:
         return "".join(f"{name:{width}} = {toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
 
 
-def settle(given: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
+def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
     """Return the settings of a run. Raises ConfigError.
 
-    ``given`` has the values of the command line by option name. ``start`` is the absolute path of the workspace, from
+    ``arguments`` has the values of the command line by option name. ``start`` is the absolute path of the workspace, from
     which the configuration file is searched upwards. Of ``environment`` only the variables in the table of options are
-    read.
+    read. ``display`` is the folder to which the path of the file is relative in origins.
     """
-    isolated = bool(given.get("isolated"))
-    path = "" if isolated else str(given.get("config") or "") or find(start)
-    if given.get("config") and not os.path.isfile(path):
+    isolated = bool(arguments.get("isolated"))
+    path = "" if isolated else str(arguments.get("config") or "") or find(start)
+    if arguments.get("config") and not os.path.isfile(path):
         raise ConfigError(f"{path}: no such configuration file")
     from_file, warnings = read(path) if path else ({}, ())
     shown = os.path.relpath(path, display) if path and display else path
     values: dict[str, Setting] = {}
     for option in OPTIONS:
-        if option.name in given:
-            values[option.name] = Setting(given[option.name], f"--{option.name}")
+        if option.name in arguments:
+            values[option.name] = Setting(arguments[option.name], f"--{option.name}")
         elif option.name in from_file:
             values[option.name] = Setting(_relative(option, from_file[option.name], path), shown)
         elif not isolated and option.environment and (variable := environment.get(option.environment)):
@@ -98,12 +94,12 @@ def find(start: str) -> str:
     if not os.path.isdir(folder):
         folder = os.path.dirname(folder)
     for place in upwards(folder):
-        own = os.path.join(place, "ros-lint.toml")
-        if os.path.isfile(own):
-            return own
-        project = os.path.join(place, "pyproject.toml")
-        if os.path.isfile(project) and _mentions_us(project):
-            return project
+        ros_lint_toml = os.path.join(place, "ros-lint.toml")
+        if os.path.isfile(ros_lint_toml):
+            return ros_lint_toml
+        pyproject = os.path.join(place, "pyproject.toml")
+        if os.path.isfile(pyproject) and _has_table(pyproject):
+            return pyproject
     return ""
 
 
@@ -119,17 +115,17 @@ def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
         if not isinstance(table, dict):
             raise ConfigError(f"{path}: {'tool.ros-lint' if name == 'ros-lint' else name} is not a table")
     text = data.decode("utf-8", "replace")
-    refused = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
-    settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in refused}
-    return settings, tuple([_without_effect(path, text, name) for name in refused])
+    without_effect = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
+    settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in without_effect}
+    return settings, tuple([_without_effect(path, text, name) for name in without_effect])
 
 
 def _without_effect(path: str, text: str, name: str) -> str:
     return f"{_place(path, text, name)}: {name} has no effect in a file because it loads code; use --{name} on the command line"
 
 
-def _mentions_us(path: str) -> bool:
-    """Return whether a pyproject.toml has our table, even if it is too large to be parsed."""
+def _has_table(path: str) -> bool:
+    """Return whether a pyproject.toml has a table [tool.ros-lint], without parsing it, because it may be invalid or large."""
     try:
         with open(path, "rb") as file:
             head = file.read(_MOST_SEARCHED)
@@ -159,19 +155,19 @@ def _load_toml(path: str, data: bytes) -> dict[str, Any]:
 def _checked(path: str, text: str, name: str, value: Any) -> Any:
     option = BY_NAME.get(name)
     if option is None or not option.in_file:
-        known = [option.name for option in OPTIONS if option.in_file]
+        available = [option.name for option in OPTIONS if option.in_file]
         if option is not None:
             raise ConfigError(f"{_place(path, text, name)}: '{name}' is a command-line option, not a setting")
-        hint = did_you_mean(similar_names(name.replace("_", "-"), known)) or f"; available: {', '.join(known)}"
+        hint = did_you_mean(similar_names(name.replace("_", "-"), available)) or f"; available: {', '.join(available)}"
         raise ConfigError(f"{_place(path, text, name)}: unknown setting '{name}'{hint}")
-    if complaint := _complaint(option, value):
-        raise ConfigError(f"{_place(path, text, name)}: '{name}' {complaint}")
+    if error := _error_in(option, value):
+        raise ConfigError(f"{_place(path, text, name)}: '{name}' {error}")
     if option.type in ("words", "paths"):
         return tuple(value)
     return value
 
 
-def _complaint(option: Option, value: Any) -> str:
+def _error_in(option: CliOption, value: Any) -> str:
     match option.type:
         case "flag":
             return "" if isinstance(value, bool) else "must be true or false"
@@ -179,19 +175,19 @@ def _complaint(option: Option, value: Any) -> str:
             fits = isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST
             return "" if fits else f"must be a whole number from 0 to {MOST}"
         case "word" | "path":
-            return _word_complaint(option, value)
+            return _word_error_in(option, value)
         case "words" | "paths":
             return "" if _is_words(value) else "must be a list of strings"
         case "table":
             if not isinstance(value, dict):
                 return "must be a table"
             if option.choices:
-                wrong = [f"of '{key}' {why}" for key, entry in value.items() if (why := _word_complaint(option, entry))]
-                return wrong[0] if wrong else ""
+                errors = [f"of '{key}' {why}" for key, entry in value.items() if (why := _word_error_in(option, entry))]
+                return errors[0] if errors else ""
             return "" if all(_is_words(entry) for entry in value.values()) else "must map patterns to lists of rules"
 
 
-def _word_complaint(option: Option, value: Any) -> str:
+def _word_error_in(option: CliOption, value: Any) -> str:
     if not isinstance(value, str):
         return "must be a string"
     if option.choices and value not in option.choices:
@@ -211,14 +207,14 @@ def _place(path: str, text: str, name: str) -> str:
     return f"{path}:{text.count(chr(10), 0, match.start()) + 1}" if match else path
 
 
-def _relative(option: Option, value: Any, path: str) -> Any:
-    """Resolve a path in a file relative to that file."""
+def _relative(option: CliOption, value: Any, path: str) -> Any:
+    """Return a value of a configuration file. Paths in it are relative to the folder of the file."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value
 
 
-def _from_environment(option: Option, value: str) -> Any:
+def _from_environment(option: CliOption, value: str) -> Any:
     if option.type == "paths":
         return tuple(entry for entry in value.split(os.pathsep) if entry)
     return value

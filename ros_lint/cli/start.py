@@ -20,24 +20,21 @@ def run() -> None:
 def leave_current_folder() -> None:
     """Remove the current folder from the module path, also for child processes.
 
-    If this package is in the current folder, the folder becomes the last entry.
+    If ros-lint itself is in the current folder, the folder becomes the last entry.
     """
     try:
-        here = os.path.realpath(os.curdir)
+        current = os.path.realpath(os.curdir)
     except OSError:
         return  # the folder does not exist any more and contains no module
-    sys.path[:] = _without(here, sys.path)
+    sys.path[:] = _without(current, sys.path)
     home = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
-    if here == home:
+    if current == home:
         sys.path.append(home)
     os.environ["PYTHONSAFEPATH"] = "1"
     if path := os.environ.get("PYTHONPATH"):
-        os.environ["PYTHONPATH"] = os.pathsep.join(_without(here, path.split(os.pathsep)))
+        os.environ["PYTHONPATH"] = os.pathsep.join(_without(current, path.split(os.pathsep)))
 
 
 def _without(folder: str, path: list[str]) -> list[str]:
-    """Return the entries of a path that are not the current folder.
-
-    An empty entry means the current folder.
-    """
+    """Return the entries of a module path except for ``folder``. An empty entry means the current folder."""
     return [entry for entry in path if entry and os.path.realpath(entry) != folder]

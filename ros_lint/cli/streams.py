@@ -16,7 +16,7 @@ class OutputError(Exception):
 
 
 class _Output(io.RawIOBase):
-    """Standard output with its own error class, because an OSError does not name its file."""
+    """Standard output that raises OutputError, because an OSError does not show which file failed."""
 
     def __init__(self, raw: io.RawIOBase) -> None:
         self._raw = raw
@@ -47,9 +47,9 @@ def prepare() -> None:
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  (until the process ends)
     if sys.stdout is None:
-        # Reserves the number, or else the next opened file would be standard output; writing to it fails.
-        os.dup2(os.open(os.devnull, os.O_RDONLY), _NUMBER)
-        raw: Any = io.FileIO(_NUMBER, "w", closefd=False)
+        # Reserve the file descriptor, or else the next opened file would become standard output. Writing to it fails.
+        os.dup2(os.open(os.devnull, os.O_RDONLY), _DESCRIPTOR)
+        raw: Any = io.FileIO(_DESCRIPTOR, "w", closefd=False)
         encoding = "utf-8"
     else:
         buffer = sys.stdout.buffer
@@ -58,5 +58,5 @@ def prepare() -> None:
     sys.stdout = io.TextIOWrapper(output, encoding, "backslashreplace", line_buffering=raw.isatty())
 
 
-_NUMBER = 1
+_DESCRIPTOR = 1
 """The file descriptor of standard output."""

@@ -63,7 +63,7 @@ def _matched(pattern: re.Pattern[str], text: str) -> Ranges:
 
 @cache
 def _pattern(*parts: str) -> re.Pattern[str]:
-    """Return a pattern for the strings of a language, which may contain comment marks, and its comments."""
+    """Return a pattern for the comments of a language, and for its strings, which may contain comment marks."""
     return re.compile("|".join(parts), re.DOTALL | re.MULTILINE)
 
 

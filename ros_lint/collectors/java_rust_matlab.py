@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import blanked
+from ros_lint.collectors.cpp.includes import blank_comments
 from ros_lint.facts.sources import FileFacts, Mention
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def java(source: Text) -> FileFacts:
     """Return the packages of the interfaces that a Java source names, and those of the client library."""
     if not any(word in source.text for word in _JAVA_MARKS):
         return FileFacts()
-    text = _STRING.sub(_spaces, blanked(source.text))
+    text = _STRING.sub(_spaces, blank_comments(source.text))
     names = [(match.span(), match[1]) for match in _JAVA_TYPE.finditer(text)]
     names += [
         (match.span(1), "rcljava_common" if match[2] in _RCLJAVA_COMMON else "rcljava") for match in _RCLJAVA.finditer(text)
@@ -59,7 +59,7 @@ def rust(source: Text) -> FileFacts:
     """
     if not any(word in source.text for word in _RUST_MARKS):
         return FileFacts()
-    text = _STRING.sub(_spaces, blanked(source.text))
+    text = _STRING.sub(_spaces, blank_comments(source.text))
     names = [(match.span(1), match[1]) for match in _CRATE.finditer(text)]
     names += [
         (match.span("type"), match["package"])

@@ -95,7 +95,7 @@ def _is_standalone(content: str, start: int, end: int) -> bool:
 
 
 def _is_prolog(between: str) -> bool:
-    """Return whether a comment is still leading: only space and XML declarations precede it."""
+    """Return whether the text before a comment contains only space and XML declarations."""
     return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
 
 

@@ -64,7 +64,7 @@ _RENAMES = ("__node:=", "__name:=", "__ns:=")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
-class Installed(NamedTuple):
+class InstallPlace(NamedTuple):
     """A place in the install space of a package."""
 
     package: str
@@ -102,7 +102,7 @@ def share(package: str) -> str:
 
 
 def configuration(name: str, default: str | None = None) -> str:
-    """Return the symbolic value of a launch configuration; ``default`` is its value if it is not set."""
+    """Return the symbolic value of a launch configuration; ``default`` is its value if nothing sets it."""
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
 
@@ -153,7 +153,7 @@ def presence(package: str) -> str:
 
 
 def package_of_presence(text: str) -> str:
-    """Return the package if a text is the symbolic truth of :func:`presence`, "" otherwise."""
+    """Return the package of a text made by :func:`presence`, "" for any other text."""
     return text[1:] if text.startswith(_PRESENT) else ""
 
 
@@ -259,7 +259,7 @@ def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozens
     return frozenset(result)
 
 
-def installed(text: str) -> Iterator[Installed]:
+def installed(text: str) -> Iterator[InstallPlace]:
     """Yield the install places in a text: one path, or several in a command line."""
     if _ROOT not in text:
         return
@@ -270,10 +270,10 @@ def installed(text: str) -> Iterator[Installed]:
                 parts.pop()
             elif part not in ("", ".", ".."):
                 parts.append(part)
-        yield Installed(match[1], "/".join(parts))
+        yield InstallPlace(match[1], "/".join(parts))
 
 
-def installed_place(text: str) -> Installed | None:
+def installed_place(text: str) -> InstallPlace | None:
     """Return the only install place in a text, None if there is none or there are several."""
     places = list(installed(text))
     return places[0] if len(places) == 1 else None

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
-from ros_lint.engine import run as engine
 from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
+from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
 
 if TYPE_CHECKING:
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 
-class Context(NamedTuple):
-    """The contents of a report besides its findings, and the rules that suppressions may name."""
+class ReportContext(NamedTuple):
+    """What a report needs besides the workspace: data about the run, and the rules that suppressions may name."""
 
     rules: tuple[Rule, ...]
     """All rules, selected or not."""
@@ -27,14 +27,15 @@ class Context(NamedTuple):
     folder: str
     """The checked folder relative to the base; "" for the base itself or for several folders."""
     warnings: tuple[str, ...]
+    """Warnings about the command line and the settings."""
 
 
-def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: Context) -> Report:
+def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: ReportContext) -> Report:
     """Return the report of the selected rules, with suppressions and settings applied."""
     suppressions = tuple(suppressions)
-    checked = engine.check(workspace, selection.rules, suppressions, context.rules)
+    checked = find_issues(workspace, selection.rules, suppressions, context.rules)
     shown, hidden = show(checked.issues, selection)
-    of_others = engine.check(workspace, selection.off, suppressions, context.rules).issues
+    of_others = find_issues(workspace, selection.off, suppressions, context.rules).issues
     if off := [issue for issue in of_others if not selection.ignores_path(issue)]:
         hidden = (*hidden, HiddenCount.of(OFF, off))
     if checked.suppressed:
@@ -48,14 +49,14 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
         version=__version__,
         hidden=hidden,
         not_checked=workspace.not_checked,
-        unseen=_unseen(workspace),
+        blind_spots=_blind_spots(workspace),
         crashes=checked.crashes,
         workspace=context.folder,
         warnings=context.warnings,
     )
 
 
-def _unseen(workspace: Workspace) -> tuple[BlindSpot, ...]:
+def _blind_spots(workspace: Workspace) -> tuple[BlindSpot, ...]:
     from ros_lint.facts.visibility import Facet  # noqa: PLC0415
 
     words = {
@@ -67,8 +68,8 @@ def _unseen(workspace: Workspace) -> tuple[BlindSpot, ...]:
         Facet.INTERFACES: "interfaces",
         Facet.COMPONENTS: "components",
     }
-    blind = {
+    names_by_word = {
         word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])
         for facet, word in words.items()
     }
-    return tuple(BlindSpot(word, packages) for word, packages in blind.items() if packages)
+    return tuple(BlindSpot(word, packages) for word, packages in names_by_word.items() if packages)

@@ -27,25 +27,22 @@ class EditError(Exception):
 
 
 def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
-    """Return the fixes that can be made together.
-
-    A fix that overlaps an earlier one waits for the next round.
-    """
+    """Return the fixes that can be applied together: those that do not overlap an earlier one."""
     chosen: list[Fix] = []
-    taken: list[Edit] = []
+    chosen_edits: list[Edit] = []
     for fix in fixes:
-        new = [edit for edit in fix.edits if edit not in taken]
-        if any(_collide(edit, chosen_fix) for edit in new for chosen_fix in taken):
+        new = [edit for edit in fix.edits if edit not in chosen_edits]
+        if any(_collide(edit, chosen_fix) for edit in new for chosen_fix in chosen_edits):
             continue
         chosen.append(fix)
-        taken += new
+        chosen_edits += new
     return tuple(chosen)
 
 
 def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
-    """Return the new text of every file that changes. The fixes do not overlap, see :func:`choose`.
+    """Return the new text of each changed file by path. The fixes must not overlap, see :func:`choose`.
 
-    Raises EditError if a text does not have the place of an edit.
+    Raises EditError if a file has fewer lines than an edit assumes.
     """
     edits: dict[str, list[Edit]] = {}
     for fix in fixes:
@@ -57,7 +54,7 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
 
 
 def text_of(tree: Tree, path: str) -> Text:
-    """Return the text of a file to edit, or an empty text for a file that an edit creates.
+    """Return the text of a file to edit; an empty text if the file does not exist yet.
 
     Raises EditError.
     """
@@ -91,45 +88,44 @@ def write(path: str, data: bytes) -> None:
                 stream.write(data)
             return
     except OSError as error:
-        raise _no_write(path, error) from error
+        raise _write_error(path, error) from error
     target = os.path.realpath(path)
-    _ask(path, target)
+    _check_writable(path, target)
     _replace(path, target, data)
 
 
 def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, bytes]) -> None:
-    """Replace or create files, each of them atomically.
+    """Replace or create files, each of them atomically. ``changed`` has the new contents by path relative to ``base``.
 
-    ``before`` has the content on which the changes are based; files that do not exist are missing in it. A file with
-    another content is not written. Raises EditError, before anything is written if a file is known to be read-only or
-    changed.
+    ``before`` has the contents on which the changes are based, without the files to create. A file with other contents
+    is not written. Raises EditError; if a file is read-only or has changed, this happens before any file is written.
     """
     targets = {path: os.path.realpath(os.path.join(base, path)) for path in changed}
     for path, target in targets.items():
-        _ask(path, target)
-        if not _is_still(target, before.get(path)):
+        _check_writable(path, target)
+        if not _has_content(target, before.get(path)):
             raise EditError(f"{path}: {_CHANGED}; nothing was changed")
     written: list[str] = []
     for path, data in changed.items():
         try:
-            _replace(path, targets[path], data, partial(_is_still, targets[path], before.get(path)))
+            _replace(path, targets[path], data, partial(_has_content, targets[path], before.get(path)))
         except EditError as error:
             unwritten = [pending_path for pending_path in changed if pending_path not in written]
-            raise EditError(f"{error}; {_so_far(written, unwritten)}", written) from error
+            raise EditError(f"{error}; {_written_so_far(written, unwritten)}", written) from error
         written.append(path)
 
 
 _CHANGED = "changed since it was read; fix skipped"
 
 
-def _so_far(written: Sequence[str], left: Sequence[str]) -> str:
+def _written_so_far(written: Sequence[str], unwritten: Sequence[str]) -> str:
     if not written:
         return "nothing was changed"
-    return f"written already: {', '.join(written)}; not written: {', '.join(left)}"
+    return f"written already: {', '.join(written)}; not written: {', '.join(unwritten)}"
 
 
-def _is_still(target: str, before: bytes | None) -> bool:
-    """Return whether a file has this content; None means that it does not exist."""
+def _has_content(target: str, before: bytes | None) -> bool:
+    """Return whether a file has the content ``before``; None means that it does not exist."""
     try:
         return files.read(target) == before
     except FileNotFoundError:
@@ -138,11 +134,12 @@ def _is_still(target: str, before: bytes | None) -> bool:
         return False
 
 
-def _no_write(path: str, error: OSError) -> EditError:
+def _write_error(path: str, error: OSError) -> EditError:
     return EditError(f"{path}: cannot be written: {error.strerror or error}")
 
 
-def _ask(path: str, target: str) -> None:
+def _check_writable(path: str, target: str) -> None:
+    """Raise EditError if ``target`` cannot be replaced. ``path`` is its name in the message."""
     # The permission bits are checked, too, because root may write everywhere.
     folder = os.path.dirname(target)
     try:
@@ -150,33 +147,33 @@ def _ask(path: str, target: str) -> None:
             if not os.stat(place).st_mode & 0o222:
                 raise EditError(f"{path}: cannot be written: it is read-only; nothing was changed")
     except OSError as error:
-        raise EditError(f"{_no_write(path, error)}; nothing was changed") from error
+        raise EditError(f"{_write_error(path, error)}; nothing was changed") from error
     if not os.access(folder, os.W_OK | os.X_OK):
         raise EditError(f"{path}: cannot be written: no permission to write to its folder; nothing was changed")
 
 
-def _replace(path: str, target: str, data: bytes, may_be: Callable[[], bool] = lambda: True) -> None:
+def _replace(path: str, target: str, data: bytes, may_replace: Callable[[], bool] = lambda: True) -> None:
     """Write a temporary file in the folder of the target and rename it. Permissions and links are kept.
 
-    ``may_be`` is called just before the renaming; if it returns False, the target is not replaced. Raises EditError,
+    ``may_replace`` is called just before the renaming; if it returns False, the target is not replaced. Raises EditError,
     with the target unchanged.
     """
     folder = os.path.dirname(target)
     temporary = ""
     try:
-        _remove_left_over(folder)
+        _remove_leftovers(folder)
         handle, temporary = tempfile.mkstemp(prefix=_PREFIX, suffix=_SUFFIX, dir=folder)
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
         os.chmod(temporary, os.stat(target).st_mode & 0o7777 if os.path.exists(target) else _NEW_MODE)
-        if not may_be():
+        if not may_replace():
             raise EditError(f"{path}: {_CHANGED}")
         os.replace(temporary, target)
         temporary = ""
     except OSError as error:
-        raise _no_write(path, error) from error
+        raise _write_error(path, error) from error
     finally:
         if temporary:
             with suppress(OSError):
@@ -184,19 +181,19 @@ def _replace(path: str, target: str, data: bytes, may_be: Callable[[], bool] = l
 
 
 _PREFIX, _SUFFIX = ".ros-lint-", ".part"
-_LEFT_OVER = re.compile(rf"{re.escape(_PREFIX)}[a-z0-9_]{{8}}{re.escape(_SUFFIX)}")
-_OLD = 3600
-"""Age in seconds from which a temporary file belongs to no running process."""
+_TEMPORARY_NAME = re.compile(rf"{re.escape(_PREFIX)}[a-z0-9_]{{8}}{re.escape(_SUFFIX)}")
+_ABANDONED_AGE = 3600
+"""Age in seconds of a temporary file from which no running process needs it."""
 _NEW_MODE = 0o644
 
 
-def _remove_left_over(folder: str) -> None:
-    """Remove the temporary files of runs that were killed while they wrote into a folder."""
+def _remove_leftovers(folder: str) -> None:
+    """Remove temporary files from a folder that killed runs did not remove."""
     with os.scandir(folder) as entries:
-        mine = [entry for entry in entries if _LEFT_OVER.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
-    for entry in mine:
+        leftovers = [entry for entry in entries if _TEMPORARY_NAME.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
+    for entry in leftovers:
         with suppress(OSError):
-            if time.time() - entry.stat().st_mtime > _OLD:
+            if time.time() - entry.stat().st_mtime > _ABANDONED_AGE:
                 os.unlink(entry.path)
 
 
@@ -210,41 +207,41 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     for span, at_place in reversed([(span, list(group)) for span, group in groupby(in_order, lambda edit: edit.span)]):
         start = source.offset(span.line, span.column)
         end = source.offset(span.end_line, span.end_column)
-        put = _indented(_joined(at_place), text, start)
-        put = put.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else put
-        text = text[:start] + put + text[end:]
+        replacement = _indented(_joined(at_place), text, start)
+        replacement = replacement.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else replacement
+        text = text[:start] + replacement + text[end:]
     return text
 
 
-def _indented(put: str, text: str, start: int) -> str:
-    """Indent new lines with tabs if the line before them has tabs, because edits are indented with spaces."""
+def _indented(replacement: str, text: str, start: int) -> str:
+    """Return a replacement indented with tabs if the line before it is, because edits are indented with spaces."""
     line = text[text.rfind("\n", 0, start) + 1 : start]
     indent = line[: len(line) - len(line.lstrip(" \t"))]
-    return put.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else put
+    return replacement.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else replacement
 
 
 _BLANK = re.compile(r"\r\n|\n|\r")
 
 
 def _joined(edits: Sequence[Edit]) -> str:
-    """Return the joined text of edits of one place, without double blank lines."""
-    whole, kind = "", 0
+    """Return the joined text of the edits at one place, without double blank lines."""
+    result, kind = "", 0
     for edit in edits:
-        text, same = edit.text, edit.kind == kind != 0
-        apart = _BLANK.match(text)
-        if whole and edit.span.column == 1 and apart and (same or _ends_apart(whole)):
-            text = text[apart.end() :]
-        elif same and _ends_apart(whole):
-            whole = whole[: len(whole) - 2 if whole.endswith("\r\n") else -1]
-        whole += text
+        text, same_group = edit.text, edit.kind == kind != 0
+        blank_line = _BLANK.match(text)
+        if result and edit.span.column == 1 and blank_line and (same_group or _ends_with_blank_line(result)):
+            text = text[blank_line.end() :]
+        elif same_group and _ends_with_blank_line(result):
+            result = result[: len(result) - 2 if result.endswith("\r\n") else -1]
+        result += text
         kind = edit.kind
-    return whole
+    return result
 
 
-def _collide(a: Edit, b: Edit) -> bool:
-    x, y = a.span, b.span
-    return x.path == y.path and x[1:3] < y[3:5] and y[1:3] < x[3:5]
+def _collide(first: Edit, second: Edit) -> bool:
+    left, right = first.span, second.span
+    return left.path == right.path and left[1:3] < right[3:5] and right[1:3] < left[3:5]
 
 
-def _ends_apart(text: str) -> bool:
+def _ends_with_blank_line(text: str) -> bool:
     return text.endswith(("\n\n", "\r\n\r\n", "\r\r"))

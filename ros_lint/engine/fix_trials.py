@@ -1,4 +1,4 @@
-"""Try fixes on a workspace: load and check it with the changed files in memory."""
+"""Trials of fixes: the workspace is loaded and checked with the changed files in memory."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from ros_lint.base.diff import line_before, unified_bytes
 from ros_lint.base.paths import join
 from ros_lint.base.text import Span, Text, read
 from ros_lint.engine import edits
-from ros_lint.engine import run as engine
 from ros_lint.engine.fixing import Regression
+from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
 from ros_lint.workspace.writable import Writable
 
@@ -25,13 +25,14 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 _MOST_TRIALS = 2
-"""Number of trials that are kept, because a successful trial is needed again at once."""
+"""Number of trials to keep in memory, because a successful trial is needed again at once."""
 
 
 class Trial(NamedTuple):
-    """A workspace with changes, and the issues in it."""
+    """A workspace loaded with changed files, and its issues."""
 
     changed: Mapping[str, bytes]
+    """New content of files by path."""
     workspace: Workspace
     issues: tuple[Issue, ...]
 
@@ -39,8 +40,8 @@ class Trial(NamedTuple):
 class FixTrials:
     """Tries fixes on the workspace of a loader. It implements :class:`ros_lint.engine.fixing.Trials`.
 
-    ``roots`` are the folders that may be written, ``rules`` all rules there are. With ``unsafe``, fixes that may change
-    behaviour are tried as well.
+    Only files below ``roots`` are written. ``rules`` are all rules, selected or not. With ``unsafe``, fixes that may
+    change behaviour are tried as well.
     """
 
     def __init__(
@@ -53,15 +54,15 @@ class FixTrials:
         self._run = tuple(rule for rule in rules if rule.default or rule in selection.rules)
         self._unsafe = unsafe
         self._trials: list[Trial] = []
-        self._held: set[str] = set()
-        """Files that fixes edit. The loader keeps the bytes that it read."""
+        self._files_to_edit: set[str] = set()
+        """Paths of the files that fixes edit. The loader keeps their bytes from the first reading."""
 
     @cached_property
     def _writable(self) -> Writable:
         workspace = self.trial({}).workspace
         manifests = [package.manifest.path for package in workspace.unusable if package.manifest]
-        own = [join(package.path, file) for package in workspace.packages for file in package.files]
-        return Writable(self._loader.tree, self._roots, [*own, *manifests])
+        package_files = [join(package.path, file) for package in workspace.packages for file in package.files]
+        return Writable(self._loader.tree, self._roots, [*package_files, *manifests])
 
     def trial(self, changed: Mapping[str, bytes]) -> Trial:
         """Return the workspace with changed files, loaded and checked."""
@@ -69,31 +70,32 @@ class FixTrials:
             if trial.changed == changed:
                 return trial
         workspace = self._loader.load(changed)
-        issues = engine.check(workspace, self._run, self._loader.suppressions(changed), self._rules).issues
+        issues = find_issues(workspace, self._run, self._loader.suppressions(changed), self._rules).issues
         trial = Trial(changed, workspace, issues)
         self._trials = [*self._trials[:1], *self._trials[1:][1 - _MOST_TRIALS :], trial]
         return trial
 
     def patch(self, changed: Mapping[str, bytes]) -> bytes:
-        """Return the changes as a patch of the files that were read."""
+        """Return the changes as a unified diff against the files that were read."""
         return b"".join(unified_bytes(path, self._loader.pinned.get(path), data) for path, data in sorted(changed.items()))
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues that are shown and have a fix of the selected kind that may be written.
+        """Return the shown issues with a fix that is of the selected kind and may be written.
 
-        The spans of edits belong to one state of a file. So the files to edit are held, and the workspace is checked again.
+        The spans of edits are valid for one state of a file only. Therefore the loader keeps the bytes of the files to
+        edit, and the workspace is checked again with them.
         """
         while True:
-            issues = [issue for issue in self._with_fix(changed) if not self._refusal(issue)]
-            new = {path for issue in issues for path in _edited(issue)} - self._held
+            issues = [issue for issue in self._fixable_issues(changed) if not self._refusal(issue)]
+            new = {path for issue in issues for path in _edited_files(issue)} - self._files_to_edit
             if not new:
                 return issues
-            self._held |= new
+            self._files_to_edit |= new
             self._loader.pin(new)
             self._trials.clear()
 
     def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
-        issues = self._with_fix(changed)
+        issues = self._fixable_issues(changed)
         return [(self.original(changed, issue), reason) for issue in issues if (reason := self._refusal(issue))]
 
     def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
@@ -109,15 +111,17 @@ class FixTrials:
             return (Regression(str(error)),)
         before = Counter(issue.identity for issue in self.trial(changed).issues)
         after = self.trial(new).issues
-        useless = _useless(before, after, group)
-        worse = _worse(before, after)
-        if worse and not useless and self._recovers_next_round(before, new, group, worse):
+        unresolved = _unresolved(before, after, group)
+        new_findings = _new_findings(before, after)
+        if new_findings and not unresolved and self._recovers_next_round(before, new, group, new_findings):
             return ()
         regressions = [
             Regression(f"it would cause a new finding: {issue.finding.message}", issue.package, issue.finding.subject)
-            for issue in worse
+            for issue in new_findings
         ]
-        regressions += [Regression("it does not resolve the finding", issue.package, issue.finding.subject) for issue in useless]
+        regressions += [
+            Regression("it does not resolve the finding", issue.package, issue.finding.subject) for issue in unresolved
+        ]
         return tuple(regressions)
 
     def original(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
@@ -131,27 +135,29 @@ class FixTrials:
         return issue._replace(finding=issue.finding._replace(span=place))
 
     def _refusal(self, issue: Issue) -> str:
-        return next(filter(None, map(self._writable.refusal, _edited(issue))), "")
+        """Return why a file that the fix of an issue edits must not be written, "" if all may be written."""
+        return next(filter(None, map(self._writable.refusal, _edited_files(issue))), "")
 
-    def _with_fix(self, changed: Mapping[str, bytes]) -> list[Issue]:
+    def _fixable_issues(self, changed: Mapping[str, bytes]) -> list[Issue]:
+        """Return the shown issues with a fix of the selected kind."""
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
         shown, _ = show(issues, self._selection)
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or self._unsafe)]
 
     def _recovers_next_round(
-        self, before: Counter[str], changed: Mapping[str, bytes], group: Sequence[Issue], worse: Sequence[Issue]
+        self, before: Counter[str], changed: Mapping[str, bytes], group: Sequence[Issue], new_findings: Sequence[Issue]
     ) -> bool:
         """Return whether fixes of the next round resolve all findings that the fixes of a group cause."""
-        names = {issue.identity for issue in worse}
-        wanted = [issue for issue in self.fixable(changed) if issue.identity in names]
-        fixes = [issue.finding.fix for issue in wanted if issue.finding.fix]
-        if {issue.identity for issue in wanted} != names or len(edits.choose(fixes)) < len(fixes):
+        names = {issue.identity for issue in new_findings}
+        issues = [issue for issue in self.fixable(changed) if issue.identity in names]
+        fixes = [issue.finding.fix for issue in issues if issue.finding.fix]
+        if {issue.identity for issue in issues} != names or len(edits.choose(fixes)) < len(fixes):
             return False
         try:
-            after = self.trial(self.applied(changed, wanted)).issues
+            after = self.trial(self.applied(changed, issues)).issues
         except edits.EditError:
             return False
-        return not _worse(before, after) and not _useless(before, after, group)
+        return not _new_findings(before, after) and not _unresolved(before, after, group)
 
     def _text(self, changed: Mapping[str, bytes], path: str) -> Text:
         if path in changed:
@@ -159,23 +165,23 @@ class FixTrials:
         return edits.text_of(self._loader.tree, path)
 
 
-def _edited(issue: Issue) -> Iterable[str]:
+def _edited_files(issue: Issue) -> Iterable[str]:
     """Return the files that the fix of an issue edits."""
-    repair = issue.finding.fix
-    return dict.fromkeys(edit.span.path for edit in repair.edits) if repair else ()
+    fix = issue.finding.fix
+    return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
-def _worse(before: Counter[str], after: Sequence[Issue]) -> list[Issue]:
-    """Return the findings that are new.
+def _new_findings(before: Counter[str], after: Sequence[Issue]) -> list[Issue]:
+    """Return the new findings of high confidence and of rules that are on by default.
 
-    Findings of lower confidence and of rules that are off may change: an undeclared need can become a transitive one.
+    Other findings may change: an undeclared dependency, for example, can become a transitive one.
     """
     count = Counter(issue.identity for issue in after)
     serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
     return [issue for issue in serious if count[issue.identity] > before[issue.identity]]
 
 
-def _useless(before: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> list[Issue]:
+def _unresolved(before: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> list[Issue]:
     """Return the issues of a group that their fixes do not resolve."""
     count = Counter(issue.identity for issue in after)
     return [issue for issue in group if count[issue.identity] >= before[issue.identity]]

@@ -1,8 +1,8 @@
 """Choose the fixes to apply: each is verified in trials before it is kept.
 
-A fix is kept if the workspace with it, loaded and checked again, no longer has its finding and has no finding that was not
-there before. Findings that further fixes of the next round resolve do not count: a launch file that a fix installs can need a
-dependency that another fix declares. Therefore no fix that closes a cycle or names an unknown key is ever written.
+A fix is kept if the workspace, loaded and checked again with the fix, no longer has its finding and has no new finding. A
+new finding is accepted if a fix of the next round resolves it: a launch file that one fix installs can need a dependency that
+another fix declares. So no fix is written that, for example, closes a dependency cycle or names an unknown key.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ros_lint.engine.report import Issue
 
 _MOST_ROUNDS = 100
-"""Largest number of rounds: of fixes that conflict or depend on each other, each round makes one."""
+"""Maximum number of rounds. Of fixes that conflict or depend on each other, each round applies one."""
 
 
 class FixResult(NamedTuple):
@@ -25,13 +25,13 @@ class FixResult(NamedTuple):
 
     changed: Mapping[str, bytes]
     """New content by path."""
-    made: tuple[Issue, ...]
+    applied: tuple[Issue, ...]
     skipped: tuple[tuple[Issue, str], ...]
-    """Issues whose fix was not made, at their span in the files on disk, each with the reason."""
+    """Issues whose fix was not applied, with their span in the files on disk, each with the reason."""
 
 
 class Regression(NamedTuple):
-    """A finding that a group of fixes would cause: in which package, and about which subject."""
+    """A reason not to apply a group of fixes, with the package and the subject of the finding that they would cause."""
 
     reason: str
     package: str | None = None
@@ -67,26 +67,26 @@ class Trials(Protocol):
 def fix(trials: Trials) -> FixResult:
     """Return all fixes that can be verified. Nothing is written."""
     changed: Mapping[str, bytes] = {}
-    made: list[Issue] = []
+    applied: list[Issue] = []
     for _ in range(_MOST_ROUNDS):
-        last = _Round(trials, changed)
-        last.run()
-        changed = last.changed
-        made += last.made
-        if not last.made:
-            break  # else a fix that was made may allow others
-    return FixResult(changed, tuple(made), (*last.skipped.values(), *trials.refused(changed)))
+        last_round = _Round(trials, changed)
+        last_round.run()
+        changed = last_round.changed
+        applied += last_round.applied
+        if not last_round.applied:
+            break  # otherwise the applied fixes may make others possible
+    return FixResult(changed, tuple(applied), (*last_round.skipped.values(), *trials.refused(changed)))
 
 
 class _Round:
-    """Applies fixes in groups as large as possible, each group on top of those before."""
+    """Applies fixes in groups as large as possible, each group in addition to the earlier ones."""
 
     def __init__(self, trials: Trials, changed: Mapping[str, bytes]) -> None:
         self._trials = trials
         self._groups: list[frozenset[str]] = []
-        """Identities of the issues that wait."""
+        """Groups of issues to try, by their identities."""
         self.changed = changed
-        self.made: list[Issue] = []
+        self.applied: list[Issue] = []
         self.skipped: dict[str, tuple[Issue, str]] = {}
 
     def run(self) -> None:
@@ -100,22 +100,22 @@ class _Round:
         Most groups are large, and few of their fixes cause a regression. So the suspects are postponed first. If the others
         cause none, a suspect with a regression of its own needs no further trial. Otherwise the group is halved.
         """
-        wanted = [issue for issue in self._trials.fixable(self.changed) if issue.identity in identities]  # with current spans
-        fixes = edits.choose(issue.finding.fix for issue in wanted if issue.finding.fix)
-        group = [issue for issue in wanted if issue.finding.fix in fixes]
-        self._postpone(issue for issue in wanted if issue not in group)
+        issues = [issue for issue in self._trials.fixable(self.changed) if issue.identity in identities]  # with current spans
+        fixes = edits.choose(issue.finding.fix for issue in issues if issue.finding.fix)
+        group = [issue for issue in issues if issue.finding.fix in fixes]
+        self._postpone(issue for issue in issues if issue not in group)
         regressions = self._trials.regressions(self.changed, group)
         suspects = _suspects(group, regressions)
         unsuspected = [issue for issue in group if issue not in suspects]
         names = list(dict.fromkeys(issue.identity for issue in group))
         if not regressions:
-            self._make(group)
+            self._apply(group)
         elif suspects and unsuspected and self._trials.regressions(self.changed, unsuspected):
             self._postpone(suspects)
             self._postpone(unsuspected)
         elif suspects and (unsuspected or all(suspects.values())):
             self._skip({issue: reason for issue, reason in suspects.items() if reason})
-            self._make(unsuspected)
+            self._apply(unsuspected)
             self._postpone(issue for issue, reason in suspects.items() if not reason)
         elif len(names) == 1:
             self._skip(dict.fromkeys(group, regressions[0].reason))
@@ -127,9 +127,9 @@ class _Round:
         if identities := frozenset(issue.identity for issue in issues):
             self._groups.append(identities)
 
-    def _make(self, group: Sequence[Issue]) -> None:
+    def _apply(self, group: Sequence[Issue]) -> None:
         self.changed = self._trials.applied(self.changed, group)
-        self.made += group
+        self.applied += group
 
     def _skip(self, reasons: Mapping[Issue, str]) -> None:
         for issue, reason in reasons.items():
@@ -137,12 +137,15 @@ class _Round:
 
 
 def _only_removes(issue: Issue) -> bool:
-    repair = issue.finding.fix
-    return repair is not None and not any(edit.text.strip() for edit in repair.edits)
+    fix = issue.finding.fix
+    return fix is not None and not any(edit.text.strip() for edit in fix.edits)
 
 
 def _suspects(group: Sequence[Issue], regressions: Iterable[Regression]) -> Mapping[Issue, str]:
-    """Return the suspects of regressions, with the reason if one of them has no other suspect, else ""."""
+    """Return the issues whose fixes may cause the regressions.
+
+    The value of an issue is the reason of a regression for which it is the only suspect, "" if there is none.
+    """
     reasons: dict[Issue, str] = {}
     for regression in regressions:
         suspects = regression.suspects(group)

@@ -27,14 +27,14 @@ class PluginError(UserError):
 
 @lru_cache(maxsize=2)
 def load(plugins: bool = False) -> tuple[Rule, ...]:
-    """Return all rules, sorted by code. Raises PluginError."""
+    """Return the built-in rules, and with ``plugins`` those of plugins, sorted by code. Raises PluginError."""
     rules = list(_rules_of(importlib.import_module(BUILTIN)))
     if plugins:
         rules += _plugin_rules()
-    taken: dict[str, Rule] = {}
+    rule_of: dict[str, Rule] = {}
     for rule in rules:
         for key in (rule.name, rule.code):
-            if taken.setdefault(key, rule) != rule:
+            if rule_of.setdefault(key, rule) != rule:
                 raise PluginError(f"two rules have the same name or code '{key}'")
     return tuple(sorted(rules, key=lambda rule: rule.code))
 
@@ -54,12 +54,12 @@ def _plugin_rules() -> Iterator[Rule]:
 def _rules_of(module: ModuleType) -> Iterator[Rule]:
     if isinstance(rule := getattr(module, "RULE", None), Rule):
         yield rule
-    for name in sorted({name for folder in getattr(module, "__path__", ()) for name in _inside(folder)}):
+    for name in sorted({name for folder in getattr(module, "__path__", ()) for name in _modules_in(folder)}):
         yield from _rules_of(importlib.import_module(f"{module.__name__}.{name}"))
 
 
-def _inside(folder: str) -> Iterator[str]:
-    """Yield the modules and packages in the folder of a package. Importing ``pkgutil`` would take longer."""
+def _modules_in(folder: str) -> Iterator[str]:
+    """Yield the names of the modules and packages in a folder, without ``pkgutil``, whose import takes longer."""
     for entry in os.scandir(folder) if os.path.isdir(folder) else ():
         name, dot, suffix = entry.name.partition(".")
         is_module = suffix == "py" or (not dot and os.path.isfile(os.path.join(entry.path, "__init__.py")))
@@ -79,7 +79,7 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
     return tuple(rule for rule in rules if rule.code.startswith(selector))
 
 
-def no_rule(rules: Sequence[Rule], selector: str) -> str:
+def unknown_rule_message(rules: Sequence[Rule], selector: str) -> str:
     """Return the message for a selector that matches no rule."""
     words = [word for rule in rules for word in (rule.name, rule.code)]
     return f"unknown rule '{selector}'{did_you_mean(similar_names(selector, [*words, 'all', 'default']))}"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Issue(NamedTuple):
-    """A finding with its rule and the package that has to change, "" if that is outside the workspace."""
+    """A finding with its rule, and the package that has to change, "" if the finding is in none."""
 
     rule: Rule
     package: str
@@ -27,7 +27,7 @@ class Issue(NamedTuple):
 
     @property
     def identity(self) -> str:
-        """The rule, package and subject, which stay the same when lines move. Not unique."""
+        """Rule, package and subject as one text. It stays the same when lines move; several issues may share it."""
         return f"{self.rule.code}/{self.package}/{self.finding.subject}"
 
 
@@ -38,7 +38,7 @@ OFF = "of rules that are off (shown with --pedantic)"
 class HiddenCount(NamedTuple):
     """Number of findings that are hidden.
 
-    ``reason`` continues a sentence after the number, as :data:`UNSURE` does.
+    ``reason`` continues a sentence after "2 findings", as :data:`UNSURE` does.
     """
 
     reason: str
@@ -54,16 +54,16 @@ class HiddenCount(NamedTuple):
 
 
 class BlindSpot(NamedTuple):
-    """A facet of packages that could not be fully analysed."""
+    """Something that could not be fully analysed in some packages."""
 
     what: str
-    """The facet in words: "executables"."""
+    """The facet of the packages in words: "executables"."""
     packages: tuple[str, ...]
     """The names of the packages, in the order of the workspace."""
 
 
 class Crash(NamedTuple):
-    """A rule that raised an exception, for one package, or for the workspace if ``package`` is ""."""
+    """An exception that a rule raised for one package, or for the workspace if ``package`` is ""."""
 
     rule: str
     package: str
@@ -91,7 +91,7 @@ class Report(NamedTuple):
     """The version of ros-lint."""
     hidden: tuple[HiddenCount, ...] = ()
     not_checked: tuple[UnreadFile, ...] = ()
-    unseen: tuple[BlindSpot, ...] = ()
+    blind_spots: tuple[BlindSpot, ...] = ()
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""

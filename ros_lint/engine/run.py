@@ -6,15 +6,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.rule import Rule
-from ros_lint.engine import suppressions as suppress
 from ros_lint.engine.report import Crash, Issue
+from ros_lint.engine.suppressions import apply_suppressions
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.model import Package, Workspace
 
 
-def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
-    """Return all findings of the rules, sorted by place. A rule that crashes hides no other findings."""
+def run_rules(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
+    """Return all findings of the rules, sorted by place, and the crashes.
+
+    If a rule crashes for one package, its findings in other packages and those of other rules are still returned.
+    """
     issues: set[Issue] = set()
     crashes: list[Crash] = []
     for rule in rules:
@@ -27,20 +30,20 @@ def run(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...],
                 import traceback  # noqa: PLC0415
 
                 crashes.append(Crash(rule.name, package.name if package else "", traceback.format_exc()))
-    return tuple(sorted(issues, key=order)), tuple(crashes)
+    return tuple(sorted(issues, key=sort_key)), tuple(crashes)
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
-    """Yield the findings of a rule: in a package, or in the workspace for workspace rules."""
+    """Yield the findings of a rule in a package, or those in the workspace if it is a rule of workspaces."""
     if rule.package is not None and package is not None:
         for finding in rule.package(package, workspace):
             yield Issue(rule, package.name, finding)
     elif rule.workspace is not None:
         for finding in rule.workspace(workspace):
-            yield Issue(rule, finding.package or owner(workspace, finding.span.path), finding)
+            yield Issue(rule, finding.package or owning_package(workspace, finding.span.path), finding)
 
 
-class Checked(NamedTuple):
+class CheckedIssues(NamedTuple):
     """The issues of a workspace after suppression comments are applied."""
 
     issues: tuple[Issue, ...]
@@ -49,33 +52,32 @@ class Checked(NamedTuple):
     crashes: tuple[Crash, ...]
 
 
-def check(workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], known: Sequence[Rule]) -> Checked:
-    """Return the issues of the rules with suppressions applied.
-
-    ``known`` are all rules that a comment can name.
-    """
-    heard = tuple(suppressions)
-    issues, crashes = run(workspace, rules)
+def find_issues(
+    workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], all_rules: Sequence[Rule]
+) -> CheckedIssues:
+    """Return the issues of ``rules`` after suppression. ``all_rules`` are the rules that suppression comments may name."""
+    comments = tuple(suppressions)
+    issues, crashes = run_rules(workspace, rules)
     ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
-    outcome = suppress.apply(issues, heard, known, ran)
+    outcome = apply_suppressions(issues, comments, all_rules, ran)
     about_comments = [
-        Issue(rule, owner(workspace, finding.span.path), finding)
+        Issue(rule, owning_package(workspace, finding.span.path), finding)
         for rule in rules
         if rule.suppressions
         for finding in rule.suppressions(outcome.use)
     ]
-    spared = suppress.apply(about_comments, heard, known, ran)  # a comment can suppress findings about itself
-    kept = tuple(sorted((*outcome.kept, *spared.kept), key=order))
-    return Checked(kept, tuple(issue for issue, _ in (*outcome.suppressed, *spared.suppressed)), crashes)
+    about_outcome = apply_suppressions(about_comments, comments, all_rules, ran)  # a comment can suppress findings about itself
+    kept = tuple(sorted((*outcome.kept, *about_outcome.kept), key=sort_key))
+    return CheckedIssues(kept, tuple(issue for issue, _ in (*outcome.suppressed, *about_outcome.suppressed)), crashes)
 
 
-def order(issue: Issue) -> tuple[object, ...]:
+def sort_key(issue: Issue) -> tuple[object, ...]:
     """Return the sort key of issues: by place, then by rule."""
     finding = issue.finding
     return (finding.span, issue.rule.code, finding.message, finding.subject, issue.package)
 
 
-def owner(workspace: Workspace, path: str) -> str:
+def owning_package(workspace: Workspace, path: str) -> str:
     """Return the name of the package that contains a file, or ""."""
     inside = [
         package

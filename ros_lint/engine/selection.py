@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.analysis.rule import Rule
-from ros_lint.engine.registry import matching, no_rule
+from ros_lint.engine.registry import matching, unknown_rule_message
 from ros_lint.engine.report import UNSURE, HiddenCount, Issue
 from ros_lint.errors import UserError
 
@@ -18,15 +18,17 @@ class SelectionError(UserError):
 
 
 class Selection(NamedTuple):
-    """The rules that run, and the findings that are shown."""
+    """The rules to run, and the settings that decide which findings are shown."""
 
     rules: tuple[Rule, ...]
     named: frozenset[str]
-    """Rules selected by name: their findings are shown with any confidence."""
+    """Names of the rules selected by name or code: their findings of any confidence are shown."""
     severities: Mapping[str, Severity]
+    """Severities from the settings by the name of the rule."""
     pedantic: bool
+    """True if findings of any confidence are shown."""
     ignores: tuple[tuple[str, frozenset[str]], ...]
-    """Path patterns, each with the names of the rules that are ignored for matching files."""
+    """Path patterns, each with the names of the rules to ignore in matching files."""
     off: tuple[Rule, ...] = ()
     """Rules that are off by default and that the settings do not mention."""
 
@@ -50,35 +52,35 @@ def select(
 
     A rule with a severity in the settings is selected; a rule set to off is not.
     """
-    on: dict[str, Rule] = {}
-    named: set[str] = set()
+    selected: dict[str, Rule] = {}
+    selected_by_name: set[str] = set()
     for selector in (*(("all",) if pedantic else chosen), *added):
         matching_rules = _matching(rules, selector)
-        on.update((rule.name, rule) for rule in matching_rules)
+        selected.update((rule.name, rule) for rule in matching_rules)
         if selector not in ("all", "default"):
-            named.update(rule.name for rule in matching_rules)
+            selected_by_name.update(rule.name for rule in matching_rules)
     levels: dict[str, Severity] = {}
     declined: set[str] = set()
     for selector, word in (severities or {}).items():
         for rule in _matching(rules, selector):
             if word == "off":
-                on.pop(rule.name, None)
+                selected.pop(rule.name, None)
                 declined.add(rule.name)
             else:
-                on[rule.name] = rule
+                selected[rule.name] = rule
                 levels[rule.name] = Severity[word.upper()]
     for selector in ignored:
         for rule in _matching(rules, selector):
-            on.pop(rule.name, None)
+            selected.pop(rule.name, None)
             declined.add(rule.name)
     ignores = tuple(
         (pattern, frozenset(rule.name for selector in selectors for rule in _matching(rules, selector)))
         for pattern, selectors in (per_path or {}).items()
     )
-    ordered = tuple(rule for rule in rules if rule.name in on)
-    unmentioned = [rule for rule in rules if not rule.default and rule.name not in on and rule.name not in declined]
+    ordered = tuple(rule for rule in rules if rule.name in selected)
+    unmentioned = [rule for rule in rules if not rule.default and rule.name not in selected and rule.name not in declined]
     off = tuple(unmentioned) if "default" in chosen else ()
-    return Selection(ordered, frozenset(named), levels, pedantic, ignores, off)
+    return Selection(ordered, frozenset(selected_by_name), levels, pedantic, ignores, off)
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
@@ -112,4 +114,4 @@ def matches(path: str, pattern: str) -> bool:
 def _matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
     if matching_rules := matching(rules, selector):
         return matching_rules
-    raise SelectionError(no_rule(rules, selector))
+    raise SelectionError(unknown_rule_message(rules, selector))

@@ -1,8 +1,8 @@
 """Comments that suppress findings.
 
 ``ros-lint: ignore[rule, ...] reason`` applies to its line. If the line has nothing else, it applies to the next line
-that is no comment. ``ros-lint: ignore-file[rule, ...] reason`` precedes everything except comments and applies to the
-file. For details, see docs/suppressions.md.
+that is not a comment. ``ros-lint: ignore-file[rule, ...] reason`` applies to the file; only other comments may precede
+it. For details, see docs/suppressions.md.
 """
 
 from __future__ import annotations
@@ -30,58 +30,60 @@ class Outcome(NamedTuple):
     use: SuppressionUse
 
 
-def apply(
-    issues: Iterable[Issue], suppressions: Iterable[Suppression], known: Iterable[Rule], ran: Container[str | None]
+def apply_suppressions(
+    issues: Iterable[Issue], suppressions: Iterable[Suppression], all_rules: Iterable[Rule], ran: Container[str | None]
 ) -> Outcome:
-    """Return which issues are kept.
+    """Return the effect of the suppressions on the issues.
 
-    ``known`` are all rules. ``ran`` has the names of the rules that checked everything: only their suppressions can be
-    unused. Call this before issues are hidden for other reasons, or else their suppressions seem unused. Call it again
-    for the issues that rules report about the outcome; then only ``kept`` matters.
+    ``all_rules`` are the rules that comments may name. ``ran`` has the names of the rules that ran without a crash,
+    because only their suppressions can be unused. Call this before issues are hidden for other reasons, or else their
+    suppressions would count as unused. Call it again for the issues that rules report about suppressions; then only
+    ``kept`` of the result matters.
     """
-    names = {key.lower(): rule.name for rule in known for key in (rule.name, rule.code)}
-    judging = {rule.name for rule in known if rule.suppressions}  # run later: not judged yet
+    names = {key.lower(): rule.name for rule in all_rules for key in (rule.name, rule.code)}
+    # Rules about suppressions run later, so their own suppressions cannot be judged yet.
+    judged = {rule.name for rule in all_rules if rule.name in ran and not rule.suppressions}
     ordered = sorted(suppressions, key=lambda comment: comment.span.path)
-    whole = [
+    resolved = [
         (comment, [(name, names.get(name.text.lower())) for name in comment.names]) for comment in ordered if not comment.problem
     ]
-    about: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
-    for comment, means in whole:
-        for name, rule in means:
+    by_place: dict[tuple[str, str], list[tuple[Suppression, Name]]] = {}
+    for comment, rules in resolved:
+        for name, rule in rules:
             if rule is not None:
-                about.setdefault((comment.span.path, rule), []).append((comment, name))
-    indexes = {key: _Heard(entries) for key, entries in about.items()}
+                by_place.setdefault((comment.span.path, rule), []).append((comment, name))
+    indexes = {key: _LineIndex(entries) for key, entries in by_place.items()}
     used: set[tuple[Suppression, Name]] = set()
     kept: list[Issue] = []
     suppressed: list[tuple[Issue, Suppression]] = []
     for issue in issues:
         index = indexes.get((issue.finding.span.path, issue.rule.name))
-        hits = index.about(issue) if index else []
+        hits = index.matching(issue) if index else []
         used.update(hits)
         if hits:
             suppressed.append((issue, hits[0][0]))
         else:
             kept.append(issue)
-    idle = [
-        (comment, tuple([name for name, rule in means if rule in ran and rule not in judging and (comment, name) not in used]))
-        for comment, means in whole
+    unused = [
+        (comment, tuple([name for name, rule in rules if rule in judged and (comment, name) not in used]))
+        for comment, rules in resolved
     ]
     unknown = [
-        Unknown(comment, name, _nearest(name.text, names)) for comment, means in whole for name, rule in means if rule is None
+        Unknown(comment, name, _nearest(name.text, names)) for comment, rules in resolved for name, rule in rules if rule is None
     ]
     return Outcome(
         tuple(kept),
         tuple(suppressed),
         SuppressionUse(
-            tuple([Unused(comment, unused_names) for comment, unused_names in idle if unused_names]),
+            tuple([Unused(comment, unused_names) for comment, unused_names in unused if unused_names]),
             tuple(unknown),
             tuple([comment for comment in ordered if comment.problem]),
         ),
     )
 
 
-class _Heard:
-    """The suppressions of one rule in one file, indexed by line because there may be thousands."""
+class _LineIndex:
+    """The suppressions of one rule in one file, indexed by line, because there may be thousands."""
 
     def __init__(self, entries: Iterable[tuple[Suppression, Name]]) -> None:
         self._entries = sorted(entries, key=_first_line)
@@ -89,7 +91,7 @@ class _Heard:
         # For each entry, the last line to which it or an earlier entry applies.
         self._reach = list(accumulate([math.inf if mark.lines is None else mark.lines[1] for mark, _ in self._entries], max))
 
-    def about(self, issue: Issue) -> list[tuple[Suppression, Name]]:
+    def matching(self, issue: Issue) -> list[tuple[Suppression, Name]]:
         """Return the suppressions that apply to the place of an issue."""
         first, last = lines_of(issue.finding.span)
         near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]

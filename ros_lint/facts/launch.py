@@ -64,13 +64,21 @@ class LaunchAction(NamedTuple):
     package_span: Span | None = None
     """Place of the package that ``target`` looks up."""
     target: LaunchValue | None = None
-    """Main operand of the action.
+    """Main operand of the action, by its kind.
 
-    An executable, a component class or a file; the name of an argument, configuration or variable; or the command
-    line of a process.
+    * ``node``: the executable. ``component``: the class. ``process``: the program.
+    * ``include``: the file.
+    * ``argument``, ``set``, ``unset``: the name of the launch configuration.
+    * ``environment``, ``unset_environment``: the name of the variable.
+    * ``remap``: the old name. ``parameter``: the name of the parameter, None for a parameter file.
     """
     value: LaunchValue | None = None
-    """Default of an argument (None if the argument is required), or the value that is set or pushed."""
+    """Value that the action sets.
+
+    * ``argument``: the default, None if the argument is required.
+    * ``set``, ``environment``, ``parameter``: the value. For a parameter file, the file.
+    * ``remap``: the new name. ``namespace``: the namespace.
+    """
     name: LaunchValue | None = None
     """Name of a node or component; None if the launch file does not set it."""
     namespace: LaunchValue | None = None

@@ -1,4 +1,4 @@
-"""Knowledge about released ROS 2 packages: distributions, rosdep keys, name maps.
+"""Data about released ROS 2 packages: distributions, rosdep keys and name maps.
 
 The data are shipped with ros-lint and dated. Data that ``ros-lint index refresh`` wrote to the user's data folder
 override them. Each file is read at its first use. Formats and accuracy: docs/knowledge.md.
@@ -19,27 +19,28 @@ from ros_lint.knowledge.store import Store
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    from ros_lint.knowledge.provides import Known, Offer
+    from ros_lint.knowledge.provides import ContentKind, Known
 
 
-class Distribution(NamedTuple):
-    """A distribution with an index."""
+class RosDistribution(NamedTuple):
+    """A ROS 2 distribution for which there is an index of packages."""
 
     name: str
     long_term: bool
+    """True for a long-term support release."""
 
 
-def distros(places: Sequence[str] = ()) -> tuple[Distribution, ...]:
+def distros(places: Sequence[str] = ()) -> tuple[RosDistribution, ...]:
     """Return the distributions with an index, oldest first, rolling last.
 
     ``places`` are folders that override the shipped data, e.g. :func:`ros_lint.knowledge.store.user_directory`.
     """
-    found = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
-    return tuple([Distribution(name, name != "rolling" and _is_long_term(name)) for name in found])
+    names = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
+    return tuple([RosDistribution(name, name != "rolling" and _is_long_term(name)) for name in names])
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:
-    """Return the newest long-term release with an index. ``places`` as for :func:`distros`."""
+    """Return the newest long-term support release with an index. ``places`` are those of :func:`distros`."""
     return [distro.name for distro in distros(places) if distro.long_term][-1]
 
 
@@ -52,19 +53,19 @@ def _is_long_term(name: str) -> bool:
 
 
 class Knowledge:
-    """The data from the perspective of one distribution.
+    """The data about one distribution, with look-ups in the others.
 
-    Each look-up may raise KnowledgeError if a data file is damaged. A distribution without an index has an empty
-    one: :attr:`covered` is False, and no name counts as unknown.
+    Each look-up may raise KnowledgeError if a data file is damaged. For a distribution without an index,
+    :attr:`covered` is False and all look-ups of packages are empty.
     """
 
     def __init__(self, distro: str, places: Sequence[str] = ()) -> None:
         self.distro = distro
         self._store = Store(places)
         self._elsewhere: dict[str, frozenset[str]] = {}
-        self._having: dict[str, tuple[Index, ...]] = {}
-        self._installed: dict[str, Provides] = {}
-        self._between: dict[tuple[str, str, Offer], Known] = {}
+        self._distros_with: dict[str, tuple[Index, ...]] = {}
+        self._contents: dict[str, Provides] = {}
+        self._supplemented: dict[tuple[str, str, ContentKind], Known] = {}
 
     @property
     def covered(self) -> bool:
@@ -73,7 +74,7 @@ class Knowledge:
 
     @property
     def date(self) -> str:
-        """Date of the index, as in 2026-08-22, or "". Messages about unknown names show it."""
+        """Date of the index as YYYY-MM-DD, or ""."""
         date: str = self.index.date
         return date
 
@@ -81,37 +82,36 @@ class Knowledge:
     def index(self) -> Index:
         return index.load(self._store, self.distro)
 
-    def provided(self, package: str, offer: Offer) -> Known:
-        """Return the known names of one kind that a package provides.
+    def provided(self, package: str, kind: ContentKind) -> Known:
+        """Return the known names of one kind that a released package provides.
 
-        If the sources of the release were not read, earlier and later distributions are consulted. Names in any of
-        them may exist. A name that no distribution has is missing if one earlier and one later list are complete.
-        (Packages whose sources were read for three distributions have 995 executables, 304 components, 1,182
-        plugins, 772 launch files and 1,855 interfaces; 0, 0, 0, 2 and 4 of these exist only in the middle
-        distribution.)
+        If the sources of the release were not read, the lists of earlier and later distributions are used. A name in
+        any of them may exist. Other names are missing if one earlier and one later list are complete, because nearly
+        no name exists in a middle distribution only: of packages whose sources were read for three distributions, 0
+        of 995 executables, 0 of 304 components, 0 of 1,182 plugins, 2 of 772 launch files and 4 of 1,855 interfaces.
         """
-        return self._provided(self.distro, package, offer)
+        return self._provided(self.distro, package, kind)
 
-    def _provided(self, distro: str, package: str, offer: Offer) -> Known:
-        own = self._provides(distro).known(package, offer)
-        if own.complete or package not in self._index(distro):
-            return own
-        key = (distro, package, offer)
-        if key not in self._between:
-            self._between[key] = own.between(*self._around(distro, package, offer))
-        return self._between[key]
+    def _provided(self, distro: str, package: str, kind: ContentKind) -> Known:
+        contents = self._provides(distro).known(package, kind)
+        if contents.complete or package not in self._index(distro):
+            return contents
+        key = (distro, package, kind)
+        if key not in self._supplemented:
+            self._supplemented[key] = contents.between(*self._neighbours(distro, package, kind))
+        return self._supplemented[key]
 
-    def _around(self, distro: str, package: str, offer: Offer) -> tuple[list[Known], list[Known]]:
-        """Return what is known of a package in the distributions before ``distro``, and in those after it."""
+    def _neighbours(self, distro: str, package: str, kind: ContentKind) -> tuple[list[Known], list[Known]]:
+        """Return the lists of a package in the distributions before ``distro``, and in those after it."""
         at = self._order.index(distro)
         parts = self._order[:at], self._order[at + 1 :]
-        before, after = ([self._provides(each).known(package, offer) for each in part] for part in parts)
+        before, after = ([self._provides(name).known(package, kind) for name in part] for part in parts)
         return before, after
 
     def _provides(self, distro: str) -> Provides:
-        if distro not in self._installed:
-            self._installed[distro] = provides.load(self._store, distro)
-        return self._installed[distro]
+        if distro not in self._contents:
+            self._contents[distro] = provides.load(self._store, distro)
+        return self._contents[distro]
 
     @cached_property
     def rosdep(self) -> Rosdep:
@@ -132,47 +132,48 @@ class Knowledge:
         return tuple(distro.name for distro in distros(self._store.places))
 
     def _index(self, distro: str) -> Index:
-        return self.index if distro == self.distro else next(other for other in self.others if other.distro == distro)
+        return self.index if distro == self.distro else next(entry for entry in self.others if entry.distro == distro)
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that contain a package, oldest first."""
-        return tuple(other.distro for other in self._where(name))
+        return tuple(entry.distro for entry in self._indexes_with(name))
 
-    def _where(self, name: str) -> tuple[Index, ...]:
-        having = self._having.get(name)
-        if having is None:
-            having = self._having[name] = tuple([other for other in self.others if name in other])
-        return having
+    def _indexes_with(self, name: str) -> tuple[Index, ...]:
+        distributions = self._distros_with.get(name)
+        if distributions is None:
+            distributions = self._distros_with[name] = tuple([entry for entry in self.others if name in entry])
+        return distributions
 
-    def offered_elsewhere(self, package: str, offer: Offer, name: str) -> bool:
-        """Return whether a package may provide a name in one of the other distributions that contain it."""
-        return any(known.ask(name) != "missing" for known in self.known_elsewhere(package, offer))
+    def may_exist_elsewhere(self, package: str, kind: ContentKind, name: str) -> bool:
+        """Return whether a package may provide a name in any other distribution."""
+        return any(contents.ask(name) != "missing" for contents in self.known_elsewhere(package, kind))
 
-    def known_elsewhere(self, package: str, offer: Offer) -> tuple[Known, ...]:
-        """Return the names that a package provides in each of the other distributions that contain it."""
-        return tuple([self._provided(other.distro, package, offer) for other in self._where(package)])
+    def known_elsewhere(self, package: str, kind: ContentKind) -> tuple[Known, ...]:
+        """Return the lists of names that a package provides, one for each other distribution with the package."""
+        return tuple([self._provided(entry.distro, package, kind) for entry in self._indexes_with(package)])
 
-    def brings_elsewhere(self, package: str, name: str) -> bool | None:
-        """Return whether a package provides a dependency transitively in another distribution.
+    def provides_elsewhere(self, package: str, name: str) -> bool | None:
+        """Return whether ``name`` is a transitive dependency of a package in any other distribution.
 
         None if no other distribution contains the package, or if the name is unknown there.
         """
-        having = self._where(package)
-        if not having or not (name in self.rosdep or any(other in having for other in self._where(name))):
+        distributions = self._indexes_with(package)
+        is_known = name in self.rosdep or any(distribution in distributions for distribution in self._indexes_with(name))
+        if not distributions or not is_known:
             return None
         if package not in self._elsewhere:
-            found = set().union(*(other.brought((package,)).names for other in having))
-            queue = list(found)
-            for each in queue:  # a key provides keys
-                new = [key for key in self.names.brought(each) if key not in found]
-                found.update(new)
+            provided = set().union(*(distribution.closure((package,)).names for distribution in distributions))
+            queue = list(provided)
+            for name_or_key in queue:  # keys provide further keys
+                new = [key for key in self.names.provided_keys(name_or_key) if key not in provided]
+                provided.update(new)
                 queue += new
-            self._elsewhere[package] = frozenset(found)
+            self._elsewhere[package] = frozenset(provided)
         return name in self._elsewhere[package]
 
-    def comes_elsewhere(self, packages: Collection[str], name: str) -> bool:
-        """Return whether another distribution has ``name`` in the closure of any of ``packages``."""
-        return any(name in other.brought(packages) for other in self._where(name))
+    def is_in_closure_elsewhere(self, packages: Collection[str], name: str) -> bool:
+        """Return whether ``name`` is a transitive dependency of one of ``packages`` in any other distribution."""
+        return any(name in entry.closure(packages) for entry in self._indexes_with(name))
 
     @property
     def active(self) -> tuple[str, ...]:
@@ -180,10 +181,10 @@ class Knowledge:
         return self._order
 
     def rosdep_resolves(self, name: str, distro: str) -> bool:
-        """Return whether ``rosdep install`` resolves a name, as a released package or as a key.
+        """Return whether ``rosdep install`` resolves a name in a distribution, as a released package or as a key.
 
-        ``distro`` is an active distribution or this one. A key counts if the platforms of the distribution are
-        unknown.
+        ``distro`` is an active distribution or the one of this object. If the platforms of the distribution are
+        unknown, all keys count as resolved.
         """
         if self._index(distro).releases(name):
             return True
@@ -194,10 +195,10 @@ class Knowledge:
         """First platform of the distribution, such as "ubuntu:noble", or "" if unknown."""
         return next(iter(PLATFORMS.get(self.distro, ())), "")
 
-    def resolving(self, key: str) -> tuple[str, ...]:
+    def distros_resolving(self, key: str) -> tuple[str, ...]:
         """Return the distributions for which a rosdep key resolves, oldest first."""
-        known = distros(self._store.places)
-        return tuple(distro.name for distro in known if self.rosdep.resolves(key, distro.name))
+        distributions = distros(self._store.places)
+        return tuple(distro.name for distro in distributions if self.rosdep.resolves(key, distro.name))
 
     def resolves(self, key: str) -> bool | None:
         """Return whether a rosdep key has a rule for a platform of the distribution; None if unknown."""

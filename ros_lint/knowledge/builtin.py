@@ -1,13 +1,13 @@
-"""Names provided by the language or the build tool, for which no package has to be declared."""
+"""Names that the language or the build tool provides, so that no package has to be declared for them."""
 
 from __future__ import annotations
 
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
 
-_APART = frozenset({"tkinter"})
+_SEPARATE_MODULES = frozenset({"tkinter"})
 """Modules that Debian and Ubuntu ship in separate packages."""
-PYTHON_MODULES = STANDARD_LIBRARY - _APART
-"""Top-level modules of Python's standard library in any version from 3.10 to 3.14, without ``_APART``."""
+PYTHON_MODULES = STANDARD_LIBRARY - _SEPARATE_MODULES
+"""Top-level modules of Python's standard library in any version from 3.10 to 3.14, without ``_SEPARATE_MODULES``."""
 
 _CMAKE_MODULES = """
 ALSA ASPELL AVIFile Armadillo BISON BLAS BZip2 Backtrace Boost Bullet CABLE CUDA CUDAToolkit CURL CVS Coin3D Cups
@@ -23,7 +23,7 @@ osgDB osgFX osgGA osgIntrospection osgManipulator osgParticle osgPresentation os
 osgTerrain osgText osgUtil osgViewer osgVolume osgWidget osg_functions
 """
 CMAKE_MODULES = frozenset(_CMAKE_MODULES.split())
-"""Find modules of CMake 3.25 and 4.4. Many of them search for a library that is a rosdep key."""
+"""Names of the find modules of CMake 3.25 and 4.4. Many of them find a library for which there is a rosdep key."""
 
 _CXX_HEADERS = """
 algorithm any array atomic barrier bit bitset cassert ccomplex cctype cerrno cfenv cfloat charconv chrono cinttypes
@@ -51,4 +51,4 @@ CXX_HEADERS = frozenset(_CXX_HEADERS.split())
 
 _FOLDERS = "sys linux net netinet netpacket arpa asm asm-generic bits gnu rpc scsi experimental ext parallel tr1 mach"
 SYSTEM_HEADER_FOLDERS = frozenset(_FOLDERS.split())
-"""First folders of headers that a C or C++ tool chain provides."""
+"""First folders in the paths of headers that a C or C++ tool chain provides."""

@@ -1,7 +1,7 @@
-"""Transitive closures over the names of packages, each computed once.
+"""Transitive closures of the dependencies of packages, each computed once.
 
-A set is an integer with a bit for each name. A workspace of 850 packages needs 850 closures of some hundred names;
-as sets of strings they would take as long as reading all its files.
+A closure is an integer with a bit for each name. A workspace of 850 packages needs 850 closures of some hundred names,
+and as sets of strings they would take as much time as reading all its files.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Closure:
-    """Names with all names that they provide transitively. ``x in closure`` is as fast as in a set."""
+    """A set of names with all names that they provide transitively. ``x in closure`` is as fast as in a set."""
 
     __slots__ = ("_bits", "_reach")
 
@@ -36,8 +36,8 @@ class Closure:
         """All names."""
         return frozenset(self._reach.expand(self._bits))
 
-    def less(self, other: Closure) -> Iterator[str]:
-        """Yield the names that another closure of the same graph lacks."""
+    def difference(self, other: Closure) -> Iterator[str]:
+        """Yield the names of this closure that ``other`` lacks. Both belong to the same Reach."""
         return self._reach.expand(self._bits & ~other._bits)
 
     @property
@@ -52,13 +52,10 @@ class Closure:
 
 
 class Reach:
-    """The graph of names and the names that they provide.
+    """The graph of what names provide. ``provided_by`` returns the names that a name provides directly, None if unknown."""
 
-    ``brings`` returns the names that a name provides directly, None if unknown.
-    """
-
-    def __init__(self, brings: Callable[[str], tuple[str, ...] | None]) -> None:
-        self._brings = brings
+    def __init__(self, provided_by: Callable[[str], tuple[str, ...] | None]) -> None:
+        self._provided_by = provided_by
         self.numbers: dict[str, int] = {}
         self._names: list[str] = []
         self._bits: dict[str, int] = {}
@@ -69,56 +66,53 @@ class Reach:
         """Return the given names with all names that they provide transitively."""
         bits = 0
         for name in names:
-            found = self._bits.get(name)
-            bits |= self._explore(name) if found is None else found
+            known_bits = self._bits.get(name)
+            bits |= self._explore(name) if known_bits is None else known_bits
         return Closure(self, bits)
 
-    def closure_without(self, names: Iterable[str], changed: str, gone: Container[str]) -> Closure:
-        """Return the closure of names as if ``changed`` did not itself provide the names in ``gone``.
-
-        Names that do not lead to ``changed`` keep their closure.
-        """
-        waiting = list(names)
-        whole = self.closure(waiting)
-        if changed not in whole:
-            return whole
+    def closure_without(self, names: Iterable[str], changed: str, removed: Container[str]) -> Closure:
+        """Return the closure of names as if ``changed`` did not directly provide the names in ``removed``."""
+        stack = list(names)
+        closure = self.closure(stack)
+        if changed not in closure:
+            return closure
         number = self.numbers[changed]
         bits = 0
-        seen: set[str] = set()
-        while waiting:
-            name = waiting.pop()
+        visited: set[str] = set()
+        while stack:
+            name = stack.pop()
             if not self._bits[name] >> number & 1:
                 bits |= self._bits[name]
-            elif name not in seen:
-                seen.add(name)
+            elif name not in visited:
+                visited.add(name)
                 bits |= 1 << self.numbers[name]
-                waiting += [each for each in self._next[name] if name != changed or each not in gone]
+                stack += [follower for follower in self._next[name] if name != changed or follower not in removed]
         return Closure(self, bits)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
-        """Return a shortest path from one of ``starts`` to ``goal``, both ends included, or ().
+        """Return a shortest path from one of ``starts`` to ``goal``, with both ends; () if there is none.
 
-        Of several paths, the order of ``starts`` and of ``brings`` decides.
+        Of several shortest paths, the first one is returned in the order of ``starts`` and of ``provided_by``.
         """
-        begin = tuple(dict.fromkeys(starts))
-        if goal in begin:
+        first = tuple(dict.fromkeys(starts))
+        if goal in first:
             return (goal,)
-        if goal not in self.closure(begin):
+        if goal not in self.closure(first):
             return ()
         # Only names whose closure contains the goal are on a path to it.
         number = self.numbers[goal]
-        came = {name: "" for name in begin if self._bits[name] >> number & 1}
-        queue = list(came)
+        predecessor = {name: "" for name in first if self._bits[name] >> number & 1}
+        queue = list(predecessor)
         for name in queue:
             followers = self._next[name]
             if goal in followers:
-                way = [goal, name]
-                while came[way[-1]]:
-                    way.append(came[way[-1]])
-                return tuple(reversed(way))
+                path = [goal, name]
+                while predecessor[path[-1]]:
+                    path.append(predecessor[path[-1]])
+                return tuple(reversed(path))
             for follower in followers:
-                if follower not in came and self._bits[follower] >> number & 1:
-                    came[follower] = name
+                if follower not in predecessor and self._bits[follower] >> number & 1:
+                    predecessor[follower] = name
                     queue.append(follower)
         return ()
 
@@ -130,19 +124,22 @@ class Reach:
             bits ^= lowest
 
     def _followers(self, name: str) -> tuple[str, ...]:
-        found = self._next.get(name)
-        if found is None:
-            brought = self._brings(name)
+        followers = self._next.get(name)
+        if followers is None:
+            provided = self._provided_by(name)
             self.numbers[name] = len(self._names)
             self._names.append(name)
-            if brought is None:
+            if provided is None:
                 self.unknown |= 1 << self.numbers[name]
-            found = self._next[name] = brought or ()
-        return found
+            followers = self._next[name] = provided or ()
+        return followers
 
     def _explore(self, root: str) -> int:
-        """Compute the closures of everything below a name. Names in a cycle share one (Tarjan, iterative)."""
-        done = self._bits
+        """Compute the closures of a name and of all names that it reaches. Returns the one of ``root``.
+
+        The names of a cycle share one closure. The algorithm is Tarjan's, without recursion.
+        """
+        finished = self._bits
         low: dict[str, int] = {}
         order: dict[str, int] = {}
         stack: list[str] = []
@@ -157,7 +154,7 @@ class Reach:
         while work:
             name, followers = work[-1]
             for follower in followers:
-                if follower in done:
+                if follower in finished:
                     continue
                 if follower not in order:
                     enter(follower)
@@ -169,16 +166,16 @@ class Reach:
                     low[work[-1][0]] = min(low[work[-1][0]], low[name])
                 if low[name] == order[name]:
                     self._close(stack, name)
-        return done[root]
+        return finished[root]
 
     def _close(self, stack: list[str], name: str) -> None:
-        circle = [stack.pop()]
-        while circle[-1] != name:
-            circle.append(stack.pop())
+        component = [stack.pop()]
+        while component[-1] != name:
+            component.append(stack.pop())
         bits = 0
-        for member in circle:
+        for member in component:
             bits |= 1 << self.numbers[member]
             for follower in self._next[member]:
                 bits |= self._bits.get(follower, 0)
-        for member in circle:
+        for member in component:
             self._bits[member] = bits

@@ -1,4 +1,4 @@
-"""From a manifest to a line of the index."""
+"""Describe a manifest as an entry of the package index."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
 
 def context(distro: str) -> Mapping[str, str]:
-    """Return the variables of conditions that are known when bloom releases a package."""
+    """Return the variables for conditions in manifests that bloom sets when it releases a package."""
     return {**ROS_2, "ROS_DISTRO": distro}
 
 
-def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released:
-    """Return the index entry of a manifest; unknown variables in conditions are empty, as in all tools.
+def describe(manifest: Manifest, known_variables: Mapping[str, str]) -> Released:
+    """Return the entry of the package index for a manifest. Unknown variables in conditions are empty, as in all tools.
 
-    The name may differ from the name of the folder or of the release.
+    The name is that in the manifest; that of the folder or of the release may differ.
     """
     depends: dict[str, set[str]] = {}
     interfaces = False
     for depend in manifest.depends:
-        if not holds(depend.condition, variables_known):
+        if not holds(depend.condition, known_variables):
             continue
         kinds = DEPENDENCY_KINDS[depend.tag].letters
         if kinds == "M" and depend.name == GROUP:
@@ -37,20 +37,20 @@ def describe(manifest: Manifest, variables_known: Mapping[str, str]) -> Released
             continue
         for kind in kinds:
             depends.setdefault(kind, set()).add(depend.name)
-    types = [name for name, _ in build_types(manifest, variables_known)] or ["catkin"]
+    types = [name for name, _ in build_types(manifest, known_variables)] or ["catkin"]
     letter = next((letter for letter, name in BUILD_TYPES.items() if name == types[-1]), "?")
     exported = {element.tag for element in manifest.exports}
     flags = letter + "i" * interfaces + "m" * ("metapackage" in exported) + "D" * ("deprecated" in exported)
-    named = {kind: tuple(sorted(names)) for kind, names in depends.items()}
-    return Released(manifest.name, manifest.version, flags, manifest.name, named)
+    sorted_names = {kind: tuple(sorted(names)) for kind, names in depends.items()}
+    return Released(manifest.name, manifest.version, flags, manifest.name, sorted_names)
 
 
-def holds(condition: str, variables_known: Mapping[str, str]) -> bool:
-    """Return whether a condition holds if unknown variables are empty. An invalid condition holds."""
+def holds(condition: str, known_variables: Mapping[str, str]) -> bool:
+    """Return whether a condition (REP 149) is true if unknown variables are empty. An invalid condition is true."""
     if not condition:
         return True
     try:
         empty = dict.fromkeys(variables(parse(condition)), "")
     except ConditionError:
         return True
-    return truth(condition, {**empty, **variables_known}) is not False
+    return truth(condition, {**empty, **known_variables}) is not False

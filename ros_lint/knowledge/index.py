@@ -1,6 +1,7 @@
-"""The packages of a distribution, one line each, and their format (``.idx``; docs/knowledge.md).
+"""The index of the packages of a distribution, and its file format (``.idx``; docs/knowledge.md).
 
-A line is ``name, version, flags, repository``, then a field for each set of kinds that a dependency has.
+A package has one line: name, version, flags and repository, then a field for each set of dependency kinds with the names
+that are declared with just these kinds.
 
 Example: ``rclcpp_action<TAB>28.1.9<TAB>c<TAB>rclcpp<TAB>bex:action_msgs rclcpp<TAB>t:ament_cmake_ros``
 """
@@ -20,10 +21,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 KINDS = "bteuxsd"
-"""Build, buildtool, build_export, buildtool_export, exec, test, doc: in their order in a set."""
+"""Letters of build, buildtool, build_export, buildtool_export, exec, test and doc, in their order in a set."""
 
 RUNTIME = frozenset("eux")
-"""Kinds of dependencies that a package passes on to its dependents."""
+"""Kinds of dependencies that a package provides transitively to its dependents."""
 
 BUILD_TYPES: Mapping[str, str] = {
     "c": "ament_cmake",
@@ -36,7 +37,7 @@ BUILD_TYPES: Mapping[str, str] = {
 
 
 class Released(NamedTuple):
-    """A package of a distribution."""
+    """The entry of a package in the index of a distribution."""
 
     name: str
     """Name of the package."""
@@ -51,9 +52,9 @@ class Released(NamedTuple):
     repository: str
     """Name of the repository."""
     depends: Mapping[str, tuple[str, ...]]
-    """Sorted names by the letter of their tag.
+    """Sorted names by letter: a letter of KINDS for dependencies, ``M`` for groups that it is a member of, ``G`` for groups.
 
-    b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc, M membership of a group, G group.
+    b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc.
     """
 
     @property
@@ -77,7 +78,7 @@ class Released(NamedTuple):
         return (*self.depends.get("M", ()), *((GROUP,) if self.interfaces else ()))
 
     def on(self, kinds: Iterable[str]) -> tuple[str, ...]:
-        """Return the dependencies of any of the kinds, sorted."""
+        """Return the dependencies of any of these kinds (letters of KINDS), sorted."""
         return tuple(sorted({name for kind in kinds for name in self.depends.get(kind, ())}))
 
 
@@ -97,7 +98,7 @@ def parse(fields: list[str]) -> Released:
 
 
 def render(package: Released) -> str:
-    """Return the line of a package, without line end. The inverse of :func:`parse`, except for the order."""
+    """Return the line of a package without line end. The inverse of :func:`parse`, except for the order of names."""
     kinds_of: dict[str, str] = {}
     for kind in KINDS:
         for name in package.depends.get(kind, ()):
@@ -106,8 +107,8 @@ def render(package: Released) -> str:
     for name in sorted(kinds_of):
         names_of.setdefault(kinds_of[name], []).append(name)
     for group in "MG":
-        if found := package.depends.get(group):
-            names_of[group] = sorted(found)
+        if groups := package.depends.get(group):
+            names_of[group] = sorted(groups)
     # <depend> comes first because most look-ups need it.
     order = sorted(names_of, key=lambda kinds: (kinds != "bex", kinds))
     sets = [f"{kinds}:{' '.join(names_of[kinds])}" for kinds in order]
@@ -134,7 +135,7 @@ class Index(Entries[Released]):
         self._reach = Reach(self.runtime)
 
     def releases(self, name: str) -> bool:
-        """Return whether a package has a release, rather than only an entry in its repository."""
+        """Return whether a package is released. Some are only listed in the distribution file, without a release."""
         row = self._table.row(name)
         return row is not None and (len(row) < 3 or "U" not in row[2])
 
@@ -145,9 +146,9 @@ class Index(Entries[Released]):
         lines = self._table.lines() if group == GROUP else self._grouped
         for line in lines:
             if group == GROUP or group in line:
-                found = self.get(line.partition("\t")[0])
-                if found is not None and group in found.groups:
-                    yield found.name
+                package = self.get(line.partition("\t")[0])
+                if package is not None and group in package.groups:
+                    yield package.name
 
     @cached_property
     def _grouped(self) -> list[str]:
@@ -155,50 +156,47 @@ class Index(Entries[Released]):
         return [line for line in self._table.lines() if "\tM:" in line]
 
     def declared_as(self, name: str) -> Mapping[str, int]:
-        """Return the number of packages that declare a name with each set of kinds: {"t": 12, "bex": 1}."""
-        found: dict[str, int] = {}
+        """Return how many packages declare a name with each set of kinds: {"t": 12, "bex": 1}."""
+        counts: dict[str, int] = {}
         for kinds in self._declared.get(name, ()):
-            found[kinds] = found.get(kinds, 0) + 1
-        return found
+            counts[kinds] = counts.get(kinds, 0) + 1
+        return counts
 
     @cached_property
     def _declared(self) -> Mapping[str, list[str]]:
-        """Sets of kinds by name, one for each package that declares it: 7 ms for all names, 0.3 ms for one."""
-        found: defaultdict[str, list[str]] = defaultdict(list)
+        """By name, the set of kinds in each package that declares it. All names take 7 ms, a single one would take 0.3."""
+        kinds_of: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
             for field in line.split("\t")[4:]:
                 kinds, _, names = field.partition(":")
                 if kinds not in "MG":
                     for name in names.split(" "):
-                        found[name].append(kinds)
-        return found
+                        kinds_of[name].append(kinds)
+        return kinds_of
 
-    def bringing(self, name: str, most: int) -> int:
-        """Return the number of packages that provide a name transitively.
-
-        Counting stops above ``most``.
-        """
-        found = {name}
+    def count_providers(self, name: str, most: int) -> int:
+        """Return how many packages provide a name transitively. Counting stops above ``most``."""
+        providers = {name}
         queue = [name]
-        for each in queue:
-            new = [other for other in self._brought_by.get(each, ()) if other not in found]
-            found.update(new)
+        for provided in queue:
+            new = [provider for provider in self._direct_providers.get(provided, ()) if provider not in providers]
+            providers.update(new)
             queue += new
-            if len(found) - 1 > most:
+            if len(providers) - 1 > most:
                 break
-        return len(found) - 1
+        return len(providers) - 1
 
     @cached_property
-    def _brought_by(self) -> Mapping[str, list[str]]:
-        found: defaultdict[str, list[str]] = defaultdict(list)
+    def _direct_providers(self) -> Mapping[str, list[str]]:
+        providers: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
             row = line.split("\t")
             for name in _runtime(row) or ():
-                found[name].append(row[0])
-        return found
+                providers[name].append(row[0])
+        return providers
 
-    def brought(self, names: Iterable[str]) -> Closure:
-        """Return packages with all names that they provide transitively."""
+    def closure(self, names: Iterable[str]) -> Closure:
+        """Return names with all names that they provide transitively."""
         return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:
@@ -211,15 +209,15 @@ class Index(Entries[Released]):
 
 
 def _runtime(row: list[str]) -> tuple[str, ...] | None:
-    """Return the names that a package provides directly, given its fields; None if unknown."""
+    """Return the names that the package in a line provides directly; None if unknown. ``row`` has the fields."""
     if len(row) < 3 or "-" in row[2] or "U" in row[2]:
         return None
-    found: list[str] = []
+    result: list[str] = []
     for field in row[4:]:
         kinds, _, names = field.partition(":")
         if not RUNTIME.isdisjoint(kinds):
-            found += names.split(" ")
-    return tuple(found)
+            result += names.split(" ")
+    return tuple(result)
 
 
 _HEAD = re.compile(r"(\w+)=(\S+)")

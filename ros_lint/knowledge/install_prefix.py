@@ -1,4 +1,4 @@
-"""Read one install prefix, with the layouts of ament, colcon and setuptools.
+"""Read an install prefix: a folder with the layouts of ament, colcon and setuptools.
 
 Missing and unreadable files never raise, because an incomplete prefix is still useful.
 """
@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
-from ros_lint.collectors.launch import detect as launch
+from ros_lint.collectors.launch import detect
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -30,23 +30,23 @@ _LAUNCH_CONTENT = {
 _LAUNCH_CONTENT[".yml"] = _LAUNCH_CONTENT[".yaml"]
 _CONFIGURATION = re.compile(r"(.+)(?:Config|-config)\.cmake")
 """The file with which find_package() finds a CMake package in config mode."""
-_NO_MODULES = (".egg-info", ".dist-info", ".pth", ".egg-link")
+_OTHER_SUFFIXES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
 class InstallPrefix:
-    """An install prefix: a folder of a tree. ``single`` is True if all of it belongs to its only package."""
+    """An install prefix in a tree. ``single`` is True if it is the prefix of one package, so that all files are its."""
 
     def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
         self._tree = tree
         self.root = root
         self.single = single
 
-    def alone(self) -> InstallPrefix:
-        """Return the same prefix, marked as the prefix of a single package if it contains only one."""
+    def marked_single(self) -> InstallPrefix:
+        """Return this prefix with ``single`` set if it contains exactly one package."""
         return InstallPrefix(self._tree, self.root, single=len(self.packages) == 1)
 
     def read(self, path: str) -> bytes | None:
-        """Return a file below the prefix, or None."""
+        """Return the bytes of a file by its path in the prefix, None if it cannot be read."""
         try:
             return self._tree.read(join(self.root, path))
         except OSError:
@@ -60,20 +60,20 @@ class InstallPrefix:
     @property
     def indexed(self) -> bool:
         """True if there is an ament index, even an empty one."""
-        return self._is_there("share/ament_index")
+        return self._exists("share/ament_index")
 
     @cached_property
     def packages(self) -> tuple[str, ...]:
         """Packages with a manifest or an entry in the index of ament or colcon, sorted."""
-        found = {name for name, _ in self._list("share") if self._is_there(f"share/{name}/package.xml")}
-        found.update(name for name, _ in self._list(f"{_INDEX}/packages"))
-        found.update(name for name, _ in self._list("share/colcon-core/packages"))
-        return tuple(sorted(found))
+        names = {name for name, _ in self._list("share") if self._exists(f"share/{name}/package.xml")}
+        names.update(name for name, _ in self._list(f"{_INDEX}/packages"))
+        names.update(name for name, _ in self._list("share/colcon-core/packages"))
+        return tuple(sorted(names))
 
     def recorded_dependencies(self, package: str) -> tuple[str, ...] | None:
-        """Return the run dependencies recorded at build time, sorted, or None.
+        """Return the run-time dependencies that ament or colcon recorded at build time, sorted; None without a record.
 
-        Those recorded by ament include test dependencies.
+        A record of ament includes test dependencies.
         """
         by_ament = f"{_INDEX}/package_run_dependencies/{package}"
         by_colcon = f"share/colcon-core/packages/{package}"
@@ -84,19 +84,19 @@ class InstallPrefix:
         return None
 
     def executables(self, package: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the executables in lib/<package>, and the broken links there, each sorted.
+        """Return the names of executables in lib/<package>, and those of broken links there, each sorted.
 
-        Subfolders are left out because launch_ros does not search them.
+        Subfolders are left out, because launch_ros does not search them.
         """
-        found, broken = [], []
+        executables, broken = [], []
         for name, kind in self._list(f"lib/{package}"):
             if name.endswith(_LIBRARIES) or _LIBRARY.search(name) or kind == "directory":
                 continue
             if kind == "other":
                 broken.append(name)
             elif self._is_executable(f"lib/{package}/{name}"):
-                found.append(name)
-        return tuple(found), tuple(broken)
+                executables.append(name)
+        return tuple(executables), tuple(broken)
 
     @property
     def programs(self) -> tuple[str, ...]:
@@ -110,104 +110,104 @@ class InstallPrefix:
     def launch_files(self, package: str) -> tuple[str, ...]:
         """Return the launch files below share/<package>, relative to it, sorted.
 
-        A launch file has a name that ``ros2 launch`` completes, or the contents of a launch file.
+        A launch file is recognized by a name that ``ros2 launch`` completes, or by its contents.
         """
         return tuple(path for path in self.share_files(package) if self._is_launch(package, path))
 
     def components(self, package: str) -> tuple[str, ...]:
-        """Return the classes that can be loaded into a component container, sorted."""
+        """Return the classes of a package that can be loaded into a component container, sorted."""
         lines = self._resource("rclcpp_components", package)
         return tuple(sorted({line.partition(";")[0].strip() for line in lines} - {""}))
 
     def interfaces(self, package: str) -> tuple[str, ...]:
-        """Return the interfaces, as msg/Name, sorted."""
-        found = set()
+        """Return the interfaces of a package as msg/Name, srv/Name or action/Name, sorted."""
+        names = set()
         for line in self._resource("rosidl_interfaces", package):
             name, _, suffix = line.strip().rpartition(".")
             # srv/Name_Request.msg is generated from srv/Name.srv.
             if suffix in (name.partition("/")[0], "idl"):
-                found.add(name)
-        return tuple(sorted(found))
+                names.add(name)
+        return tuple(sorted(names))
 
     def plugins(self, package: str) -> tuple[str, ...]:
-        """Return the pluginlib plugins as base=class, sorted; class is the look-up name of the plugin."""
-        found: set[str] = set()
+        """Return the pluginlib plugins of a package as base=class, sorted. ``class`` is the look-up name of the plugin."""
+        plugins: set[str] = set()
         for resource, _ in self._list(_INDEX):
             if resource.endswith(_PLUGINS):
                 for path in self._resource(resource, package):
                     base = resource.removesuffix(_PLUGINS)
-                    found.update(f"{base}={name}" for name in self._plugin_classes(path.strip()))
-        return tuple(sorted(found))
+                    plugins.update(f"{base}={name}" for name in self._plugin_classes(path.strip()))
+        return tuple(sorted(plugins))
 
     @cached_property
     def modules(self) -> Mapping[str, tuple[str, ...]]:
-        """Top-level Python modules, with the packages that they belong to, as far as known."""
-        found: dict[str, tuple[str, ...]] = {}
+        """Names of the top-level Python modules, each with its package; with () if the package is unknown."""
+        owners: dict[str, tuple[str, ...]] = {}
         for folder in self._python_folders():
             entries = self._list(folder)
             owner_of = self._egg_owners(folder, [name for name, _ in entries])
             for name, kind in entries:
                 module = name.partition(".")[0]
-                if not module.isidentifier() or module == "__pycache__" or name.endswith(_NO_MODULES):
+                if not module.isidentifier() or module == "__pycache__" or name.endswith(_OTHER_SUFFIXES):
                     continue
                 if kind == "file" and not name.endswith((".py", ".so")):
                     continue
                 if self.single:
-                    found[module] = self.packages
+                    owners[module] = self.packages
                 elif module in self.packages:
-                    found[module] = (module,)
+                    owners[module] = (module,)
                 else:
-                    found[module] = owner_of.get(module, ())
-        return found
+                    owners[module] = owner_of.get(module, ())
+        return owners
 
     def header_owners(self, path: str) -> tuple[str, ...]:
         """Return the packages that install a header in include/ or include/<package>/."""
         first = path.partition("/")[0]
         if self.single:
             (package,) = self.packages
-            return (package,) if any(self._is_there(f"include/{at}{path}") for at in ("", f"{package}/")) else ()
+            return (package,) if any(self._exists(f"include/{folder}{path}") for folder in ("", f"{package}/")) else ()
         # Most packages are named like the folder of their headers; other headers are searched for in all folders.
-        if first in self.packages and any(self._is_there(f"include/{at}{path}") for at in (f"{first}/", "")):
+        if first in self.packages and any(self._exists(f"include/{folder}{path}") for folder in (f"{first}/", "")):
             return (first,)
-        return tuple(name for name in self._include_folders.get(first, ()) if self._is_there(f"include/{name}/{path}"))
+        return tuple(name for name in self._include_folders.get(first, ()) if self._exists(f"include/{name}/{path}"))
 
     def cmake_names(self) -> Iterator[tuple[str, str]]:
-        """Yield the name of each CMake package with the package that installs it."""
+        """Yield the name of each CMake package, and the ROS package that installs it."""
         for package in self.packages:
             places = [f"share/{package}/cmake"]
             if self.single:
-                places += [f"{at}/{name}" for at in ("lib/cmake", "share/cmake") for name, _ in self._list(at)]
-            listed = [_CONFIGURATION.fullmatch(name) for place in places for name, _ in self._list(place)]
-            yield from ((found[1], package) for found in listed if found is not None)
+                places += [f"{folder}/{name}" for folder in ("lib/cmake", "share/cmake") for name, _ in self._list(folder)]
+            matches = [_CONFIGURATION.fullmatch(name) for place in places for name, _ in self._list(place)]
+            yield from ((match[1], package) for match in matches if match is not None)
 
     @cached_property
     def _include_folders(self) -> Mapping[str, tuple[str, ...]]:
-        """First folders of header paths in include/<package>/, with the packages."""
-        found: dict[str, tuple[str, ...]] = {}
+        """Names of the folders in include/<package>/, each with the packages that have it."""
+        owners: dict[str, tuple[str, ...]] = {}
         for package, kind in self._list("include"):
             if kind == "directory" and package in self.packages:
                 for name, _ in self._list(f"include/{package}"):
-                    found[name] = (*found.get(name, ()), package)
-        return found
+                    owners[name] = (*owners.get(name, ()), package)
+        return owners
 
     def _egg_owners(self, folder: str, names: list[str]) -> Mapping[str, tuple[str, ...]]:
         by_name = {name.lower().replace("-", "_"): name for name in self.packages}
-        found = {}
+        owners = {}
         for name in names:
             if name.endswith((".egg-info", ".dist-info")):
                 owner = by_name.get(name.partition("-")[0].removesuffix(".egg-info").lower().replace("-", "_"))
                 listed = self.read(f"{folder}/{name}/top_level.txt")
                 if owner and listed:
-                    found.update(dict.fromkeys(listed.decode("utf-8", "replace").split(), (owner,)))
-        return found
+                    owners.update(dict.fromkeys(listed.decode("utf-8", "replace").split(), (owner,)))
+        return owners
 
     def _python_folders(self) -> list[str]:
-        found = []
+        folders = []
         for lib in ("lib", "local/lib"):
             for name, kind in self._list(lib):
                 if kind == "directory" and name.startswith("python3"):
-                    found += [f"{lib}/{name}/{site}" for site in ("site-packages", "dist-packages")]
-        return found
+                    folders += [f"{lib}/{name}/{site}" for site in ("site-packages", "dist-packages")]
+        return folders
 
     def _plugin_classes(self, path: str) -> Iterator[str]:
         from ros_lint.collectors.resources.plugin_descriptions import roots  # noqa: PLC0415  (few runs look at plugins)
@@ -220,7 +220,7 @@ class InstallPrefix:
                     yield name
 
     def _is_launch(self, package: str, path: str) -> bool:
-        if path.endswith(launch.LAUNCH_FILE_NAMES):
+        if path.endswith(detect.LAUNCH_FILE_NAMES):
             return True
         content = _LAUNCH_CONTENT.get(os.path.splitext(path)[1])
         if content is None or path == "package.xml":
@@ -248,7 +248,7 @@ class InstallPrefix:
         except OSError:
             return []
 
-    def _is_there(self, path: str) -> bool:
+    def _exists(self, path: str) -> bool:
         try:
             self._tree.stamp(join(self.root, path))
         except OSError:

@@ -1,7 +1,7 @@
-"""Map names of Python modules, headers and CMake packages to ROS packages and rosdep keys.
+"""Map the names of Python modules, headers and CMake packages to ROS packages and rosdep keys.
 
-Each look-up returns the names of providers, best first. The caller checks whether these exist in a distribution and
-whether they are packages or keys, because the maps serve all distributions (docs/knowledge.md).
+Each look-up returns the names of providers, best first. The maps serve all distributions, so the caller checks which of the
+names exist in its distribution, and whether they are packages or keys (docs/knowledge.md).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.store import Store, Table
 
 NOTHING_NEEDED = "-"
-"""Value in a map for a name that the tool chain provides."""
+"""Value in a map for a name that the tool chain provides, so that nothing has to be declared."""
 
 END_OF_LIFE: Mapping[str, str] = {
     "i": "ROS 2 Iron",
@@ -33,7 +33,7 @@ END_OF_LIFE: Mapping[str, str] = {
     "M": "ROS 1 Melodic",
     "K": "ROS 1 Kinetic",
 }
-"""Distributions at their end of life by letter in the data: ROS 2 first, each newest first."""
+"""Names of the distributions at their end of life, by their letter in the data: first ROS 2, newest first, then ROS 1."""
 
 
 def has_ended(distro: str) -> bool:
@@ -41,18 +41,19 @@ def has_ended(distro: str) -> bool:
     return any(name.endswith(f" {distro.capitalize()}") for name in END_OF_LIFE.values())
 
 
-_NO_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
-"""Parts of the names of rosdep keys that are not significant."""
+_COMMON_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
+"""Words in the names of rosdep keys that do not identify the library."""
 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
-"""Top-level modules of one package that are also common names of folders."""
+"""Top-level modules that a released package provides, but that are also common names of folders."""
 
-_SAME_MACROS: Mapping[str, tuple[str, ...]] = {
+_MACRO_ALTERNATIVES: Mapping[str, tuple[str, ...]] = {
     "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators", "rosidl_cmake"),
 }
-"""Packages whose macros other packages provide, too.
+"""By package, the packages that provide the same macros.
 
-The second is what messages use that the first depends on; the third is used in tests of single generators.
+Packages that rosidl_default_generators depends on use rosidl_core_generators, and tests of single generators use
+rosidl_cmake.
 """
 
 
@@ -61,21 +62,21 @@ class Names:
 
     def __init__(self, store: Store) -> None:
         self._store = store
-        self._doubts: dict[str, frozenset[str]] = {}
-        self._unseen: dict[str, bool] = {}
+        self._doubtful: dict[str, frozenset[str]] = {}
+        self._traceless: dict[str, bool] = {}
 
     def cmake(self, name: str) -> tuple[str, ...]:
-        """Return the providers of a name in find_package() that have another name: ROS packages and keys.
+        """Return the ROS packages and rosdep keys that provide a name in find_package() but have another name.
 
-        Any of them suffices. ``("-",)`` is a module of CMake that needs no package.
+        Any of them suffices. ``("-",)`` means that the name is a module of CMake, which needs no package.
         """
-        found = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
-        return found or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
+        providers = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
+        return providers or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
 
     def alternatives(self, package: str) -> tuple[str, ...]:
-        """Return the packages that provide the same for CMake, including ``package``.
+        """Return the names that provide the same CMake package or macros as ``package``, including itself.
 
-        Example: a vendor package and the key of its library.
+        Example: a vendor package and the rosdep key of its library.
         """
         return self._alternatives.get(package, (package,))
 
@@ -83,26 +84,27 @@ class Names:
         """Return whether a released package is known to export its libraries in ``<package>_TARGETS``."""
         return package in self._targets
 
-    def cmake_sure(self, name: str) -> bool:
-        """Return whether packages that find a name usually declare a result of :meth:`cmake`."""
-        return name not in self._doubted("cmake_system.tsv")
+    def is_cmake_usually_declared(self, name: str) -> bool:
+        """Return whether packages with find_package(name) usually declare a result of :meth:`cmake`."""
+        return name not in self._doubtful_names("cmake_system.tsv")
 
-    def header_sure(self, path: str) -> bool:
+    def is_header_usually_declared(self, path: str) -> bool:
         """Return whether packages that include a header usually declare a result of :meth:`header`."""
-        ros, doubted = self._include_ros, self._doubted("include_system.tsv")
+        ros, doubtful = self._include_ros, self._doubtful_names("include_system.tsv")
         for prefix in _prefixes(path):
             if prefix in ros or prefix in self._include_system:
-                return prefix in ros or prefix not in doubted
+                return prefix in ros or prefix not in doubtful
         return False
 
     def cmake_any_case(self, name: str) -> tuple[str, ...]:
-        """Return the providers of a name in find_package(), case-insensitively, such as opencv."""
+        """Return the providers of a name in find_package() written with other capitals, such as opencv for OpenCV."""
         return self._cmake_lower.get(name.lower(), ())
 
     def header(self, path: str) -> tuple[str, ...]:
-        """Return the providers of a header by its longest known prefix: ROS packages and keys.
+        """Return the ROS packages and rosdep keys that provide a header, by the longest prefix in the maps.
 
-        Any of them suffices. ``path`` is as written between the brackets. ``("-",)`` is a header of the tool chain.
+        Any of them suffices. ``path`` is the text between the brackets. ``("-",)`` means that the tool chain provides
+        the header.
         """
         if path in CXX_HEADERS or path.partition("/")[0] in SYSTEM_HEADER_FOLDERS:
             return (NOTHING_NEEDED,)
@@ -112,21 +114,21 @@ class Names:
                 if prefix in ros or prefix in system:
                     return (*ros.get(prefix, ()), *system.get(prefix, ()))
         if "/" not in path and path.endswith(".h"):
-            for beginning in sorted(self._beginnings, reverse=True):
-                if path.startswith(beginning):
-                    return self._beginnings[beginning]
+            for prefix in sorted(self._file_prefixes, reverse=True):
+                if path.startswith(prefix):
+                    return self._file_prefixes[prefix]
         return ()
 
     def folder(self, name: str) -> tuple[str, ...]:
         """Return the rosdep keys of the library with headers in a folder, such as opencv2, best first.
 
-        Uncertain ones, see :meth:`header_sure`, are left out.
+        Uncertain ones, see :meth:`is_header_usually_declared`, are left out.
         """
         prefix = f"{name}/"
-        return () if prefix in self._doubted("include_system.tsv") else self._include_system.get(prefix, ())
+        return () if prefix in self._doubtful_names("include_system.tsv") else self._include_system.get(prefix, ())
 
     def maps(self, folder: str) -> bool:
-        """Return whether the owner of headers below a folder may differ from the folder's name."""
+        """Return whether headers below a folder may belong to a package that is not named like the folder."""
         return folder in self._mapped_folders or folder in SYSTEM_HEADER_FOLDERS or folder in self._shared_folders
 
     def shares(self, folder: str) -> bool:
@@ -134,10 +136,10 @@ class Names:
         return folder in self._shared_folders
 
     def module(self, module: str) -> tuple[str, ...]:
-        """Return the rosdep keys that provide a Python module, best first. ``("-",)`` is the standard library.
+        """Return the rosdep keys that provide a Python module, best first. ``("-",)`` means the standard library.
 
-        ``module`` may be dotted. The evidence for a key is the name of its system package, its declaration by
-        packages with the import, or a manual entry; names in the files of another distribution do not suffice.
+        ``module`` may be dotted. The evidence for a key is the name of its system package, its declaration by packages
+        that import the module, or a manual entry. Names from nixpkgs alone do not suffice.
         """
         top, _, rest = module.partition(".")
         if top in PYTHON_MODULES:
@@ -158,52 +160,55 @@ class Names:
         return self._successors.get(name, "")
 
     def end_of_life(self, name: str) -> tuple[str, ...]:
-        """Return the distributions at their end of life with a package that no active one has, newest first."""
-        row = self._eol.row(name)
+        """Return the distributions at their end of life that have a package, newest first.
+
+        The result is empty for a package of an active distribution.
+        """
+        row = self._end_of_life.row(name)
         letters = row[1] if row and len(row) > 1 else ""
         return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
-        """Return words of which each use of a rosdep key contains one.
+        """Return words in lower case or as in code, at least one of which appears in each use of a rosdep key.
 
-        They come from the names of the key, its headers, modules and CMake packages.
+        They are the words in the name of the key, and the names of its headers, modules and CMake packages.
         """
         parts = re.findall(r"[a-z0-9]+", key.lower())
-        words = [part.removeprefix("lib") for part in parts if part not in _NO_WORDS and not part.isdigit()]
+        words = [part.removeprefix("lib") for part in parts if part not in _COMMON_WORDS and not part.isdigit()]
         return tuple(dict.fromkeys([*words, *self._called.get(key, ())])) or (key,)
 
     @cached_property
     def _called(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
+        names_of: dict[str, list[str]] = {}
         for names in (self._cmake_system, self._include_system, self._py_import):
             for name, keys in names.items():
                 for key in keys:
-                    found.setdefault(key, []).append(name.rstrip("*/"))
-        return found
+                    names_of.setdefault(key, []).append(name.rstrip("*/"))
+        return names_of
 
-    def brought(self, key: str) -> tuple[str, ...]:
-        """Return the rosdep keys that a key provides directly, through dependencies of its system package."""
-        return self._brings.get(key, ())
+    def provided_keys(self, key: str) -> tuple[str, ...]:
+        """Return the rosdep keys of the packages that the system package of a key depends on."""
+        return self._provided_keys.get(key, ())
 
-    def works_unseen(self, package: str) -> bool:
-        """Return whether the use of a package leaves no trace in its dependents, by the package's name."""
-        found = self._unseen.get(package)
-        if found is None:
-            found = self._unseen[package] = self._unseen_pattern.match(package) is not None
-        return found
+    def leaves_no_trace(self, package: str) -> bool:
+        """Return whether the name of a package shows that its use cannot be recognized in the sources of dependents."""
+        matches = self._traceless.get(package)
+        if matches is None:
+            matches = self._traceless[package] = self._traceless_pattern.match(package) is not None
+        return matches
 
-    def sounds_like_macros(self, package: str) -> bool:
-        """Return whether the use of a package leaves no trace because it provides CMake macros, by its name."""
+    def provides_macros(self, package: str) -> bool:
+        """Return whether the name of a package shows that it provides CMake macros, whose use is not recognized."""
         return self._macros_pattern.match(package) is not None
 
     @cached_property
-    def _unseen_pattern(self) -> re.Pattern[str]:
+    def _traceless_pattern(self) -> re.Pattern[str]:
         return re.compile("|".join(fnmatch.translate(pattern) for pattern, _ in self._rows("unseen.tsv")))
 
     @cached_property
     def _macros_pattern(self) -> re.Pattern[str]:
         rows = self._rows("unseen.tsv")
-        return re.compile("|".join(fnmatch.translate(pattern) for pattern, why in rows if why.endswith("gives CMake macros")))
+        return re.compile("|".join(fnmatch.translate(pattern) for pattern, why in rows if why.endswith("provides CMake macros")))
 
     @cached_property
     def _targets(self) -> frozenset[str]:
@@ -219,12 +224,12 @@ class Names:
 
     @cached_property
     def _alternatives(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
+        result: dict[str, tuple[str, ...]] = {}
         for names in self._cmake_system.values():
             for name in names:
                 if name.endswith(VENDOR):
-                    found.setdefault(name, names)
-        return {**found, **_SAME_MACROS}
+                    result.setdefault(name, names)
+        return {**result, **_MACRO_ALTERNATIVES}
 
     @cached_property
     def _cmake_lower(self) -> Mapping[str, tuple[str, ...]]:
@@ -240,7 +245,7 @@ class Names:
         return self._map("include_system.tsv")
 
     @cached_property
-    def _beginnings(self) -> Mapping[str, tuple[str, ...]]:
+    def _file_prefixes(self) -> Mapping[str, tuple[str, ...]]:
         return {name.partition("*")[0]: keys for name, keys in self._include_system.items() if "*" in name}
 
     @cached_property
@@ -257,56 +262,56 @@ class Names:
         )
 
     @cached_property
-    def _brings(self) -> Mapping[str, tuple[str, ...]]:
+    def _provided_keys(self) -> Mapping[str, tuple[str, ...]]:
         return self._map("key_brings.tsv")
 
     @cached_property
     def _py_import(self) -> Mapping[str, tuple[str, ...]]:
-        found = {}
+        keys_of = {}
         for module, value in self._rows("py_import.tsv"):
             keys = (entry.partition(":") for entry in value.split())
-            found[module] = tuple(key for key, _, evidence in keys if evidence != "X")
-        return found
+            keys_of[module] = tuple(key for key, _, evidence in keys if evidence != "X")
+        return keys_of
 
     @cached_property
     def _py_ros(self) -> Mapping[str, tuple[tuple[str, frozenset[str]], ...]]:
-        found: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {}
+        packages_of: dict[str, tuple[tuple[str, frozenset[str]], ...]] = {}
         for line in self._store.lines("py_ros.tsv")[1]:
             module, package, distros = (*line.split("\t"), "", "")[:3]
-            found[module] = (*found.get(module, ()), (package, frozenset(distros.split())))
-        return found
+            packages_of[module] = (*packages_of.get(module, ()), (package, frozenset(distros.split())))
+        return packages_of
 
     @cached_property
     def _successors(self) -> Mapping[str, str]:
         return dict(self._rows("ros1_successors.tsv"))
 
     @cached_property
-    def _eol(self) -> Table:
+    def _end_of_life(self) -> Table:
         return self._store.table("eol_names.tsv")[1]
 
-    def _doubted(self, file: str) -> frozenset[str]:
-        """Return the names of a map that are manual entries, or that most users do not declare."""
-        found = self._doubts.get(file)
-        if found is None:
+    def _doubtful_names(self, file: str) -> frozenset[str]:
+        """Return the names in a map whose providers are a manual entry, or are rarely declared by those who use the name."""
+        doubtful = self._doubtful.get(file)
+        if doubtful is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])
-            found = self._doubts[file] = frozenset(row[0] for row in rows if row[-1] not in ("high", "medium"))
-        return found
+            doubtful = self._doubtful[file] = frozenset(row[0] for row in rows if row[-1] not in ("high", "medium"))
+        return doubtful
 
     def _map(self, file: str) -> Mapping[str, tuple[str, ...]]:
         return {name: tuple(value.split()) for name, value in self._rows(file)}
 
     def _rows(self, file: str) -> list[tuple[str, str]]:
-        found = []
+        rows = []
         for line in self._store.lines(file)[1]:
             name, _, rest = line.partition("\t")
-            found.append((name, rest.partition("\t")[0]))
-        return found
+            rows.append((name, rest.partition("\t")[0]))
+        return rows
 
 
 def _prefixes(path: str) -> list[str]:
-    """Return the possible entries of a header in a map, longest first: a/b/c.h, a/b/, a/b, a/, a."""
-    found = [path]
+    """Return the prefixes of a header by which a map may list it, longest first: a/b/c.h, a/b/, a/b, a/, a."""
+    prefixes = [path]
     at = len(path)
     while (at := path.rfind("/", 0, at)) > 0:
-        found += [path[: at + 1], path[:at]]
-    return found
+        prefixes += [path[: at + 1], path[:at]]
+    return prefixes

@@ -1,6 +1,6 @@
-"""Resolve a header, a Python module, a CMake package or a wrong name to names that can be declared.
+"""Resolve headers, Python modules, CMake packages and misspelled names to names that a manifest can declare.
 
-The order of look-ups is always: workspace, underlays, index of the distribution, name maps.
+Names are looked up in this order: workspace, underlays, index of the distribution, name maps.
 """
 
 from __future__ import annotations
@@ -26,45 +26,45 @@ Layer = Literal["workspace", "underlay", "index"]
 
 
 class Providers(NamedTuple):
-    """The providers of a header, a module or a CMake package.
+    """The packages and rosdep keys that provide a header, a module or a CMake package.
 
-    The declaration of any one of ``names`` satisfies the use.
+    It is enough to declare one of ``names``.
     """
 
     names: tuple[str, ...] = ()
-    """Packages and keys; the first is the one to declare."""
+    """Packages and keys, best first: the first name is to be declared."""
     packages: tuple[str, ...] = ()
     """The members of ``names`` that are packages."""
     keys: tuple[str, ...] = ()
     """The members of ``names`` that are rosdep keys."""
     none_needed: bool = False
-    """True if the language or the build tool provides it."""
+    """True if the language or the build tool provides it, so that nothing has to be declared."""
     sure: bool = True
-    """False if most released packages that use it declare none of the names, or if too few use it."""
+    """False if most released packages that use it declare none of the names, or if only few use it."""
 
     @property
     def known(self) -> bool:
-        """True if there is a provider or none is needed. Otherwise a rule reports nothing."""
+        """True if there is a provider or none is needed. Otherwise rules report nothing."""
         return bool(self.names) or self.none_needed
 
 
 class Suggestion(NamedTuple):
-    """The intended name of an unknown name."""
+    """The name that a misspelled name certainly means."""
 
     name: str
-    """A package, or a rosdep key that resolves for the distribution."""
+    """The intended name: a package, or a rosdep key that resolves for the distribution."""
     by: Literal["spelling", "cmake", "header", "python", "system", "slip"]
     """Kind of the mistake.
 
-    * "spelling": dashes, capitals, or the name of something in the package.
-    * "cmake", "header", "python": the name in find_package(), #include or import.
-    * "system": the name in apt or pip.
-    * "slip": one letter.
+    * "spelling": other dashes or capitals, or the name of something in the package.
+    * "cmake", "header", "python": the name that is used in find_package(), #include or import.
+    * "system": the name of the apt or pip package.
+    * "slip": one wrong letter.
     """
 
 
 class Layers(Protocol):
-    """The look-ups that name resolution needs; :class:`ros_lint.knowledge.world.World` implements them."""
+    """The look-ups that this module needs; :class:`ros_lint.knowledge.world.World` implements them."""
 
     @property
     def knowledge(self) -> Knowledge:
@@ -87,8 +87,8 @@ class Layers(Protocol):
     def is_key(self, name: str) -> bool:
         """Return whether a name is a rosdep key."""
 
-    def offering(self, module: str) -> tuple[str, ...]:
-        """Return the packages of the workspace with a Python module."""
+    def packages_with_module(self, module: str) -> tuple[str, ...]:
+        """Return the packages of the workspace that provide a Python module."""
 
     def python_modules(self, name: str) -> Known:
         """Return the top-level Python modules of a package."""
@@ -96,37 +96,37 @@ class Layers(Protocol):
     def by_cmake(self, name: str) -> Providers:
         """Return the providers of the argument of find_package()."""
 
-    def by_folder(self, folder: str) -> Providers:
+    def by_include_folder(self, folder: str) -> Providers:
         """Return the providers of headers below an include folder."""
 
     def meant(self, name: str, *, python: bool) -> Suggestion | None:
-        """Return the intended name of an unknown name, None if there is any doubt."""
+        """Return the name that an unknown name certainly means, None if there is any doubt."""
 
 
 _NONE_NEEDED = Providers(none_needed=True)
 
-_RELEASED = re.compile(r"ros-[a-z]+-(?=[a-z])")
-"""Prefix of the apt packages of a distribution."""
+_APT_PREFIX = re.compile(r"ros-[a-z]+-(?=[a-z])")
+"""Prefix of the names of apt packages of a distribution: "ros-humble-"."""
 
 
 def by_cmake(world: Layers, name: str) -> Providers:
     """Return the providers of the argument of find_package()."""
     owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
     if world.layer(name) == "workspace":
-        return _of(world, (name,))
+        return _existing(world, (name,))
     mapped = world.knowledge.names.cmake(name)
     if mapped == (NOTHING_NEEDED,) and not owners:
         return _NONE_NEEDED
-    found = _of(world, (*owners, name, *mapped), keys=mapped)
-    if not found.known or owners or found.names[0] == name:
-        return found
-    return found._replace(sure=world.knowledge.names.cmake_sure(name))
+    result = _existing(world, (*owners, name, *mapped), keys=mapped)
+    if not result.known or owners or result.names[0] == name:
+        return result
+    return result._replace(sure=world.knowledge.names.is_cmake_usually_declared(name))
 
 
 def by_macro(world: Layers, package: str) -> Providers:
-    """Return the providers of a package's macros."""
+    """Return the providers of the CMake macros of a package."""
     names = world.knowledge.names.alternatives(package)
-    return world.by_cmake(package) if len(names) == 1 else _of(world, names, keys=names)
+    return world.by_cmake(package) if len(names) == 1 else _existing(world, names, keys=names)
 
 
 def by_include(world: Layers, header: str) -> Providers:
@@ -134,28 +134,28 @@ def by_include(world: Layers, header: str) -> Providers:
     names = world.knowledge.names
     first, slash, rest = header.partition("/")
     if slash and not world.underlays and not names.maps(first):
-        return world.by_folder(first)
+        return world.by_include_folder(first)
     shared = names.shares(first)
     second = f"{first}_{rest.partition('/')[0]}" if shared and "/" in rest else ""
     mapped = names.header(header)
     if slash and not shared and world.layer(first) == "workspace":
-        return _of(world, (first,))
+        return _existing(world, (first,))
     if second and world.layer(second) == "workspace":
-        return _of(world, (second,))
+        return _existing(world, (second,))
     owners = _in_underlay(world, [underlay.headers(header) for underlay in world.underlays])
     if mapped == (NOTHING_NEEDED,):
         return _NONE_NEEDED
-    by_folder = second if shared else first if slash else ""
-    found = _of(world, (*owners, *((by_folder,) if world.is_package(by_folder) else ()), *mapped), keys=mapped)
-    if not found.known:
-        return found
-    by_map = found.names[0] in found.keys or (found.names[0] != by_folder and not owners)
-    return found._replace(sure=names.header_sure(header)) if by_map else found
+    folder_name = second if shared else first if slash else ""
+    result = _existing(world, (*owners, *((folder_name,) if world.is_package(folder_name) else ()), *mapped), keys=mapped)
+    if not result.known:
+        return result
+    by_map = result.names[0] in result.keys or (result.names[0] != folder_name and not owners)
+    return result._replace(sure=names.is_header_usually_declared(header)) if by_map else result
 
 
-def by_folder(world: Layers, folder: str) -> Providers:
-    """Return the providers of headers below a folder whose name identifies the package."""
-    return _of(world, (folder,))
+def by_include_folder(world: Layers, folder: str) -> Providers:
+    """Return the providers of headers below an include folder, by the name of the folder."""
+    return _existing(world, (folder,))
 
 
 def by_import(world: Layers, module: str) -> Providers:
@@ -165,42 +165,47 @@ def by_import(world: Layers, module: str) -> Providers:
     keys = names.module(module)
     if keys == (NOTHING_NEEDED,):
         return _NONE_NEEDED
-    offering = world.offering(top)
-    if offering:
-        return _of(world, _with_released(world, top, offering))
+    packages = world.packages_with_module(top)
+    if packages:
+        return _existing(world, _with_released(world, top, packages))
     owners = _in_underlay(world, [underlay.modules(top) for underlay in world.underlays])
     differing = names.module_packages(module, world.knowledge.distro)
-    named = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
-    return _of(world, (*owners, *differing, *named, *keys), keys=keys)
+    module_package = () if any(world.is_package(name) for name in differing) or not _has_module(world, top) else (top,)
+    return _existing(world, (*owners, *differing, *module_package, *keys), keys=keys)
 
 
-def _with_released(world: Layers, module: str, offering: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the workspace packages with a module, and the released package of the same name, if any."""
-    if module in offering or world.layer(module) == "workspace":
-        return offering
+def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the workspace packages with a module, and the released package named like the module if it may have it.
+
+    The released package comes first if it certainly has the module, else last.
+    """
+    if module in packages or world.layer(module) == "workspace":
+        return packages
     answer = world.python_modules(module).ask(module) if world.is_package(module) else "missing"
-    return (module, *offering) if answer == "exists" else offering if answer == "missing" else (*offering, module)
+    if answer == "missing":
+        return packages
+    return (module, *packages) if answer == "exists" else (*packages, module)
 
 
-def offered(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None:
-    """Return the top-level importable modules that a package installs, None if unknown.
+def importable_modules(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None:
+    """Return the names of the top-level Python modules that a package installs, None if unknown.
 
-    ``files`` are the files of the package. ``find_namespace_packages()`` lists all folders as packages, so folders
-    without Python modules and folders with names of data are left out.
+    ``files`` are the files of the package. Folders without Python modules and folders with usual names of data are
+    left out, because ``find_namespace_packages()`` counts every folder as a package.
     """
     tops = dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages)
     modules: dict[str, bool] = {}
     for file in files if tops else ():
         top, slash, rest = file.removeprefix("src/").partition("/")
         if slash and top in tops:
-            is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA)
+            is_module = rest == "__init__.py" or (rest.endswith(".py") and top not in _DATA_FOLDERS)
             modules[top] = modules.get(top, False) or is_module
-    found = tuple(dict.fromkeys([*(top for top in tops if modules.get(top, True)), *_installed_modules(script)]))
-    return found if found or _has_no_module(script, files) else None
+    result = tuple(dict.fromkeys([*(top for top in tops if modules.get(top, True)), *_installed_modules(script)]))
+    return result if result or _has_no_module(script, files) else None
 
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
-    """Yield the modules whose files are installed directly into a folder of ``sys.path``."""
+    """Yield the modules whose files CMake installs into a folder of ``sys.path``."""
     for provided in script.products.installs:
         if provided.path.endswith(".py") and provided.importable:
             top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
@@ -209,20 +214,20 @@ def _installed_modules(script: BuildScript) -> Iterator[str]:
 
 
 def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:
-    """Return whether a package certainly has no module.
+    """Return whether a package certainly has no Python module.
 
-    No file becomes a module, and CMake finds no tool for bindings.
+    That is the case if none of its files becomes a module and CMake finds no tool that generates bindings.
     """
-    if any(mention.name.lower().startswith(_BINDS) for mention in script.mentions if mention.via == "cmake"):
+    if any(mention.name.lower().startswith(_BINDING_TOOLS) for mention in script.mentions if mention.via == "cmake"):
         return False
-    return not any(file.endswith(_MODULES) and not (is_auxiliary(file) or ".launch." in file) for file in files)
+    return not any(file.endswith(_MODULE_SUFFIXES) and not (is_auxiliary(file) or ".launch." in file) for file in files)
 
 
-_BINDS = ("python", "pybind11", "nanobind", "swig")
-_MODULES = (".py", ".pyx", ".i", ".idl", ".msg", ".srv", ".action")
+_BINDING_TOOLS = ("python", "pybind11", "nanobind", "swig")
+_MODULE_SUFFIXES = (".py", ".pyx", ".i", ".idl", ".msg", ".srv", ".action")
 
 
-_DATA = frozenset(
+_DATA_FOLDERS = frozenset(
     {
         "launch", "config", "configs", "cfg", "params", "param", "resource", "resources", "urdf", "meshes", "models", "worlds",
         "world", "maps", "map", "rviz", "scenarios", "test", "tests", "doc", "docs", "examples", "images", "scripts", "include",
@@ -233,27 +238,27 @@ _DATA = frozenset(
 
 
 def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
-    """Return the intended name of an unknown name, None if there is any doubt.
+    """Return the name that an unknown name certainly means, None if there is any doubt.
 
-    With ``python`` the name is needed to run Python code, so names of find_package() do not count.
+    With ``python`` the name is needed to run Python code, so names in find_package() do not count.
     """
     names = world.knowledge.names
     package = name.replace(".", "/").partition("/")[0]
     if package != name and world.is_package(package):  # an interface or a module: std_msgs/msg/String, rclpy.qos
         return Suggestion(package, "spelling")
-    released = _RELEASED.match(name)
+    released = _APT_PREFIX.match(name)
     package = name[released.end() :].replace("-", "_") if released else ""
     if package and world.is_package(package):  # ros-humble-tf2-ros
         return Suggestion(package, "system")
     libraries = () if python else tuple(_libraries(names.cmake(name)))
     if libraries:
-        return _first(world, libraries, "cmake")  # a build uses no pip packages
-    same = _declarable(world, world.spelling.same(name))
-    if same:
-        return Suggestion(same[0], "spelling") if len(same) == 1 else None
-    for found in _other_names(world, name, python=python):
-        if found is not None:
-            return found
+        return _first_candidate(world, libraries, "cmake")  # a build uses no pip packages
+    same_spelling = _declarable(world, world.spelling.same(name))
+    if same_spelling:
+        return Suggestion(same_spelling[0], "spelling") if len(same_spelling) == 1 else None
+    for suggestion in _other_names(world, name, python=python):
+        if suggestion is not None:
+            return suggestion
     slips = _declarable(world, world.spelling.one_slip(name))
     if python:  # Python does not use C libraries directly: the key for pyaml is that of the module, not of libyaml
         slips = _declarable(world, (slip if world.is_package(slip) else f"python3-{slip}" for slip in _bare(slips)))
@@ -265,40 +270,42 @@ def _bare(names: Iterable[str]) -> Iterator[str]:
 
 
 def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
-    """Return packages and keys similar to an unknown name, nearest first, at most three."""
-    sure = world.meant(name, python=python)
-    found = _declarable(world, world.spelling.near(name))
-    return tuple(dict.fromkeys([sure.name, *found] if sure else found))[:3]
+    """Return at most three packages and keys that are similar to an unknown name, nearest first."""
+    intended = world.meant(name, python=python)
+    candidates = _declarable(world, world.spelling.near(name))
+    return tuple(dict.fromkeys([intended.name, *candidates] if intended else candidates))[:3]
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
-    """Yield the meaning of the name in other name spaces: CMake packages, modules, apt, pip."""
+    """Yield what a name means as a CMake package, a header folder, a module, an apt or a pip package."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
-        yield _first(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
-        yield _first(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
-        yield _only(world, rosdep.installing(bare))
-        yield _first(world, [f"python3-{bare.removeprefix('py')}"], "spelling")  # pyserial
+        yield _first_candidate(world, [f"python3-{bare}", f"python3-{bare}-pip"], "spelling")
+        yield _first_candidate(world, (*names.module_packages(bare, world.knowledge.distro), *names.module(bare)), "python")
+        yield _only_candidate(world, rosdep.installing(bare))
+        yield _first_candidate(world, [f"python3-{bare.removeprefix('py')}"], "spelling")  # pyserial
     else:
-        yield _first(world, _libraries(names.cmake_any_case(name)), "cmake")
-        yield _first(world, names.folder(name), "header")
-    yield _only(world, rosdep.installing(name))
+        yield _first_candidate(world, _libraries(names.cmake_any_case(name)), "cmake")
+        yield _first_candidate(world, names.folder(name), "header")
+    yield _only_candidate(world, rosdep.installing(name))
 
 
 def _libraries(names: Iterable[str]) -> Iterator[str]:
-    """Yield the names without packages that only locate a library for CMake: the library is intended."""
+    """Yield the names of libraries, without packages that only help CMake to find a library."""
     return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
-def _first(world: Layers, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]) -> Suggestion | None:
-    found = _declarable(world, names)
-    return Suggestion(found[0], by) if found else None
+def _first_candidate(
+    world: Layers, names: Iterable[str], by: Literal["spelling", "cmake", "header", "python"]
+) -> Suggestion | None:
+    declarable = _declarable(world, names)
+    return Suggestion(declarable[0], by) if declarable else None
 
 
-def _only(world: Layers, keys: Iterable[str]) -> Suggestion | None:
-    found = _declarable(world, keys)
-    return Suggestion(found[0], "system") if len(found) == 1 else None
+def _only_candidate(world: Layers, keys: Iterable[str]) -> Suggestion | None:
+    declarable = _declarable(world, keys)
+    return Suggestion(declarable[0], "system") if len(declarable) == 1 else None
 
 
 def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
@@ -308,23 +315,26 @@ def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
 
 
 def _has_module(world: Layers, package: str) -> bool:
-    """Return whether a package may provide the module of its name: it is not known to lack it."""
+    """Return whether a package below the workspace may have a Python module of its own name."""
     if world.layer(package) == "workspace":
         return False  # the build script has been consulted already
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the owners in the topmost underlay that has any, without packages hidden by the workspace."""
-    for found in owners:
-        seen = tuple(name for name in found if world.layer(name) == "underlay")
-        if seen:
-            return seen
+    """Return the packages of the topmost underlay that has any, without packages that the workspace hides.
+
+    ``owners`` has the packages of each underlay, the topmost first.
+    """
+    for names in owners:
+        visible = tuple(name for name in names if world.layer(name) == "underlay")
+        if visible:
+            return visible
     return ()
 
 
-def _of(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
-    """Return the providers among names: existing packages, and rosdep keys among ``keys``.
+def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
+    """Return the existing packages among ``names``, and the rosdep keys that are also in ``keys``.
 
     Keys without a rule for the distribution come last, because a declared name must resolve.
     """
@@ -332,7 +342,7 @@ def _of(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Provid
     allowed = set(keys)
     packages = tuple(name for name in ordered if world.is_package(name))
     as_keys = tuple(name for name in ordered if name in allowed and name not in packages and world.is_key(name))
-    found = [name for name in ordered if name in packages or name in as_keys]
-    if as_keys and len(found) > 1:
-        found.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
-    return Providers(tuple(found), packages, as_keys)
+    existing = [name for name in ordered if name in packages or name in as_keys]
+    if as_keys and len(existing) > 1:
+        existing.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
+    return Providers(tuple(existing), packages, as_keys)

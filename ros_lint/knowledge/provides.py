@@ -1,6 +1,6 @@
-"""The contents of released packages, one line each, and their format (``.prov``; docs/knowledge.md).
+"""The contents of released packages, and their file format (``.prov``; docs/knowledge.md): a line for each package.
 
-A look-up has three answers: a name exists, is missing, or is unknowable.
+A look-up of a name has three answers: the name exists, is missing, or is unknowable.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 Answer = Literal["exists", "missing", "unknowable"]
 """Answer to the question whether a name exists. "unknowable": there is no data to decide it."""
-Offer = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
+ContentKind = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
 """Kinds of names that a package provides. "programs" are files in bin, "executables" those in lib/<package>."""
 
-LETTERS: Mapping[Offer, str] = {
+LETTERS: Mapping[ContentKind, str] = {
     "executables": "X",
     "launch": "L",
     "components": "C",
@@ -26,15 +26,15 @@ LETTERS: Mapping[Offer, str] = {
     "interfaces": "I",
     "programs": "B",
 }
-"""The letters of each kind, in their order in a line.
+"""The letter of each kind of contents, in their order in a line.
 
-Executables in lib/<package>; launch files relative to share/<package>; component classes; plugins as base=class;
-Python modules; interfaces as msg/Name; programs in bin.
+The names are: executables in lib/<package>; launch files relative to share/<package>; component classes; plugins as
+base=class; Python modules; interfaces as msg/Name; programs in bin.
 """
 
 
 class Known(NamedTuple):
-    """The known names of one kind that a package provides."""
+    """What is known about the names of one kind that a package provides."""
 
     names: tuple[str, ...] = ()
     """Names that exist."""
@@ -43,7 +43,7 @@ class Known(NamedTuple):
     complete: bool = False
     """True if there are no other names."""
     endings: tuple[str, ...] = ()
-    """If not empty, the list covers only names with these suffixes: other names are unknown."""
+    """If not empty, only names with these suffixes can be missing; other names are unknowable."""
 
     @property
     def possible(self) -> tuple[str, ...]:
@@ -51,7 +51,7 @@ class Known(NamedTuple):
         return (*self.names, *self.maybe)
 
     def ask(self, name: str) -> Answer:
-        """Return whether a name exists."""
+        """Return whether a name exists, is missing, or cannot be known."""
         if name in self.names:
             return "exists"
         if not self.complete or name in self.maybe or (self.endings and not name.endswith(self.endings)):
@@ -59,23 +59,24 @@ class Known(NamedTuple):
         return "missing"
 
     def between(self, before: Iterable[Known], after: Iterable[Known]) -> Known:
-        """Return the names supplemented by the lists for earlier and later distributions.
+        """Return this list, completed by the lists of earlier (``before``) and later (``after``) distributions.
 
-        The result is complete if one earlier and one later list are complete. Names in any of the lists may exist.
+        If one earlier and one later list are complete, so is the result, and the names of all lists may exist. Otherwise
+        the list is returned unchanged.
         """
         earlier, later = list(before), list(after)
-        sides = [next((known for known in side if known.complete), None) for side in (earlier, later)]
+        sides = [next((contents for contents in side if contents.complete), None) for side in (earlier, later)]
         if None in sides:
             return self
-        others = [name for known in (*earlier, *later) for name in known.possible]
-        maybe = dict.fromkeys(name for name in (*self.maybe, *others) if name not in self.names)
-        endings = next((known.endings for known in sides if known), ())
+        neighbours = [name for contents in (*earlier, *later) for name in contents.possible]
+        maybe = dict.fromkeys(name for name in (*self.maybe, *neighbours) if name not in self.names)
+        endings = next((contents.endings for contents in sides if contents), ())
         return Known(self.names, tuple(maybe), True, endings)
 
 
 NOTHING_KNOWN = Known()
 LAUNCH_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", ".launch")
-"""Suffixes of the files that the data count as launch files."""
+"""Suffixes of the names of launch files that the data list."""
 
 
 class ReleasedContents(NamedTuple):
@@ -83,10 +84,7 @@ class ReleasedContents(NamedTuple):
 
     name: str
     origin: str
-    """Sources that were read.
-
-    ``=`` the sources of the release, ``b`` the branch for the distribution, ``~`` the nearest tag.
-    """
+    """Which sources were read: ``=`` those of the release, ``b`` the branch for the distribution, ``~`` the nearest tag."""
     fields: Mapping[str, tuple[str, ...]]
     """Names by letter, see LETTERS.
 
@@ -94,17 +92,18 @@ class ReleasedContents(NamedTuple):
     """
 
     @property
-    def solid(self) -> bool:
+    def complete(self) -> bool:
         """True if names that are not listed do not exist."""
         return self.origin in {"=", "b"}
 
-    def known(self, offer: Offer) -> Known:
-        names = self.fields.get(LETTERS[offer], ())
+    def known(self, kind: ContentKind) -> Known:
+        """Return the names of one kind, and whether the list is complete."""
+        names = self.fields.get(LETTERS[kind], ())
         return Known(
             tuple(name for name in names if not name.endswith("?")),
             tuple(name[:-1] for name in names if name.endswith("?")),
-            self.solid,
-            LAUNCH_ENDINGS if offer == "launch" else (),
+            self.complete,
+            LAUNCH_ENDINGS if kind == "launch" else (),
         )
 
 
@@ -114,45 +113,45 @@ def parse(fields: list[str]) -> ReleasedContents:
     Raises ValueError if they are invalid.
     """
     name, origin, *rest = fields
-    found: dict[str, tuple[str, ...]] = {}
+    names_of: dict[str, tuple[str, ...]] = {}
     for field in rest:
         letter, colon, text = field.partition(":")
         if len(letter) != 1:
             raise ValueError(f"{field!r} is not a list of names")
-        # Y without names stands for the module named like the package.
+        # Y without names means the module named like the package.
         names = text.split(" ") if colon else [name]
-        found[letter] = tuple(_apart(names) if letter == LETTERS["plugins"] else names)
-    return ReleasedContents(name, origin, found)
+        names_of[letter] = tuple(_split_plugins(names) if letter == LETTERS["plugins"] else names)
+    return ReleasedContents(name, origin, names_of)
 
 
-def render(provided: ReleasedContents) -> str:
+def render(package: ReleasedContents) -> str:
     """Return the line of a package, without line end. The inverse of :func:`parse`."""
-    fields = [provided.name, provided.origin]
+    fields = [package.name, package.origin]
     for letter in LETTERS.values():
-        names = provided.fields.get(letter, ())
+        names = package.fields.get(letter, ())
         if letter == LETTERS["plugins"]:
-            names = _together(names)
-        if names == (provided.name,) and letter == "Y":
+            names = _join_plugins(names)
+        if names == (package.name,) and letter == "Y":
             fields.append(letter)
         elif names:
             fields.append(f"{letter}:{' '.join(names)}")
     return "\t".join(fields)
 
 
-def _apart(plugins: Iterable[str]) -> Iterator[str]:
+def _split_plugins(plugins: Iterable[str]) -> Iterator[str]:
     """Yield base=class for each class in base=class,class."""
     for plugin in plugins:
         base, equals, classes = plugin.partition("=")
         yield from (f"{base}{equals}{name}" for name in classes.split(","))
 
 
-def _together(plugins: Iterable[str]) -> tuple[str, ...]:
+def _join_plugins(plugins: Iterable[str]) -> tuple[str, ...]:
     """Return base=class,class for each base. The inverse of :func:`_apart`."""
-    found: dict[str, list[str]] = {}
+    classes_of: dict[str, list[str]] = {}
     for plugin in plugins:
         base, _, name = plugin.partition("=")
-        found.setdefault(base, []).append(name)
-    return tuple(f"{base}={','.join(classes)}" for base, classes in found.items())
+        classes_of.setdefault(base, []).append(name)
+    return tuple(f"{base}={','.join(classes)}" for base, classes in classes_of.items())
 
 
 def render_file(distro: str, packages: Iterable[ReleasedContents]) -> str:
@@ -167,10 +166,10 @@ class Provides(Entries[ReleasedContents]):
     def __init__(self, table: Table) -> None:
         super().__init__(table, parse)
 
-    def known(self, name: str, offer: Offer) -> Known:
+    def known(self, name: str, kind: ContentKind) -> Known:
         """Return the known names of one kind that a package provides."""
-        found = self.get(name)
-        return found.known(offer) if found else NOTHING_KNOWN
+        contents = self.get(name)
+        return contents.known(kind) if contents else NOTHING_KNOWN
 
 
 def load(store: Store, distro: str) -> Provides:

@@ -23,7 +23,7 @@ PLATFORMS: Mapping[str, tuple[str, ...]] = {
 }
 """Tier 1 platforms with Debian packages, by distribution (REP 2000).
 
-Rolling changes its platform, so either of two suffices.
+Rolling is changing its platform, so a key has to resolve on one of two.
 """
 
 LETTERS: Mapping[str, str] = {
@@ -42,7 +42,7 @@ LETTERS: Mapping[str, str] = {
 """The platforms in the data, in the order of their letters in a line."""
 
 
-class Key(NamedTuple):
+class RosdepKey(NamedTuple):
     """A rosdep key."""
 
     name: str
@@ -53,34 +53,34 @@ class Key(NamedTuple):
     pip: tuple[str, ...]
 
 
-def parse(fields: list[str]) -> Key:
+def parse(fields: list[str]) -> RosdepKey:
     """Return the key in a line, given its tab-separated fields. Raises ValueError if they are invalid."""
     name, letters, apt, pip = (*fields, "", "", "")[:4]
     unknown = set(letters) - LETTERS.keys()
     if unknown:
         raise ValueError(f"unknown platforms {sorted(unknown)}")
-    return Key(name, tuple(LETTERS[letter] for letter in letters), tuple(apt.split()), tuple(pip.split()))
+    return RosdepKey(name, tuple(LETTERS[letter] for letter in letters), tuple(apt.split()), tuple(pip.split()))
 
 
-def render(key: Key) -> str:
+def render(key: RosdepKey) -> str:
     """Return the line of a key, without line end. The inverse of :func:`parse`."""
     letters = "".join(letter for letter, platform in LETTERS.items() if platform in key.platforms)
     return "\t".join((key.name, letters, " ".join(key.apt), " ".join(key.pip))).rstrip("\t")
 
 
-def render_file(keys: Mapping[str, Key]) -> str:
+def render_file(keys: Mapping[str, RosdepKey]) -> str:
     """Return the contents of ``rosdep.tsv``."""
     platforms = " ".join(f"{letter}={platform}" for letter, platform in LETTERS.items())
     lines = sorted(render(key) for key in keys.values())
     return "\n".join([f"# key\tresolves on: {platforms}\tapt\tpip", *lines, ""])
 
 
-class Rosdep(Entries[Key]):
+class Rosdep(Entries[RosdepKey]):
     """All rosdep keys."""
 
     def __init__(self, table: Table) -> None:
         super().__init__(table, parse)
-        self._asked: dict[str, tuple[str, ...]] = {}
+        self._installing_keys: dict[str, tuple[str, ...]] = {}
 
     def resolves(self, name: str, distro: str) -> bool | None:
         """Return whether a key has a rule for a platform of a distribution; None if either is unknown."""
@@ -90,29 +90,29 @@ class Rosdep(Entries[Key]):
         return not set(platforms).isdisjoint(key.platforms)
 
     def installing(self, name: str) -> tuple[str, ...]:
-        """Return the keys that install a package with this name in apt or pip, sorted."""
-        if name not in self._asked:
-            self._asked[name] = self._installing(name) or self._installing(_pip_name(name))
-        return self._asked[name]
+        """Return the keys that install the apt or pip package of this name, sorted."""
+        if name not in self._installing_keys:
+            self._installing_keys[name] = self._installing(name) or self._installing(_pip_name(name))
+        return self._installing_keys[name]
 
     def _installing(self, name: str) -> tuple[str, ...]:
         # Names in pip have many spellings; their longest word is in each of them.
         words = [word for word in re.findall(r"[a-z0-9]+", name.lower()) if not word.startswith("python")]
         word = max(words, key=len, default="python" if name else "\n").encode()
         text, lower = self._text
-        found = []
+        keys = []
         at = lower.find(word)
         while at >= 0:
             start, end = lower.rfind(b"\n", 0, at) + 1, lower.find(b"\n", at)
             key = parse(text[start:end].decode().split("\t"))
             if name in key.apt or any(_pip_name(pip) == name for pip in key.pip):
-                found.append(key.name)
+                keys.append(key.name)
             at = lower.find(word, end + 1)
-        return tuple(found)
+        return tuple(keys)
 
     @cached_property
     def _text(self) -> tuple[bytes, bytes]:
-        """All lines, and the lines in lower case, which has the same length for bytes."""
+        """All lines as bytes, and the same in lower case. Both have the same length, so offsets are valid in both."""
         text = "".join(f"{line}\n" for line in self._table.lines()).encode()
         return text, text.lower()
 

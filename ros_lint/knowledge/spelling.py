@@ -1,8 +1,8 @@
-"""Find names similar to an unknown name.
+"""Find names that are similar to an unknown name.
 
 A fix needs the one certain name (:meth:`Spelling.same`, :meth:`Spelling.one_slip`); a hint needs near names
-(:meth:`Spelling.near`). The module also compares the name of a vendor package with its library, and the name of a
-part of a library with the whole.
+(:meth:`Spelling.near`). Further functions compare the name of a vendor package with that of its library, and the
+names of rosdep keys for a library and for a part of it.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from ros_lint.base.suggestions import similar_names
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-_SHORTEST = 5
-"""Words with fewer letters often differ by one letter only by chance, such as pcl and pil."""
+_MIN_LETTERS = 5
+"""Minimum length of a word with one wrong letter, because shorter ones such as pcl and pil are similar by chance."""
 
-_SHORTEST_SWAPPED = 4
-"""No two known names differ by swapped letters only, even if the word is short."""
+_MIN_SWAPPED = 4
+"""Minimum length of a word with two swapped letters. It may be shorter, because no two known names differ in this way."""
 
-_COMMON = 150
+_MOST_NAMES_WITH_WORD = 150
 
-_OF_PACKAGES = re.compile(r"[a-z][a-z0-9_]*")
+_PACKAGE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 
 class Spelling:
-    """Names to compare with."""
+    """The known names, for look-ups of similar ones."""
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names = sorted(set(names))
@@ -41,43 +41,43 @@ class Spelling:
         return tuple(self._plain.get(plain(name), ()))
 
     def one_slip(self, name: str) -> tuple[str, ...]:
-        """Return the names at a distance of one letter, sorted.
+        """Return the names that differ by one letter, sorted.
 
-        The letter is omitted, inserted, changed, or swapped with its successor. Changed digits do not count:
-        ``lidar_2`` is not a typo of ``lidar_1``.
+        The letter is omitted, added, changed, or swapped with the next one. Digits must be equal, because ``lidar_2`` is
+        not a typo of ``lidar_1``.
         """
-        if len(name) < _SHORTEST:
+        if len(name) < _MIN_LETTERS:
             return ()
         half = len(name) // 2
-        near = set(_beginning(self._names, name[: half - 1]))
-        near.update([found[::-1] for found in _beginning(self._backwards, name[half + 1 :][::-1])])
-        return tuple(sorted([other for other in near if -2 < len(other) - len(name) < 2 and _is_slip(name, other)]))
+        candidates = set(_with_prefix(self._names, name[: half - 1]))
+        candidates.update([reverse[::-1] for reverse in _with_prefix(self._backwards, name[half + 1 :][::-1])])
+        return tuple(sorted([word for word in candidates if -2 < len(word) - len(name) < 2 and _is_slip(name, word)]))
 
     def near(self, name: str) -> tuple[str, ...]:
-        """Return similar names, nearest first, at most three. Nearest are names of the same words reordered."""
+        """Return at most three similar names, nearest first. Names with the same words in another order come first."""
         words = _words(name)
-        alike = {other for word in words for other in self._having(word)}
-        scored = [(-_overlap(words, _words(other)), other) for other in alike]
-        candidates = [other for _, other in sorted(scored)[:30]]
-        moved = [other for other in candidates if sorted(_WORD.findall(name)) == sorted(_WORD.findall(other))]
+        alike = {candidate for word in words for candidate in self._names_with(word)}
+        scored = [(-_overlap(words, _words(candidate)), candidate) for candidate in alike]
+        candidates = [candidate for _, candidate in sorted(scored)[:30]]
+        reordered = [candidate for candidate in candidates if sorted(_WORD.findall(name)) == sorted(_WORD.findall(candidate))]
         candidates += self.one_slip(name)
-        return tuple(dict.fromkeys([*moved, *near_names(name, dict.fromkeys(candidates), 3, 0.8)]))[:3]
+        return tuple(dict.fromkeys([*reordered, *near_names(name, dict.fromkeys(candidates), 3, 0.8)]))[:3]
 
-    def _having(self, word: str) -> list[str]:
-        """Return the names with a word; none for a very common word, which is insignificant and slow."""
-        known = self._by_word.get(word)
-        if known is not None:
-            return known
-        text, same = self._lower, string.ascii_lowercase if word.isalpha() else string.digits
-        found: list[str] = []
+    def _names_with(self, word: str) -> list[str]:
+        """Return the names that contain a word; none for a very common word, which is not significant."""
+        cached = self._by_word.get(word)
+        if cached is not None:
+            return cached
+        text, word_characters = self._lower, string.ascii_lowercase if word.isalpha() else string.digits
+        names: list[str] = []
         at = text.find(word)
-        while at >= 0 and len(found) <= _COMMON:
+        while at >= 0 and len(names) <= _MOST_NAMES_WITH_WORD:
             end = at + len(word)
-            if text[at - 1] not in same and text[end] not in same:
+            if text[at - 1] not in word_characters and text[end] not in word_characters:
                 start, end = text.rfind("\n", 0, at) + 1, text.find("\n", end)
-                found += self._by_lower[text[start:end]]
+                names += self._by_lower[text[start:end]]
             at = text.find(word, end)
-        self._by_word[word] = found if len(found) <= _COMMON else []
+        self._by_word[word] = names if len(names) <= _MOST_NAMES_WITH_WORD else []
         return self._by_word[word]
 
     @cached_property
@@ -86,17 +86,17 @@ class Spelling:
 
     @cached_property
     def _by_lower(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
+        names_of: dict[str, list[str]] = {}
         for name in self._names:
-            found.setdefault(name.lower(), []).append(name)
-        return found
+            names_of.setdefault(name.lower(), []).append(name)
+        return names_of
 
     @cached_property
     def _plain(self) -> Mapping[str, list[str]]:
-        found: dict[str, list[str]] = {}
-        for name, same in zip(self._names, plain("\n".join(self._names)).split("\n"), strict=True):
-            found.setdefault(same, []).append(name)
-        return found
+        names_of: dict[str, list[str]] = {}
+        for name, plain_name in zip(self._names, plain("\n".join(self._names)).split("\n"), strict=True):
+            names_of.setdefault(plain_name, []).append(name)
+        return names_of
 
     @cached_property
     def _backwards(self) -> list[str]:
@@ -104,26 +104,28 @@ class Spelling:
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return the intended names among similar ones (:func:`ros_lint.base.suggestions.similar_names`).
+    """Return the names that are similar to ``name`` and that it may mean.
 
-    If each name has words that the other lacks, these words must resemble each other: rear_camera is not suggested
-    for front_camera. If the suggestion has more words besides, its words must begin like the lacking ones:
-    flir_camera_description is not suggested for icar_description. If several suggestions extend the name, as
-    left_arm and right_arm extend arm, none of these is returned.
+    The similar names of :func:`ros_lint.base.suggestions.similar_names`, except for
+
+    * names whose differing words do not resemble each other: not rear_camera for front_camera,
+    * names with more words, unless these begin like the differing words: not flir_camera_description for
+      icar_description,
+    * all names that extend ``name`` if there are several: neither left_arm nor right_arm for arm.
     """
     words = _words(name)
-    found = [other for other in similar_names(name, names, most, least) if _may_be_meant(words, _words(other))]
-    longer = [other for other in found if words < _words(other)]
-    return [other for other in found if other not in longer] if len(longer) > 1 else found
+    similar = [candidate for candidate in similar_names(name, names, most, least) if _may_be_intended(words, _words(candidate))]
+    longer = [candidate for candidate in similar if words < _words(candidate)]
+    return [candidate for candidate in similar if candidate not in longer] if len(longer) > 1 else similar
 
 
-def _may_be_meant(words: frozenset[str], others: frozenset[str]) -> bool:
-    lacking, more = words - others, others - words
-    if not (lacking and more):
+def _may_be_intended(words: frozenset[str], others: frozenset[str]) -> bool:
+    lacking, additional = words - others, others - words
+    if not (lacking and additional):
         return True
-    if all(similar_names(word, lacking) for word in more):
-        return all(similar_names(word, more) for word in lacking)
-    return all(any(word.startswith(other) or other.startswith(word) for other in more) for word in lacking)
+    if all(similar_names(word, lacking) for word in additional):
+        return all(similar_names(word, additional) for word in lacking)
+    return all(any(word.startswith(other) or other.startswith(word) for other in additional) for word in lacking)
 
 
 def may_be_package(name: str) -> bool:
@@ -131,11 +133,11 @@ def may_be_package(name: str) -> bool:
 
     Lower-case letters, digits and underscores after a lower-case letter.
     """
-    return _OF_PACKAGES.fullmatch(name) is not None
+    return _PACKAGE_NAME.fullmatch(name) is not None
 
 
 def plain(name: str) -> str:
-    """Return a name without its most frequent variations: dashes, underscores and capitals."""
+    """Return a name without dashes, underscores and capitals, which are its most frequent variations."""
     return name.replace("-", "").replace("_", "").lower()
 
 
@@ -144,9 +146,9 @@ VENDOR = "_vendor"
 
 
 def is_vendor(package: str, library: str) -> bool:
-    """Return whether a package is named as a vendor package of a library, which may be a name or a key.
+    """Return whether a package is named as the vendor package of ``library``, a name or a rosdep key.
 
-    The prefix may name the owner: rviz_assimp_vendor, google_benchmark_vendor.
+    Before the library, its name may have a prefix: rviz_assimp_vendor, google_benchmark_vendor.
     """
     if not package.endswith(VENDOR):
         return False
@@ -154,10 +156,10 @@ def is_vendor(package: str, library: str) -> bool:
     return _bare(library) in [_bare("_".join(words[start:])) for start in range(len(words))]
 
 
-def is_part(library: str, whole: str) -> bool:
-    """Return whether a key is for a part of the library of another key, by name: libboost-thread-dev."""
-    words = _of_library(whole)
-    return words == _of_library(library)[: len(words)]
+def is_part(part: str, key: str) -> bool:
+    """Return whether the rosdep key ``part`` is for a part of the library of ``key``: libboost-thread-dev of libboost."""
+    words = _of_library(key)
+    return words == _of_library(part)[: len(words)]
 
 
 def _of_library(key: str) -> list[str]:
@@ -175,20 +177,20 @@ def _words(name: str) -> frozenset[str]:
     return frozenset(_WORD.findall(name.lower()))
 
 
-def _overlap(left: frozenset[str], right: frozenset[str]) -> float:
-    return len(left & right) / len(left | right)
+def _overlap(first: frozenset[str], second: frozenset[str]) -> float:
+    return len(first & second) / len(first | second)
 
 
-def _beginning(ordered: list[str], beginning: str) -> list[str]:
-    start = bisect_left(ordered, beginning)
-    end = bisect_left(ordered, f"{beginning}\uffff")
+def _with_prefix(ordered: list[str], prefix: str) -> list[str]:
+    start = bisect_left(ordered, prefix)
+    end = bisect_left(ordered, f"{prefix}\uffff")
     return ordered[start:end]
 
 
-def _is_slip(one: str, other: str) -> bool:
-    """Return whether two names differ by one edit in a sufficiently long word, and not in a digit."""
-    longer, shorter = (one, other) if len(one) >= len(other) else (other, one)
-    if one == other or len(longer) - len(shorter) > 1:
+def _is_slip(name: str, other: str) -> bool:
+    """Return whether two names differ by one wrong letter in a sufficiently long word."""
+    longer, shorter = (name, other) if len(name) >= len(other) else (other, name)
+    if name == other or len(longer) - len(shorter) > 1:
         return False
     start = 0
     while start < len(shorter) and longer[start] == shorter[start]:
@@ -198,12 +200,12 @@ def _is_slip(one: str, other: str) -> bool:
     if len(longer) > len(shorter):
         alike = longer[start + 1 :] == shorter[start:]
         plural = longer[start] == "s" and not longer[start + 1 : start + 2].isalnum()
-        return alike and (plural or _word_length(longer, start) >= _SHORTEST)
+        return alike and (plural or _word_length(longer, start) >= _MIN_LETTERS)
     letters = _word_length(longer, start)
     swapped = longer[start + 1 : start + 2] + longer[start]
     if swapped == shorter[start : start + 2] and longer[start + 2 :] == shorter[start + 2 :]:
-        return letters >= _SHORTEST_SWAPPED
-    return letters >= _SHORTEST and longer[start + 1 :] == shorter[start + 1 :]
+        return letters >= _MIN_SWAPPED
+    return letters >= _MIN_LETTERS and longer[start + 1 :] == shorter[start + 1 :]
 
 
 def _word_length(name: str, at: int) -> int:

@@ -1,7 +1,7 @@
 """Data files about released packages: their folders, and look-ups of lines by name.
 
-A file is read as a whole and split into lines; only requested lines are parsed. This takes 1.3 ms for a
-distribution of 2,300 packages, while parsing all lines would take a tenth of a whole run.
+A file is read and split into lines, but only the requested lines are parsed. This takes 1.3 ms for a distribution of
+2,300 packages. To parse all lines would take a tenth of a run.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def user_directory(environ: Mapping[str, str]) -> str:
 
 
 class Store:
-    """Folders with data files. The first folder with a file wins; the shipped files come last."""
+    """Folders with data files. If several have a file, the first one counts; the shipped files come last."""
 
     __slots__ = ("places",)
 
@@ -50,7 +50,7 @@ class Store:
         self.places = (*places, SHIPPED)
 
     def find(self, name: str) -> str | None:
-        """Return the path of a data file, or None."""
+        """Return the path of a data file by its name, or None."""
         for place in self.places:
             path = os.path.join(place, name)
             if os.path.isfile(path):
@@ -58,20 +58,21 @@ class Store:
         return None
 
     def names(self, suffix: str) -> tuple[str, ...]:
-        """Return the names of all data files with a suffix, sorted, without the suffix."""
-        found: set[str] = set()
+        """Return the names of all data files with a suffix, without the suffix, sorted."""
+        names: set[str] = set()
         for place in self.places:
             try:
                 entries = os.listdir(place)
             except OSError:
                 continue
-            found.update(entry.removesuffix(suffix) for entry in entries if entry.endswith(suffix))
-        return tuple(sorted(found))
+            names.update(entry.removesuffix(suffix) for entry in entries if entry.endswith(suffix))
+        return tuple(sorted(names))
 
     def lines(self, name: str) -> tuple[str, list[str]]:
         """Return the header line of a data file and its other lines; "" and no lines if there is no file.
 
-        Raises KnowledgeError if the file cannot be read, has no header line, or differs in length from its header.
+        Raises KnowledgeError if the file cannot be read, has no header line, or has not as many lines as its header
+        states.
         """
         path = self.find(name)
         if path is None:
@@ -89,9 +90,9 @@ class Store:
             rows = body[:-1].split("\n")
         else:
             raise KnowledgeError(f"{path} is truncated in the middle of a line; {_advice(path)}")
-        wanted = _PACKAGES.search(head)
-        if wanted and int(wanted[1]) != len(rows):
-            raise KnowledgeError(f"{path} has {len(rows)} packages, but its header says {wanted[1]}; {_advice(path)}")
+        stated = _PACKAGES.search(head)
+        if stated and int(stated[1]) != len(rows):
+            raise KnowledgeError(f"{path} has {len(rows)} packages, but its header states {stated[1]}; {_advice(path)}")
         return head, rows
 
     def table(self, name: str) -> tuple[str, Table]:
@@ -116,7 +117,7 @@ def _advice(path: str) -> str:
 
 
 class Table:
-    """Lines sorted by their first field. ``path`` is the path of their file."""
+    """Lines of tab-separated fields, sorted by their first field. ``path`` is the path of their file."""
 
     __slots__ = ("_lines", "path")
 

@@ -1,6 +1,6 @@
-"""Install prefixes that a workspace is built on, read without ROS.
+"""Underlays: the install prefixes that a workspace is built on. They are read without ROS.
 
-The packages of a prefix are listed at once; everything else is read for each package at its first use.
+The packages of a prefix are listed at once; their contents are read at the first use of a package.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
 from ros_lint.base.text import read as read_text
-from ros_lint.base.tree import Machine
-from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.base.tree import MachineTree
+from ros_lint.collectors.manifest import collect
 from ros_lint.knowledge.describe import context, describe
 from ros_lint.knowledge.index import RUNTIME, Released
 from ros_lint.knowledge.install_prefix import InstallPrefix
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from ros_lint.base.tree import Tree
-    from ros_lint.knowledge.provides import Offer
+    from ros_lint.knowledge.provides import ContentKind
 
 
-_NOT_PLAIN = re.compile(rb"condition|<!DOCTYPE|<!\[CDATA\[|&|\0")
-_ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>|<export\b.*?</export\s*>", re.DOTALL)
+_NEEDS_PARSING = re.compile(rb"condition|<!DOCTYPE|<!\[CDATA\[|&|\0")
+_IGNORED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<export\b.*?</export\s*>", re.DOTALL)
 _TAG = re.compile(rb"<(?:build_export_|buildtool_export_|exec_|run_)?depend\b")
-_NAMED = re.compile(_TAG.pattern + rb"(?:\s[^>]*)?>\s*([\w.+-]+)\s*</")
+_DEPENDENCY = re.compile(_TAG.pattern + rb"(?:\s[^>]*)?>\s*([\w.+-]+)\s*</")
 """Dependency tags of the kinds in RUNTIME."""
 
 
 class UnderlayError(Exception):
-    """A folder that is not an install prefix. The message names it and describes a valid one."""
+    """A folder that is not an install prefix. The message names the folder and a valid one."""
 
 
 class Installed:
@@ -47,32 +47,32 @@ class Installed:
 
     @cached_property
     def released(self) -> Released | None:
-        """Version and dependencies, or None if unknown.
+        """Version and dependencies of the package, None if unknown.
 
-        ``share/<package>/package.xml`` is authoritative. For a package without one, such as plain CMake, the run
-        dependencies recorded by colcon or ament are used.
+        They are those in ``share/<package>/package.xml``. For a package without a manifest, such as plain CMake, they
+        are the run-time dependencies that colcon or ament recorded.
         """
         path = f"share/{self.name}/package.xml"
         data = self.prefix.read(path)
         if data is not None:
-            found = manifests.collect(read_text(path, data))
-            if found.name:
-                return describe(found, context(self._distro))._replace(name=self.name, repository=self.name)
+            manifest = collect.collect(read_text(path, data))
+            if manifest.name:
+                return describe(manifest, context(self._distro))._replace(name=self.name, repository=self.name)
         recorded = self.prefix.recorded_dependencies(self.name)
         return None if recorded is None else Released(self.name, "", "?", self.name, {"x": recorded})
 
     @cached_property
     def runtime(self) -> tuple[str, ...] | None:
-        """Names that the package provides directly, sorted, or None if unknown.
+        """Names that the package provides directly, sorted; None if unknown.
 
-        The source is that of :attr:`released`, but simple manifests are not fully parsed, because hundreds of them
-        are read only for this.
+        They are those in :attr:`released`. Simple manifests are not fully parsed, because hundreds of them are read only
+        for these names.
         """
         data = self.prefix.read(f"share/{self.name}/package.xml")
-        if data is not None and not _NOT_PLAIN.search(data):
-            bare = _ASIDE.sub(b"", data)
-            names = _NAMED.findall(bare)
-            if len(names) == len(_TAG.findall(bare)):
+        if data is not None and not _NEEDS_PARSING.search(data):
+            text = _IGNORED.sub(b"", data)
+            names = _DEPENDENCY.findall(text)
+            if len(names) == len(_TAG.findall(text)):
                 return tuple(sorted({name.decode() for name in names}))
         return None if self.released is None else self.released.on(RUNTIME)
 
@@ -81,13 +81,13 @@ class Installed:
         """Groups that the package is a member of, ``rosidl_interface_packages`` included."""
         return self.released.groups if self.released else ()
 
-    def known(self, offer: Offer) -> Known:
-        """Return the known names of one kind that the package provides.
+    def known(self, kind: ContentKind) -> Known:
+        """Return the names of one kind that the package provides. Python modules are never complete.
 
-        Develop installs may hide Python modules.
+        Modules of develop installs cannot be found, because they are outside the prefix.
         """
         prefix = self.prefix
-        match offer:
+        match kind:
             case "executables":
                 names, broken = prefix.executables(self.name)
                 return Known(names, broken, complete=True)
@@ -111,19 +111,19 @@ class Installed:
 
 
 class Underlay:
-    """A prefix, or the prefixes of all packages of one workspace. ``packages`` is sorted by name."""
+    """One install prefix, or the prefixes of all packages of a workspace. ``packages`` are sorted by name."""
 
     def __init__(self, root: str, prefixes: Sequence[InstallPrefix], distro: str = "") -> None:
         self.root = root
         self._prefixes = tuple(prefixes)
-        found: dict[str, Installed] = {}
+        packages: dict[str, Installed] = {}
         for prefix in prefixes:
             for name in prefix.packages:
-                found.setdefault(name, Installed(name, prefix, distro))
-        self.packages: Mapping[str, Installed] = dict(sorted(found.items()))
+                packages.setdefault(name, Installed(name, prefix, distro))
+        self.packages: Mapping[str, Installed] = dict(sorted(packages.items()))
 
     def headers(self, path: str) -> tuple[str, ...]:
-        """Return the packages that install a header, by its path as written between the brackets, sorted."""
+        """Return the packages that install a header, sorted. ``path`` is the text between the brackets."""
         return tuple(sorted({owner for prefix in self._prefixes for owner in prefix.header_owners(path)}))
 
     def modules(self, module: str) -> tuple[str, ...]:
@@ -136,17 +136,17 @@ class Underlay:
 
     @cached_property
     def _cmake(self) -> Mapping[str, set[str]]:
-        found: dict[str, set[str]] = {}
+        owners: dict[str, set[str]] = {}
         for prefix in self._prefixes:
             for name, owner in prefix.cmake_names():
-                found.setdefault(name, set()).add(owner)
-        return found
+                owners.setdefault(name, set()).add(owner)
+        return owners
 
 
 def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:
-    """Return the underlays at some places, in the given order: the first with a package wins.
+    """Return the underlays in ``prefixes``, in the given order: of several with a package, the first one counts.
 
-    A place is one of these; any other folder raises UnderlayError:
+    A prefix is one of these; any other folder raises UnderlayError:
 
     * an install prefix such as ``/opt/ros/jazzy``,
     * the ``install`` folder of a workspace, of either layout,
@@ -154,11 +154,11 @@ def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tre
     * a workspace with an ``install`` folder.
 
     Conditions in manifests are evaluated for ``distro``. ``base`` is the folder of the analysed workspace: its own
-    ``install`` folder is left out because it was built from the analysed packages. ``machine`` has files by
+    ``install`` folder is left out, because it was built from the analysed packages. ``machine`` is a tree of files by
     absolute path; by default it is this machine.
     """
     roots = [os.path.abspath(place) for place in prefixes]
-    tree = machine or Machine()
+    tree = machine or MachineTree()
     return tuple(in_tree(tree, root, distro) for root in roots if not (base and _belongs_to(tree, root, base)))
 
 
@@ -168,7 +168,7 @@ def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
 
 
 def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
-    """Yield the prefixes at a place. Raises UnderlayError if there is none."""
+    """Yield the prefixes in a folder, see :func:`read`. Raises UnderlayError if there is none."""
     try:
         names = [entry.name for entry in tree.list(root) if entry.kind == "directory"]
     except OSError as error:
@@ -176,15 +176,15 @@ def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
     prefix = InstallPrefix(tree, root)
     layout = prefix.layout
     if prefix.packages == (os.path.basename(root),):
-        yield prefix.alone()
+        yield prefix.marked_single()
         return
     if prefix.packages or layout == "merged":
         yield prefix
         return
-    inner = [child for child in (InstallPrefix(tree, join(root, name)) for name in names) if child.packages]
-    if inner and (layout == "isolated" or all(os.path.basename(child.root) in child.packages for child in inner)):
+    children = [child for child in (InstallPrefix(tree, join(root, name)) for name in names) if child.packages]
+    if children and (layout == "isolated" or all(os.path.basename(child.root) in child.packages for child in children)):
         # colcon creates a prefix for each package.
-        yield from (child.alone() for child in inner)
+        yield from (child.marked_single() for child in children)
     elif layout != "isolated":
         if "install" in names:
             yield from _prefixes(tree, join(root, "install"))
@@ -198,11 +198,11 @@ def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
 
 
 def _belongs_to(tree: Tree, root: str, base: str) -> bool:
-    inside, base = tree.identity(root), tree.identity(base)
-    if _below(inside, base):
+    prefix, base = tree.identity(root), tree.identity(base)
+    if _is_below(prefix, base):
         return True
-    for install in (inside, os.path.dirname(inside)):
-        if _has_file(tree, f"{install}/.colcon_install_layout") and _below(base, os.path.dirname(install)):
+    for install in (prefix, os.path.dirname(prefix)):
+        if _has_file(tree, f"{install}/.colcon_install_layout") and _is_below(base, os.path.dirname(install)):
             return True
     return False
 
@@ -215,5 +215,5 @@ def _has_file(tree: Tree, path: str) -> bool:
     return True
 
 
-def _below(path: str, folder: str) -> bool:
+def _is_below(path: str, folder: str) -> bool:
     return path == folder or path.startswith(f"{folder.rstrip('/')}/")

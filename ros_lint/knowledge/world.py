@@ -1,7 +1,7 @@
-"""All packages and keys that a workspace can use: its own packages, underlays and released packages.
+"""All packages and keys that a workspace can use, in layers: its own packages, underlays and released packages.
 
-A name is looked up in the workspace, then in the underlays, then in the index of the distribution. The first layer
-with a package hides the others, as sourced overlays do.
+A name is looked up in the workspace, then in the underlays, then in the index of the distribution. The first layer that has
+a package hides the others, as in a sourced overlay.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
     from ros_lint.knowledge import Knowledge
     from ros_lint.knowledge.index import Released
-    from ros_lint.knowledge.provides import Known, Offer
+    from ros_lint.knowledge.provides import ContentKind, Known
     from ros_lint.knowledge.underlays import Installed, Underlay
 
-_SHARED = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
-"""Names of system packages with shared libraries end with a version; headers are in other packages."""
+_SHARED_LIBRARY = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
+"""Pattern of Debian packages with a shared library, whose name ends with a version; headers are in other packages."""
 
 Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
 """Result of the look-up of a declared name.
@@ -42,7 +42,7 @@ Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable
 
 
 class Member(NamedTuple):
-    """A package of the workspace with the facts that look-ups need."""
+    """A package of the workspace, with the data that look-ups need."""
 
     name: str
     version: str
@@ -61,8 +61,8 @@ class Member(NamedTuple):
 class World:
     """Look-ups of names in all layers.
 
-    Data files and underlays are read at their first use, which may raise KnowledgeError. Of two members with one
-    name the first counts; of two underlays with one package, the first.
+    Data files and underlays are read at their first use, which may raise KnowledgeError. Of several members with one
+    name the first one counts, and of several underlays with one package the first one.
     """
 
     def __init__(
@@ -85,12 +85,12 @@ class World:
         for underlay in underlays:
             for name, installed in underlay.packages.items():
                 self._installed.setdefault(name, installed)
-        self._remembered: dict[tuple[str, str], Providers] = {}
+        self._providers: dict[tuple[str, str], Providers] = {}
         self._interfaces: dict[tuple[str, bool], frozenset[str]] = {}
         self._meant: dict[tuple[str, bool], Suggestion | None] = {}
         self._near: dict[tuple[str, bool], tuple[str, ...]] = {}
-        self._is: dict[str, tuple[bool, bool]] = {}
-        self._reach = Reach(self._brings)
+        self._is_package_or_key: dict[str, tuple[bool, bool]] = {}
+        self._reach = Reach(self._provided_directly)
 
     # --- packages -------------------------------------------------------------------------------------------------
 
@@ -107,18 +107,18 @@ class World:
         return self._look_up(name)[0]
 
     def is_key(self, name: str) -> bool:
-        """Return whether a name is a rosdep key, on whatever platform it resolves."""
+        """Return whether a name is a rosdep key, even if it resolves on other platforms only."""
         return self._look_up(name)[1]
 
-    def only_runs(self, name: str) -> bool:
-        """Return whether a name is a key for shared libraries without the files to build against them."""
+    def is_runtime_library(self, name: str) -> bool:
+        """Return whether a name is a rosdep key for shared libraries only, without the files to build against them."""
         if not name.startswith("lib") or self.is_package(name):
             return False
         key = self.knowledge.rosdep.get(name)
-        return key is not None and bool(key.apt) and all(map(_SHARED.match, key.apt))
+        return key is not None and bool(key.apt) and all(map(_SHARED_LIBRARY.match, key.apt))
 
-    def standing(self, name: str) -> Resolution:
-        """Return how a declared name resolves."""
+    def resolution(self, name: str) -> Resolution:
+        """Return how a declared name resolves, see :data:`Resolution`."""
         if self.is_package(name) or self.is_key(name):
             return "known"
         if not self.knowledge.covered:
@@ -151,36 +151,36 @@ class World:
         return released.version or None if released else None
 
     def released(self, name: str) -> Released | None:
-        """Return a package of the topmost layer below the workspace, or None."""
+        """Return the data of a package in the topmost layer below the workspace, None if there is none."""
         installed = self._installed.get(name)
         return installed.released if installed is not None else self.knowledge.index.get(name)
 
     def installed(self, name: str) -> Installed | None:
-        """Return a package of the underlays, even if the workspace hides it, or None."""
+        """Return a package in the topmost underlay that has it, even if the workspace hides it; else None."""
         return self._installed.get(name)
 
     def depends(self, name: str, kinds: Iterable[str]) -> tuple[str, ...] | None:
         """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters as in Released."""
         member = self._members.get(name)
         if member is not None:
-            return tuple(sorted({other for kind in kinds for other in member.depends.get(kind, ())}))
+            return tuple(sorted({dependency for kind in kinds for dependency in member.depends.get(kind, ())}))
         released = self.released(name)
         return released.on(kinds) if released is not None and released.described else None
 
     def dependents_below(self, name: str) -> tuple[str, ...]:
-        """Return the packages of the underlays that need a package at run time or to build against, sorted.
+        """Return the packages of the underlays that depend on a package at run time or by export, sorted.
 
-        Packages hidden by the workspace are left out.
+        Packages that the workspace hides are left out.
         """
-        found = []
-        for other, installed in self._installed.items():
-            released = None if other in self._members else installed.released
+        dependents = []
+        for dependent, installed in self._installed.items():
+            released = None if dependent in self._members else installed.released
             if released is not None and any(name in released.depends.get(kind, ()) for kind in RUNTIME):
-                found.append(other)
-        return tuple(sorted(found))
+                dependents.append(dependent)
+        return tuple(sorted(dependents))
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return the declared names with all names that they provide transitively.
+        """Return names with all names that they provide transitively.
 
         The closure follows build_export, buildtool_export and exec dependencies. For packages of the workspace it
         also follows groups, to the members that are in the workspace. A key provides the keys of the system
@@ -188,147 +188,148 @@ class World:
         """
         return self._reach.closure(names)
 
-    def closure_without(self, names: Iterable[str], package: str, gone: Container[str]) -> Closure:
-        """Return the closure of ``names`` as if ``package`` did not itself provide the names in ``gone``."""
-        return self._reach.closure_without(names, package, gone)
+    def closure_without(self, names: Iterable[str], package: str, removed: Container[str]) -> Closure:
+        """Return the closure of ``names`` as if ``package`` did not directly provide the names in ``removed``."""
+        return self._reach.closure_without(names, package, removed)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
-        """Return a shortest chain from one of ``starts`` to ``goal``, both ends included, or ()."""
+        """Return a shortest chain of dependencies from one of ``starts`` to ``goal``, with both ends, or ()."""
         return self._reach.path(starts, goal)
 
     def group_members(self, group: str) -> tuple[str, ...]:
         """Return the members of a group in all layers, sorted."""
-        found = set(self._members_of.get(group, ()))
-        found.update(name for name, installed in self._installed.items() if group in installed.groups)
-        found.update(self.knowledge.index.members(group))
-        return tuple(sorted(found))
+        names = set(self._members_of.get(group, ()))
+        names.update(name for name, installed in self._installed.items() if group in installed.groups)
+        names.update(self.knowledge.index.members(group))
+        return tuple(sorted(names))
 
     # --- what packages provide ------------------------------------------------------------------------------------
 
     def executables(self, name: str) -> Known:
-        """Return the names in lib/<package>.
+        """Return the names of a package in lib/<package>.
 
-        Like the methods below, this knows nothing of packages of the workspace.
+        Like the following methods, it returns NOTHING_KNOWN for a package of the workspace.
         """
         return self._known(name, "executables")
 
-    def lacks(self, name: str, offer: Offer, wanted: str, *, everywhere: bool) -> bool:
-        """Return whether a package is known not to provide a name.
+    def lacks(self, name: str, kind: ContentKind, wanted: str, *, everywhere: bool) -> bool:
+        """Return whether a package certainly does not provide a name of one kind.
 
-        With ``everywhere``, no distribution that contains the package may provide it.
+        With ``everywhere``, it must be missing in every distribution that contains the package.
         """
-        if self._known(name, offer).ask(wanted) != "missing":
+        if self._known(name, kind).ask(wanted) != "missing":
             return False
-        return not (everywhere and self.knowledge.offered_elsewhere(name, offer, wanted))
+        return not (everywhere and self.knowledge.may_exist_elsewhere(name, kind, wanted))
 
     def launch_files(self, name: str) -> Known:
-        """Return the launch files, relative to share/<package>."""
+        """Return the launch files of a package, relative to share/<package>."""
         return self._known(name, "launch")
 
     def components(self, name: str) -> Known:
-        """Return the component classes."""
+        """Return the component classes of a package."""
         return self._known(name, "components")
 
     def plugins(self, name: str) -> Known:
-        """Return the plugins, as base=class."""
+        """Return the plugins of a package as base=class."""
         return self._known(name, "plugins")
 
     def programs(self, name: str) -> Known:
-        """Return the names in bin."""
+        """Return the names of the programs of a package in bin."""
         return self._known(name, "programs")
 
     def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
-        """Return all interfaces that a package may have, as msg/Name; empty if they are not all known.
+        """Return all interfaces that a package may have, as msg/Name; empty if some may be unknown.
 
-        With ``everywhere``, or if nothing is known for this distribution, the other distributions that contain the
-        package count, too. The newest of them must be known completely, because interfaces of older ones are rarely
-        removed.
+        With ``everywhere``, or if nothing is known for this distribution, those in other distributions are included.
+        The list of the newest of these must be complete, because interfaces of older ones are rarely removed.
         """
         key = (name, everywhere)
         if key not in self._interfaces:
-            own = self._known(name, "interfaces")
-            known = [own]
-            if name not in self._members and (everywhere or own == NOTHING_KNOWN):
-                known += self.knowledge.known_elsewhere(name, "interfaces")
-            whole = known[-1].complete and all(k.complete and k.possible for k in known if k != NOTHING_KNOWN)
-            self._interfaces[key] = frozenset([interface for k in known for interface in k.possible]) if whole else frozenset()
+            target_contents = self._known(name, "interfaces")
+            all_contents = [target_contents]
+            if name not in self._members and (everywhere or target_contents == NOTHING_KNOWN):
+                all_contents += self.knowledge.known_elsewhere(name, "interfaces")
+            lists = [contents for contents in all_contents if contents != NOTHING_KNOWN]
+            complete = all_contents[-1].complete and all(contents.complete and contents.possible for contents in lists)
+            names = [interface for contents in lists for interface in contents.possible]
+            self._interfaces[key] = frozenset(names if complete else ())
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
-        """Return the top-level Python modules. A package of interfaces has a module of its own name.
+        """Return the top-level Python modules of a package. A package of interfaces has a module of its own name.
 
         A package that has interfaces only in other distributions may have the module: interfaces of turtlesim, for
         example, have moved to turtlesim_msgs.
         """
-        known = self._known(name, "modules")
+        modules = self._known(name, "modules")
         released = self.released(name) if self.layer(name) in ("underlay", "index") else None
-        if released is None or name in known.names:
-            return known
+        if released is None or name in modules.names:
+            return modules
         if released.interfaces:
-            return known._replace(names=(*known.names, name))
-        if known.complete and any(k.possible for k in self.knowledge.known_elsewhere(name, "interfaces")):
-            return known._replace(maybe=(*known.maybe, name))
-        return known
+            return modules._replace(names=(*modules.names, name))
+        if modules.complete and any(contents.possible for contents in self.knowledge.known_elsewhere(name, "interfaces")):
+            return modules._replace(maybe=(*modules.maybe, name))
+        return modules
 
-    # --- names that are none of packages --------------------------------------------------------------------------
+    # --- names of headers, modules and CMake packages --------------------------------------------------------------------------
 
     def exports_targets(self, name: str) -> bool:
-        """Return whether a released package is known to export everything for CMake as targets."""
+        """Return whether a released package is known to export all its libraries as CMake targets."""
         released = self.released(name)
         return released is not None and (released.interfaces or self.knowledge.names.exports_targets(name))
 
     def by_cmake(self, name: str) -> Providers:
         """Return the providers of the argument of find_package()."""
         key = ("cmake", name)
-        if key not in self._remembered:
-            self._remembered[key] = providers.by_cmake(self, name)
-        return self._remembered[key]
+        if key not in self._providers:
+            self._providers[key] = providers.by_cmake(self, name)
+        return self._providers[key]
 
     def by_macro(self, package: str) -> Providers:
-        """Return the providers of a package's macros, with equivalents of a vendor package."""
+        """Return the providers of the CMake macros of a package, including equivalent packages."""
         key = ("macro", package)
-        if key not in self._remembered:
-            self._remembered[key] = providers.by_macro(self, package)
-        return self._remembered[key]
+        if key not in self._providers:
+            self._providers[key] = providers.by_macro(self, package)
+        return self._providers[key]
 
     def by_include(self, header: str) -> Providers:
-        """Return the providers of a header, by its path as written between the brackets.
+        """Return the providers of a header. ``header`` is the text between the brackets.
 
-        Headers of the workspace are matched by package name only, so callers look for their files first.
+        Headers of the workspace are recognized by the package name only, so callers search its files first.
         """
         key = ("include", header)
-        if key not in self._remembered:
-            self._remembered[key] = providers.by_include(self, header)
-        return self._remembered[key]
+        if key not in self._providers:
+            self._providers[key] = providers.by_include(self, header)
+        return self._providers[key]
 
-    def by_folder(self, folder: str) -> Providers:
-        """Return the providers of headers below a folder whose name alone identifies the package."""
+    def by_include_folder(self, folder: str) -> Providers:
+        """Return the providers of headers below an include folder, by the name of the folder."""
         key = ("folder", folder)
-        if key not in self._remembered:
-            self._remembered[key] = providers.by_folder(self, folder)
-        return self._remembered[key]
+        if key not in self._providers:
+            self._providers[key] = providers.by_include_folder(self, folder)
+        return self._providers[key]
 
     def by_import(self, module: str) -> Providers:
         """Return the providers of a Python module, which may be dotted."""
         key = ("import", module)
-        if key not in self._remembered:
-            self._remembered[key] = providers.by_import(self, module)
-        return self._remembered[key]
+        if key not in self._providers:
+            self._providers[key] = providers.by_import(self, module)
+        return self._providers[key]
 
-    def offering(self, module: str) -> tuple[str, ...]:
-        """Return the workspace packages with a Python module: by their build script, else by their name."""
-        found = self._modules.get(module, ())
+    def packages_with_module(self, module: str) -> tuple[str, ...]:
+        """Return the workspace packages with a Python module: by their build scripts, else by the package name."""
+        packages = self._modules.get(module, ())
         member = self._members.get(module)
-        if not found and member is not None and (member.modules is None or GROUP in member.groups):
+        if not packages and member is not None and (member.modules is None or GROUP in member.groups):
             return (module,)
-        return found
+        return packages
 
     def where_else(self, name: str) -> tuple[str, ...]:
         """Return the other distributions that contain a package, oldest first."""
         return self.knowledge.elsewhere(name)
 
     def meant(self, name: str, *, python: bool = False) -> Suggestion | None:
-        """Return the name that an unknown name certainly means, or None. The result is safe for a fix.
+        """Return the name that an unknown name certainly means, or None. It is certain enough for a fix.
 
         ``python`` is True if the name is needed to run Python code.
         """
@@ -338,7 +339,7 @@ class World:
         return self._meant[key]
 
     def suggest(self, name: str, *, python: bool = False) -> tuple[str, ...]:
-        """Return packages and keys similar to an unknown name, nearest first, at most three."""
+        """Return at most three packages and keys that are similar to an unknown name, nearest first."""
         key = (name, python)
         if key not in self._near:
             self._near[key] = providers.near(self, name, python=python)
@@ -346,49 +347,49 @@ class World:
 
     @cached_property
     def spelling(self) -> Spelling:
-        """Index of all names of packages and keys, for similar names."""
-        known = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
-        return Spelling(name for names in known for name in names)
+        """All names of packages and keys, for look-ups of similar names."""
+        name_sources = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
+        return Spelling(name for names in name_sources for name in names)
 
     # --- inside ---------------------------------------------------------------------------------------------------
 
     def _look_up(self, name: str) -> tuple[bool, bool]:
-        found = self._is.get(name)
-        if found is None:
-            found = self._is[name] = (self.layer(name) is not None, name in self.knowledge.rosdep)
-        return found
+        answer = self._is_package_or_key.get(name)
+        if answer is None:
+            answer = self._is_package_or_key[name] = (self.layer(name) is not None, name in self.knowledge.rosdep)
+        return answer
 
-    def _known(self, name: str, offer: Offer) -> Known:
+    def _known(self, name: str, kind: ContentKind) -> Known:
         if name in self._members:
             return NOTHING_KNOWN
         installed = self._installed.get(name)
-        return installed.known(offer) if installed is not None else self.knowledge.provided(name, offer)
+        return installed.known(kind) if installed is not None else self.knowledge.provided(name, kind)
 
-    def _brings(self, name: str) -> tuple[str, ...] | None:
+    def _provided_directly(self, name: str) -> tuple[str, ...] | None:
         member = self._members.get(name)
         if member is not None:
-            names = [other for kind in "eux" for other in member.depends.get(kind, ())]
-            names += [other for group in member.depends.get("G", ()) for other in self._members_of.get(group, ())]
+            names = [provided for kind in "eux" for provided in member.depends.get(kind, ())]
+            names += [provided for group in member.depends.get("G", ()) for provided in self._members_of.get(group, ())]
             return tuple(names)
         installed = self._installed.get(name)
         if installed is not None:
             return installed.runtime
         if name in self.knowledge.index:
             return self.knowledge.index.runtime(name)
-        return self.knowledge.names.brought(name) if self.is_key(name) else None
+        return self.knowledge.names.provided_keys(name) if self.is_key(name) else None
 
     @cached_property
     def _members_of(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
+        members: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
             for group in member.groups:
-                found[group] = (*found.get(group, ()), member.name)
-        return found
+                members[group] = (*members.get(group, ()), member.name)
+        return members
 
     @cached_property
     def _modules(self) -> Mapping[str, tuple[str, ...]]:
-        found: dict[str, tuple[str, ...]] = {}
+        packages_of: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
             for module in member.modules or ():
-                found[module] = (*found.get(module, ()), member.name)
-        return found
+                packages_of[module] = (*packages_of.get(module, ()), member.name)
+        return packages_of

@@ -9,16 +9,17 @@ from ros_lint.base.text import Text
 from ros_lint.engine.report import Report
 from ros_lint.reporters.ansi import Style
 
-Texts = Callable[[str], Text | None]
-"""A function that returns the source of a file, or None if it cannot be read."""
-Reporter = Callable[[Report, Texts, Style], str]
+SourceTexts = Callable[[str], Text | None]
+"""A function from the path of a file to its text, or to None if it cannot be read."""
+Reporter = Callable[[Report, SourceTexts, Style], str]
+"""A function from a report to its text in one format."""
 
 
 def reporter(name: str) -> Reporter:
     """Return the reporter of a format. Raises KeyError for an unknown name."""
     if name not in FORMATS:
         raise KeyError(name)
-    # Imported by name, so that only the imports of this format are loaded.
+    # The module is imported by its name, so that only this format is loaded.
     module = importlib.import_module(f"{__name__}.{'json_report' if name == 'json' else name}")
     render: Reporter = module.render
     return render

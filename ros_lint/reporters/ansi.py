@@ -1,4 +1,4 @@
-"""Characters on a terminal: colours, widths, and escapes for control characters."""
+"""Text for a terminal: colours, the width of characters, and escapes for control characters."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ from functools import lru_cache
 from typing import NamedTuple
 
 TAB = 4
+"""Number of columns of a tab."""
 
 
 class Style(NamedTuple):
-    """The style of text for people. The caller knows the terminal."""
+    """What the terminal supports and the user wants; the caller determines it."""
 
     color: bool = False
+    """True if colours are used."""
     ascii: bool = False
     """True if only ASCII can be shown."""
     width: int = 120
@@ -36,12 +38,12 @@ _PLAIN = re.compile(r"[ -~]*\Z")
 
 
 def paint(style: Style, color: str, text: str) -> str:
-    """Return a text in a named colour, if colours are enabled."""
+    """Return a text in a colour (a key of ``_CODES``) if the style has colours, else unchanged."""
     return f"\x1b[{_CODES[color]}m{text}\x1b[0m" if style.color and text else text
 
 
 def safe(text: str, style: Style) -> str:
-    """Return a text without characters that move the cursor, change colours or the direction of writing."""
+    """Return a text with escapes for characters that move the cursor, change colours or the direction of writing."""
     return text if _PLAIN.match(text) else "".join(glyph(character, style.ascii)[0] for character in text)
 
 
@@ -60,7 +62,7 @@ def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
         return character, 1
     if character == "\t":
         return " " * TAB, TAB
-    from ros_lint.reporters.widths import columns  # noqa: PLC0415  (most runs do without)
+    from ros_lint.reporters.widths import columns  # noqa: PLC0415  (most runs do not need it)
 
     width = None if only_ascii or character < " " or character == "\x7f" else columns(character)
     if width is None:

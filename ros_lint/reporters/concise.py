@@ -9,10 +9,10 @@ from ros_lint.reporters.summary import summary
 
 if TYPE_CHECKING:
     from ros_lint.engine.report import Issue, Report
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
+def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return ``path:line:column: severity: message [rule]`` for each finding, and a summary."""
     return "".join(f"{_line(issue, style)}\n" for issue in report.issues) + summary(report, style)
 

@@ -21,22 +21,22 @@ _END = b"\xff\xff"
 
 
 def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
-    """Return the hash of each line by number, from 1. Lines that the file does not have are left out."""
-    # As UTF-8 in any case, like other tools that compute it.
+    """Return the hashes of the lines with these numbers, from 1, by number. Missing lines are left out."""
+    # The file is read as UTF-8 whatever its encoding, as other tools do that compute this hash.
     text = source.encode(source.text).decode("utf-8", "replace").removeprefix("\ufeff")
     text = re.sub(r"[ \t]+", "", re.sub(r"\r\n?", "\n", text))
     units = text.encode("utf-16-le", "surrogatepass") + _END
     result: dict[int, str] = {}
-    seen: dict[bytes, int] = {}
+    counts: dict[bytes, int] = {}
     last = max(lines, default=0)
     start = 0
     for number in range(1, last + 1):
         window = units[start : start + 2 * _UNITS]
         if not window:
             break
-        seen[window] = seen.get(window, 0) + 1
+        counts[window] = counts.get(window, 0) + 1
         if number in lines:
-            result[number] = f"{_hash(window):x}:{seen[window]}"
+            result[number] = f"{_hash(window):x}:{counts[window]}"
         start = _next_line(units, start)
         if start < 0:
             break

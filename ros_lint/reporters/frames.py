@@ -1,7 +1,8 @@
-"""Code frames: the lines of a finding, with its places underlined."""
+"""Code frames: the source lines of a finding, in which its places are underlined."""
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.reporters.ansi import Style, cells, paint, safe
@@ -10,16 +11,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from ros_lint.base.text import Span, Text
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
 
-_CUT = "..."
+_ELLIPSIS = "..."
 _CONTEXT = 20
-"""Number of columns to keep before a place in a shortened line."""
-_LONG = 8_000
-"""Number of characters of a line that are considered; no screen shows so many."""
-_HEAD, _TAIL = 3, 2
-"""Numbers of first and last lines to show of a long place."""
-_MIN_ROOM = 40
+"""Number of columns to show before a place in a shortened line."""
+_MOST_CHARACTERS = 8_000
+"""Number of characters of a line that are considered. No screen shows so many."""
+_FIRST_LINES, _LAST_LINES = 3, 2
+"""How many of its first and last lines to show of a place of many lines."""
+_MIN_WIDTH = 40
+"""Minimum number of columns for source text."""
 
 
 class Mark(NamedTuple):
@@ -33,10 +35,10 @@ class Mark(NamedTuple):
     """``^`` for the place of the finding, ``-`` for related places."""
 
 
-def frame(marks: Sequence[Mark], texts: Texts, style: Style, most: int | None = None) -> tuple[list[str], str]:
-    """Return the rows of a frame over the files of the marks, and the gutter for further rows.
+def frame(marks: Sequence[Mark], texts: SourceTexts, style: Style, most: int | None = None) -> tuple[list[str], str]:
+    """Return the rows of a frame, and the gutter (blanks) for further rows below it.
 
-    The lines of the first ``most`` files are shown. Marks in other files are shown by place and label only.
+    The frame shows the marked lines of the first ``most`` files; of marks in other files only place and label.
     """
     files: dict[str, list[Mark]] = {}
     for mark in marks:
@@ -71,8 +73,8 @@ def _is_in(mark: Mark, source: Text) -> bool:
     return 0 < mark.span.line <= source.line_count
 
 
-class _Place(NamedTuple):
-    """A mark, cut to the lines that its file has. Columns are indices from 0, the end is exclusive."""
+class _MarkRange(NamedTuple):
+    """The range of a mark, limited to the lines of its file. Columns count from 0; the end is exclusive."""
 
     line: int
     start: int
@@ -88,21 +90,21 @@ class _File:
         self._source = source
         self._digits = digits
         self._style = style
-        self._flat: list[_Place] = []
-        self._tall: list[_Place] = []
+        self._single_line: list[_MarkRange] = []
+        self._multi_line: list[_MarkRange] = []
         for mark in marks:
             place = _place(source, mark)
             if place.line == place.end_line:
-                self._flat.append(place)
-            elif any(place.line <= tall.end_line and tall.line <= place.end_line for tall in self._tall):
+                self._single_line.append(place)
+            elif any(place.line <= shown.end_line and shown.line <= place.end_line for shown in self._multi_line):
                 # There is one column of bars: of two overlapping places, only the first line of the second one is
                 # shown.
                 length = len(source.line(place.line))
-                self._flat.append(place._replace(end_line=place.line, end=max(length, place.start)))
+                self._single_line.append(place._replace(end_line=place.line, end=max(length, place.start)))
             else:
-                self._tall.append(place)
-        self._flat.sort(key=lambda place: (place.line, place.start, place.end))
-        self._room = max(style.width - digits - (5 if self._tall else 3), _MIN_ROOM)
+                self._multi_line.append(place)
+        self._single_line.sort(key=lambda place: (place.line, place.start, place.end))
+        self._width = max(style.width - digits - (5 if self._multi_line else 3), _MIN_WIDTH)
 
     def rows(self) -> Iterator[str]:
         before = 0
@@ -110,48 +112,49 @@ class _File:
             if before and number == before + 2:
                 yield from self._line(before + 1)
             elif before and number > before + 2:
-                yield self._row(_CUT, self._side(before + 1), "")
+                yield self._row(_ELLIPSIS, self._side(before + 1), "")
             yield from self._line(number)
             before = number
 
     def _numbers(self) -> list[int]:
-        numbers = {place.line for place in self._flat}
-        for place in self._tall:
+        numbers = {place.line for place in self._single_line}
+        for place in self._multi_line:
             lines = range(place.line, place.end_line + 1)
-            numbers.update(lines if len(lines) <= _HEAD + _TAIL + 1 else (*lines[:_HEAD], *lines[-_TAIL:]))
+            is_short = len(lines) <= _FIRST_LINES + _LAST_LINES + 1
+            numbers.update(lines if is_short else (*lines[:_FIRST_LINES], *lines[-_LAST_LINES:]))
         return sorted(numbers)
 
     def _line(self, number: int) -> Iterator[str]:
         """Yield the rows of a line: the source, and a row for each place that begins or ends in it."""
         line = self._source.line(number)
-        shown, widths = cells(line[:_LONG], self._style)
-        begins = [place for place in self._tall if place.line == number and not self._opens(place)]
-        flat = [place for place in self._flat if place.line == number]
-        ends = [place for place in self._tall if place.end_line == number]
-        here = [*begins, *flat, *ends]
+        shown, widths = cells(line[:_MOST_CHARACTERS], self._style)
+        beginning = [place for place in self._multi_line if place.line == number and not self._opens(place)]
+        single_line = [place for place in self._single_line if place.line == number]
+        ending = [place for place in self._multi_line if place.end_line == number]
+        marked = [*beginning, *single_line, *ending]
         side = self._side(number)
-        if (len(line) <= _LONG and sum(widths) <= self._room) or not here:
-            views = [(_view(shown, widths, 0, 0, self._room), here)]
+        if (len(line) <= _MOST_CHARACTERS and sum(widths) <= self._width) or not marked:
+            views = [(_view(shown, widths, 0, 0, self._width), marked)]
         else:
             # A line that is too long is shown once for each place in it.
-            views = [(self._around(line, *_extent(place, number)), [place]) for place in here]
+            views = [(self._around(line, *_extent(place, number)), [place]) for place in marked]
         for view, places in views:
             yield self._row(str(number), side, view.text)
             for place in places:
                 yield self._underline(place, number, view)
 
     def _around(self, line: str, start: int, end: int) -> _View:
-        """Return the part of a line around a range. Only a part of a very long line is considered."""
-        skipped = max(start - _LONG // 2, 0) if len(line) > _LONG else 0
-        shown, widths = cells(line[skipped : skipped + _LONG], self._style)
-        view = _view(shown, widths, start - skipped, min(end - skipped, len(widths)), self._room)
+        """Return the part of a line to show around a range of its characters."""
+        skipped = max(start - _MOST_CHARACTERS // 2, 0) if len(line) > _MOST_CHARACTERS else 0
+        shown, widths = cells(line[skipped : skipped + _MOST_CHARACTERS], self._style)
+        view = _view(shown, widths, start - skipped, min(end - skipped, len(widths)), self._width)
         return view._replace(skipped=skipped)
 
-    def _underline(self, place: _Place, number: int, view: _View) -> str:
+    def _underline(self, place: _MarkRange, number: int, view: _View) -> str:
         start, end = _extent(place, number)
         sign = place.mark.sign
         label = f" {safe(place.mark.label, self._style)}" if place.mark.label else ""
-        if place in self._flat:
+        if place in self._single_line:
             column = view.column(start)
             line = sign * max(view.column(end) - column, 1)
             return self._row("", self._side(number), " " * column + self._paint(place, line + label))
@@ -160,22 +163,22 @@ class _File:
         return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
 
     def _side(self, number: int) -> str:
-        """Return the bar next to a line within a place of several lines."""
-        for place in self._tall:
+        """Return the bar to the left of a source line that is within a place of several lines."""
+        for place in self._multi_line:
             if place.line < number <= place.end_line:
                 return self._paint(place, "|") + " "
             if place.line == number and self._opens(place):
                 return self._paint(place, "/") + " "
-        return "  " if self._tall else ""
+        return "  " if self._multi_line else ""
 
-    def _opens(self, place: _Place) -> bool:
+    def _opens(self, place: _MarkRange) -> bool:
         """Return whether a place is preceded only by blanks on its first line."""
         return not self._source.line(place.line)[: place.start].strip()
 
     def _row(self, number: str, side: str, text: str) -> str:
         return f"{paint(self._style, 'gutter', f'{number:>{self._digits}} |')} {side}{text}".rstrip()
 
-    def _paint(self, place: _Place, text: str) -> str:
+    def _paint(self, place: _MarkRange, text: str) -> str:
         return paint(self._style, place.mark.color, text)
 
 
@@ -184,42 +187,41 @@ class _View(NamedTuple):
 
     text: str
     columns: tuple[int, ...]
-    """The column in the shown text for each index of the line and for its end."""
+    """The column in the shown text of each character and of the end of the line."""
     skipped: int = 0
-    """Number of characters before them that were not considered."""
+    """Number of characters at the start of the line that ``columns`` leaves out."""
 
     def column(self, index: int) -> int:
+        """Return the column, in the shown text, of the character at ``index`` of the line."""
         return self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
 
 
-def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, room: int) -> _View:
-    """Return the part of a line around the range ``start`` to ``end`` that fits into ``room`` columns."""
-    at = [0]
-    for width in widths:
-        at.append(at[-1] + width)
-    if at[-1] <= room:
+def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, width: int) -> _View:
+    """Return the part of a line around the range ``start`` to ``end`` that fits into ``width`` columns."""
+    at = [0, *accumulate(widths)]
+    if at[-1] <= width:
         return _View("".join(shown), tuple(at))
     first = 0
-    if at[end] > room - len(_CUT):
+    if at[end] > width - len(_ELLIPSIS):
         while at[start] - at[first] > _CONTEXT or (first < start and widths[first] == 0):
             first += 1
-    lead = _CUT if first else ""
+    lead = _ELLIPSIS if first else ""
     last = first
-    while last < len(widths) and at[last + 1] - at[first] + len(lead) + len(_CUT) <= room:
+    while last < len(widths) and at[last + 1] - at[first] + len(lead) + len(_ELLIPSIS) <= width:
         last += 1
     offset = len(lead) - at[first]
     columns = tuple(min(max(column + offset, 0), at[last] + offset) for column in at)
-    return _View(f"{lead}{''.join(shown[first:last])}{_CUT if last < len(widths) else ''}", columns)
+    return _View(f"{lead}{''.join(shown[first:last])}{_ELLIPSIS if last < len(widths) else ''}", columns)
 
 
-def _extent(place: _Place, number: int) -> tuple[int, int]:
-    """Return the range of indices to underline on the first or last line of a place."""
+def _extent(place: _MarkRange, number: int) -> tuple[int, int]:
+    """Return the range of characters to underline in a line that is the first or last one of a place."""
     if place.line == place.end_line:
         return place.start, place.end
     return (place.start, place.start + 1) if number == place.line else (max(place.end - 1, 0), place.end)
 
 
-def _place(source: Text, mark: Mark) -> _Place:
+def _place(source: Text, mark: Mark) -> _MarkRange:
     span = mark.span
     length = len(source.line(span.line))
     start = min(span.column - 1, length)
@@ -230,5 +232,5 @@ def _place(source: Text, mark: Mark) -> _Place:
     if end_line > source.line_count:
         end_line, end = source.line_count, len(source.line(source.line_count))
     if end_line <= span.line:
-        return _Place(span.line, start, span.line, max(start, min(end, length)), mark)
-    return _Place(span.line, start, end_line, min(end, len(source.line(end_line))), mark)
+        return _MarkRange(span.line, start, span.line, max(start, min(end, length)), mark)
+    return _MarkRange(span.line, start, end_line, min(end, len(source.line(end_line))), mark)

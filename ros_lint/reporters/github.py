@@ -7,29 +7,29 @@ from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Severity
 from ros_lint.reporters.ansi import Style, safe
-from ros_lint.reporters.summary import and_list, count, crashed, summary, told
+from ros_lint.reporters.summary import and_list, count, crashed, summary, unread_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ros_lint.base.text import Span
     from ros_lint.engine.report import Issue, Report
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
 
-_SHOWN = 10
-"""Number of annotations of one level that GitHub shows for a step; others are in the log only."""
+_MOST_ANNOTATIONS = 10
+"""Number of annotations of each level that GitHub shows for a step of a workflow; the log has all of them."""
 _RELATED = 10
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:
-    """Return one workflow command for each finding, the worst first, and the summary."""
+def render(report: Report, texts: SourceTexts, style: Style) -> str:
+    """Return a workflow command for each finding, the most severe first, and the summary."""
     texts = cache(texts)
     ranked = sorted(report.issues, key=lambda issue: -issue.severity)
     problems = list(_problems(report))
-    loud = [_annotation(issue, texts, style) for issue in ranked if issue.severity is not Severity.INFO]
-    quiet = [_annotation(issue, texts, style) for issue in ranked if issue.severity is Severity.INFO]
-    lines = [*problems, *loud, *_overflow([*problems, *loud, *quiet]), *quiet]
+    prominent = [_annotation(issue, texts, style) for issue in ranked if issue.severity is not Severity.INFO]
+    notices = [_annotation(issue, texts, style) for issue in ranked if issue.severity is Severity.INFO]
+    lines = [*problems, *prominent, *_overflow([*problems, *prominent, *notices]), *notices]
     return "".join(f"{line}\n" for line in lines) + summary(report, style._replace(color=False))
 
 
@@ -47,7 +47,7 @@ def _property(text: str) -> str:
     return _data(text).replace(":", "%3A").replace(",", "%2C")
 
 
-def _annotation(issue: Issue, texts: Texts, style: Style) -> str:
+def _annotation(issue: Issue, texts: SourceTexts, style: Style) -> str:
     finding = issue.finding
     title = f"{issue.rule.name} ({issue.rule.code})"
     lines = [safe(finding.message, style)]
@@ -59,7 +59,7 @@ def _annotation(issue: Issue, texts: Texts, style: Style) -> str:
     return command(_COMMANDS[issue.severity], {"title": title, **_place(finding.span, texts)}, "\n".join(lines))
 
 
-def _place(span: Span, texts: Texts) -> dict[str, str | int]:
+def _place(span: Span, texts: SourceTexts) -> dict[str, str | int]:
     source = texts(span.path)
     path = safe(span.path, Style())
     if source is None or span.line > source.line_count:
@@ -70,18 +70,20 @@ def _place(span: Span, texts: Texts) -> dict[str, str | int]:
 
 
 def _problems(report: Report) -> Iterator[str]:
-    """Yield a command for each problem that made the run incomplete."""
+    """Yield a workflow command for each problem because of which the run is incomplete."""
     if not report.packages:
         yield command("error", {"title": "ros-lint"}, "no package found, so nothing was checked")
     for crash in report.crashes:
         yield command("error", {"title": "ros-lint"}, f"a rule failed: {safe(crashed(crash), Style())}")
     for entry in report.not_checked:
         place = _place(entry.span, lambda _: None) if entry.span else {}
-        yield command("warning", {"title": "not checked", **place}, safe(told(entry), Style()))
+        yield command("warning", {"title": "not checked", **place}, safe(unread_file(entry), Style()))
 
 
 def _overflow(lines: list[str]) -> Iterator[str]:
+    """Yield a notice if GitHub does not show all annotations."""
     numbers = {name: sum(line.startswith(f"::{name} ") for line in lines) for name in _COMMANDS.values()}
-    if max(numbers.values()) > _SHOWN:
+    if max(numbers.values()) > _MOST_ANNOTATIONS:
         counts = and_list([count(number, name) for name, number in numbers.items() if number])
-        yield command("notice", {"title": "ros-lint"}, f"{counts}: GitHub shows only {_SHOWN} of each; the log has all of them")
+        message = f"{counts}: GitHub shows only {_MOST_ANNOTATIONS} of each; the log has all of them"
+        yield command("notice", {"title": "ros-lint"}, message)

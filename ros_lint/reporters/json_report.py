@@ -1,4 +1,4 @@
-"""The json format, for programs: the whole report, see docs/output.md and report.schema.json."""
+"""The json format, for programs: the whole report. docs/output.md and report.schema.json describe it."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
     from ros_lint.analysis.finding import Fix
     from ros_lint.base.text import Span
     from ros_lint.engine.report import Issue, Report
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
     from ros_lint.reporters.ansi import Style
 
 SCHEMA_VERSION = 1
 """Increased when a key changes its meaning or is removed. New keys may be added at any time."""
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
+def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return the report as JSON."""
     document = {
         "schema_version": SCHEMA_VERSION,
@@ -32,11 +32,11 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
         "findings": [_finding(issue) for issue in report.issues],
         "hidden": [{"reason": hidden.reason, "count": hidden.count, "rules": dict(hidden.rules)} for hidden in report.hidden],
         "not_checked": [
-            {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NOWHERE)}
+            {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NO_PLACE)}
             for entry in report.not_checked
         ],
         "not_seen_through": [
-            {"what": unseen.what, "packages": len(unseen.packages), "names": list(unseen.packages)} for unseen in report.unseen
+            {"what": spot.what, "packages": len(spot.packages), "names": list(spot.packages)} for spot in report.blind_spots
         ],
         "crashes": [crash._asdict() for crash in report.crashes],
         "summary": {
@@ -70,7 +70,7 @@ def _fix(fix: Fix) -> dict[str, Any]:
     return {"title": fix.title, "safe": fix.safe, "edits": edits}
 
 
-_NOWHERE = dict.fromkeys(("path", "line", "column", "end_line", "end_column"))
+_NO_PLACE = dict.fromkeys(("path", "line", "column", "end_line", "end_column"))
 
 
 def _place(span: Span) -> dict[str, Any]:

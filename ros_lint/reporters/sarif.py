@@ -15,7 +15,7 @@ from ros_lint.base.json_text import encode
 from ros_lint.base.text import Span, Text, to_bytes
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
-from ros_lint.reporters.summary import and_list, crashed, hidden_findings, some, told
+from ros_lint.reporters.summary import and_list, crashed, hidden_findings, name_or_count, unread_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -23,23 +23,24 @@ if TYPE_CHECKING:
     from ros_lint.analysis.finding import Finding, Fix
     from ros_lint.base.edit import Edit
     from ros_lint.engine.report import Issue, Report
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
     from ros_lint.reporters.ansi import Style
 
-Object = dict[str, Any]
-Group = tuple["Issue", ...]
+JsonObject = dict[str, Any]
+IssueGroup = tuple["Issue", ...]
 
 _RESULTS = 25_000
-"""Number of results in a run from which GitHub refuses it."""
+"""Number of results of a run that GitHub accepts at most."""
 _RELATED = 100
 """Number of locations of a result that GitHub shows."""
 _LINKS = 10
+"""Number of related places to link to in a message."""
 _CONTEXT = 1000
-"""Number of characters to quote around a place."""
+"""Number of characters of the lines around a place to quote at most."""
 _ROOT = "%SRCROOT%"
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
+def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return the report as SARIF."""
     texts = cache(texts)
     groups = _groups(report.issues)
@@ -75,7 +76,7 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
             {
                 # GitHub rejects a run that is marked as failed, so errors are only in the notifications.
                 "executionSuccessful": True,
-                "toolExecutionNotifications": [*_notes(report, codes), *_cut(groups, kept)],
+                "toolExecutionNotifications": [*_notes(report, codes), *_omitted(groups, kept)],
             }
         ],
         "properties": {
@@ -90,9 +91,9 @@ def render(report: Report, texts: Texts, style: Style) -> str:  # noqa: ARG001  
     return encode({"$schema": schema, "version": "2.1.0", "runs": [run]}, 4)
 
 
-def _groups(issues: Sequence[Issue]) -> list[Group]:
-    """Group the findings of one rule in one line, because GitHub shows them as one alert."""
-    groups: dict[tuple[str, str, int], Group] = {}
+def _groups(issues: Sequence[Issue]) -> list[IssueGroup]:
+    """Group the issues of one rule in one line, because GitHub shows them as one alert."""
+    groups: dict[tuple[str, str, int], IssueGroup] = {}
     for issue in issues:
         span = issue.finding.span
         key = (issue.rule.code, span.path, span.line)
@@ -100,32 +101,32 @@ def _groups(issues: Sequence[Issue]) -> list[Group]:
     return list(groups.values())
 
 
-def _most_important(groups: list[Group]) -> list[Group]:
+def _most_important(groups: list[IssueGroup]) -> list[IssueGroup]:
     if len(groups) <= _RESULTS:
         return groups
     ranked = sorted(range(len(groups)), key=lambda index: (-_severity(groups[index]), index))
     return [groups[index] for index in sorted(ranked[:_RESULTS])]
 
 
-def _severity(group: Group) -> int:
+def _severity(group: IssueGroup) -> int:
     return max(issue.severity for issue in group)
 
 
-def _hashes(groups: Sequence[Group], texts: Texts) -> dict[tuple[str, int], str]:
-    """Return the hash of the line of each group, by path and line."""
+def _hashes(groups: Sequence[IssueGroup], texts: SourceTexts) -> dict[tuple[str, int], str]:
+    """Return the hashes of the lines of the groups, by path and line."""
     lines: dict[str, set[int]] = {}
     for group in groups:
         span = group[0].finding.span
         lines.setdefault(span.path, set()).add(span.line)
     return {
         (path, line): line_hash
-        for path, wanted in lines.items()
+        for path, numbers in lines.items()
         if (source := texts(path))
-        for line, line_hash in line_hashes(source, wanted).items()
+        for line, line_hash in line_hashes(source, numbers).items()
     }
 
 
-def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tuple[str, int], str]) -> Object:
+def _result(group: IssueGroup, codes: dict[str, int], texts: SourceTexts, hashes: dict[tuple[str, int], str]) -> JsonObject:
     first = group[0]
     finding = first.finding
     repeated = [(issue.finding.message, issue.finding.span) for issue in group[1:]]
@@ -133,7 +134,7 @@ def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tupl
     related = [*repeated, *(place for place in dict.fromkeys(places) if place not in repeated)]
     identity = " ".join(issue.identity for issue in group)
     line = hashes.get((finding.span.path, finding.span.line)) or line_hashes(Text("", identity), (1,))[1]
-    result: Object = {
+    result: JsonObject = {
         "ruleId": first.rule.code,
         "ruleIndex": codes[first.rule.code],
         "level": LEVELS[max(issue.severity for issue in group)],
@@ -154,18 +155,21 @@ def _result(group: Group, codes: dict[str, int], texts: Texts, hashes: dict[tupl
     if finding.steps:
         result["codeFlows"] = [{"threadFlows": [{"locations": list(_steps(finding))}]}]
     if fixes := dict.fromkeys(issue.finding.fix for issue in group if issue.finding.fix):
-        result["fixes"] = [_fix(fix) for fix in fixes]  # each once: the schema requires it, and one edit may fix several findings
+        result["fixes"] = [_fix(fix) for fix in fixes]  # without duplicates, as the schema requires
     return result
 
 
-def _message(message: str, related: Sequence[tuple[str, Span]], others: int) -> str:
-    """Return the message with a link to each related place, because GitHub does not show other ones."""
+def _message(message: str, related: Sequence[tuple[str, Span]], repeated: int) -> str:
+    """Return the message with links to the related places, because GitHub shows only places with a link.
+
+    The first ``repeated`` places are those of further findings.
+    """
     links = [f"[{_link(text)}]({number})" for number, (text, _) in enumerate(related[:_LINKS], 1)]
     parts = [_escape(sentence(message))]
-    if links[:others]:
-        parts.append(f"Also {and_list(links[:others])}.")
-    if links[others:]:
-        parts.append(f"See {and_list(links[others:])}.")
+    if links[:repeated]:
+        parts.append(f"Also {and_list(links[:repeated])}.")
+    if links[repeated:]:
+        parts.append(f"See {and_list(links[repeated:])}.")
     if len(related) > _LINKS:
         parts.append(f"There {'is' if len(related) == _LINKS + 1 else 'are'} {len(related) - _LINKS} more.")
     return " ".join(parts)
@@ -180,7 +184,7 @@ def _link(text: str) -> str:
     return text.translate({ord("["): "(", ord("]"): ")", ord("\\"): "/"})
 
 
-def _steps(finding: Finding) -> Iterator[Object]:
+def _steps(finding: Finding) -> Iterator[JsonObject]:
     steps = [(step.message, step.span) for step in finding.related[:_RELATED]]
     if finding.span not in (span for _, span in steps):
         steps.insert(0, (finding.message, finding.span))
@@ -188,7 +192,7 @@ def _steps(finding: Finding) -> Iterator[Object]:
         yield {"location": {**_location(span), "message": {"text": _escape(sentence(text))}}}
 
 
-def _location(span: Span) -> Object:
+def _location(span: Span) -> JsonObject:
     return {
         "physicalLocation": {
             "artifactLocation": {"uri": _uri(span.path), "uriBaseId": _ROOT},
@@ -202,7 +206,7 @@ def _uri(path: str) -> str:
     return quote(to_bytes(path), safe="/!$&'()*+,;=@") or "."
 
 
-def _region(span: Span) -> Object:
+def _region(span: Span) -> JsonObject:
     return {
         "startLine": span.line,
         "startColumn": span.column,
@@ -211,8 +215,11 @@ def _region(span: Span) -> Object:
     }
 
 
-def _primary(span: Span, source: Text | None) -> Object:
-    """Return the place of a result, cut to its first line: GitHub skips places that are partly unchanged."""
+def _primary(span: Span, source: Text | None) -> JsonObject:
+    """Return the place of a result, shortened to its first line.
+
+    In a pull request, GitHub skips places that include unchanged lines.
+    """
     if source is None or span.line > source.line_count:
         return _location(span.start())
     line = source.line(span.line)
@@ -224,22 +231,22 @@ def _primary(span: Span, source: Text | None) -> Object:
     return location
 
 
-def _context(span: Span, source: Text) -> Object:
-    """Return the region of the lines around a place in one line, or of a part of a long line."""
+def _context(span: Span, source: Text) -> JsonObject:
+    """Return the region of a line and its neighbours, or a part of the line if these are long."""
     first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
-    around = Span(span.path, first, 1, last, len(source.line(last)) + 1)
-    text = source.slice(around)
+    context = Span(span.path, first, 1, last, len(source.line(last)) + 1)
+    text = source.slice(context)
     if len(text) > _CONTEXT:
         end = min(span.end_column + _CONTEXT // 4, len(source.line(span.line)) + 1)
-        around = Span(span.path, span.line, max(span.column - _CONTEXT // 4, 1), span.line, end)
-        text = source.slice(around)
-    if around == span:
-        # It is the whole file. A context has to be larger, and the end of the file counts as a character.
-        around = around._replace(end_column=around.end_column + 1)
-    return {**_region(around), "snippet": {"text": text}}
+        context = Span(span.path, span.line, max(span.column - _CONTEXT // 4, 1), span.line, end)
+        text = source.slice(context)
+    if context == span:
+        # The place is the whole file. The context has to be larger, so the end of the file is added as a character.
+        context = context._replace(end_column=context.end_column + 1)
+    return {**_region(context), "snippet": {"text": text}}
 
 
-def _fix(fix: Fix) -> Object:
+def _fix(fix: Fix) -> JsonObject:
     edits: dict[str, list[Edit]] = {}
     for edit in fix.edits:
         edits.setdefault(edit.span.path, []).append(edit)
@@ -258,12 +265,12 @@ def _fix(fix: Fix) -> Object:
     }
 
 
-def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
-    """Yield the notifications: what the results do not contain."""
+def _notes(report: Report, codes: dict[str, int]) -> Iterator[JsonObject]:
+    """Yield the notifications: what was not checked, failed or is hidden."""
     if not report.packages:
         yield _note("NoPackage", "error", "no package was found, so nothing was checked")
     for entry in report.not_checked:
-        note = _note("NotChecked", "warning", f"not checked: {told(entry)}")
+        note = _note("NotChecked", "warning", f"not checked: {unread_file(entry)}")
         yield {**note, "locations": [_location(entry.span)]} if entry.span else note
     by_name = {rule.name: rule.code for rule in report.rules}
     for crash in report.crashes:
@@ -272,17 +279,17 @@ def _notes(report: Report, codes: dict[str, int]) -> Iterator[Object]:
         yield {**note, "associatedRule": {"id": code, "index": codes[code]}} if code in codes else note
     for hidden in report.hidden:
         yield _note("NotShown", "note", f"hidden: {hidden_findings(hidden)}")
-    for unseen in report.unseen:
-        yield _note("NotSeenThrough", "note", f"not fully analysed: {unseen.what} of {some(unseen.packages)}")
+    for spot in report.blind_spots:
+        yield _note("NotSeenThrough", "note", f"not fully analysed: {spot.what} of {name_or_count(spot.packages)}")
 
 
-def _cut(groups: Sequence[Group], kept: Sequence[Group]) -> Iterator[Object]:
+def _omitted(groups: Sequence[IssueGroup], kept: Sequence[IssueGroup]) -> Iterator[JsonObject]:
     if len(groups) > len(kept):
         omitted = f"{len(groups) - len(kept)} results of the lowest severity are left out"
         yield _note("NotShown", "warning", f"{omitted}, because GitHub accepts at most {_RESULTS}")
 
 
-def _note(name: str, level: str, message: str) -> Object:
+def _note(name: str, level: str, message: str) -> JsonObject:
     return {"descriptor": topic(name), "level": level, "message": {"text": _escape(capital(message))}}
 
 

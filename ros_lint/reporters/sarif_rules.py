@@ -14,18 +14,18 @@ LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 _PROBLEMS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "recommendation"}
 _TAGS = {"1": "workspace", "2": "dependencies", "3": "build", "4": "install", "5": "launch", "9": "ros-lint"}
 _LONGEST = 1024
-"""Largest length of a description that GitHub accepts."""
+"""Maximum length of a description that GitHub accepts."""
 
 
 def descriptor(rule: Rule, index: int) -> dict[str, Any]:
-    """Return the SARIF descriptor of a rule, which is the ``index``-th in its file."""
+    """Return the SARIF descriptor of a rule. ``index`` is its position in the list of rules, from 0."""
     summary = capital(rule.summary)
     markdown = rule.doc.strip()
     return {
         "id": rule.code,
         "name": "".join(word.capitalize() for word in rule.name.split("-")),
         "shortDescription": {"text": summary[:_LONGEST]},
-        "fullDescription": {"text": _found(markdown) or summary[:_LONGEST]},
+        "fullDescription": {"text": _first_paragraph(markdown) or summary[:_LONGEST]},
         "help": {"text": _plain(markdown) or summary, "markdown": markdown or summary},
         # The help is part of this file and may be read anywhere.
         "helpUri": f"sarif:/runs/0/tool/driver/rules/{index}/help",
@@ -40,14 +40,14 @@ def descriptor(rule: Rule, index: int) -> dict[str, Any]:
 
 
 def sentence(text: str) -> str:
-    """Return a message, which has no full stop, as a sentence. Names in it are unchanged."""
+    """Return a message as a sentence with a full stop. A question is followed by a reference to the help."""
     if text.endswith("?"):
         return f"{text} See the help of the rule."
     return text if text.endswith(".") else f"{text}."
 
 
 def capital(text: str) -> str:
-    """Return a text that does not begin with a name as a sentence."""
+    """Return a text as a sentence with a capital letter. It must not begin with a name."""
     return sentence(f"{text[:1].upper()}{text[1:]}")
 
 
@@ -55,20 +55,20 @@ def _plain(markdown: str) -> str:
     return re.sub(r"^#+ *", "", markdown, flags=re.MULTILINE)
 
 
-def _found(markdown: str) -> str:
-    """Return the first paragraph of the documentation, the section "What it finds", on one line."""
+def _first_paragraph(markdown: str) -> str:
+    """Return the first paragraph of a rule's documentation on one line, "" without one."""
     paragraphs = [part for part in re.split(r"\n\s*\n", markdown) if part.strip() and not part.lstrip().startswith("#")]
     text = " ".join(paragraphs[0].replace("`", "'").split()) if paragraphs else ""
     return sentence(text[: _LONGEST - 1].rstrip(":,;")) if text else ""
 
 
-def _topic(code: str, name: str, short: str, more: str) -> dict[str, Any]:
+def _topic(code: str, name: str, short: str, advice: str) -> dict[str, Any]:
     return {
         "id": code,
         "name": name,
         "shortDescription": {"text": short},
-        "fullDescription": {"text": f"{short} {more}"},
-        "help": {"text": f"{short} {more}"},
+        "fullDescription": {"text": f"{short} {advice}"},
+        "help": {"text": f"{short} {advice}"},
     }
 
 
@@ -109,4 +109,4 @@ TOPICS = [
 
 def topic(name: str) -> dict[str, Any]:
     """Return the reference to a kind of notification. Raises StopIteration for an unknown name."""
-    return next({"id": known["id"], "index": index} for index, known in enumerate(TOPICS) if known["name"] == name)
+    return next({"id": entry["id"], "index": index} for index, entry in enumerate(TOPICS) if entry["name"] == name)

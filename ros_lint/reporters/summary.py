@@ -21,7 +21,7 @@ _NAMED = 5
 """Number of packages or rules to name in a sentence; the others are only counted."""
 
 _FEW = 10
-"""Number of findings that need no table of rules."""
+"""Number of findings up to which no table of rules is printed."""
 
 
 def summary(report: Report, style: Style) -> str:
@@ -39,13 +39,13 @@ def and_list(words: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
-def some(packages: Sequence[str]) -> str:
-    """Return the names of packages, shortened to a number if there are many."""
+def name_or_count(packages: Sequence[str]) -> str:
+    """Return the names of a few packages as a list, or the number of many."""
     return and_list(packages) if len(packages) <= _NAMED else count(len(packages), "package")
 
 
-def blind_spots(report: Report) -> Iterator[str]:
-    """Yield sentences without a full stop about everything that was not analysed or not shown."""
+def limits(report: Report) -> Iterator[str]:
+    """Yield a sentence, without its full stop, about hidden findings and one about what was not fully analysed."""
     more: Counter[str] = Counter()
     for hidden in report.hidden:
         more.update(dict(hidden.rules))
@@ -56,22 +56,22 @@ def blind_spots(report: Report) -> Iterator[str]:
         yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
     if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
         yield f"Hidden: {'; '.join(kinds)}"
-    if report.unseen:
-        sides: dict[tuple[str, ...], list[str]] = {}
-        for unseen in report.unseen:
-            sides.setdefault(unseen.packages, []).append(unseen.what)
-        told_of = "; ".join(f"{and_list(what)} of {some(packages)}" for packages, what in sides.items())
+    if report.blind_spots:
+        facets: dict[tuple[str, ...], list[str]] = {}
+        for spot in report.blind_spots:
+            facets.setdefault(spot.packages, []).append(spot.what)
+        list_of_spots = "; ".join(f"{and_list(what)} of {name_or_count(packages)}" for packages, what in facets.items())
         why = "Checks for missing things were skipped there; 'ros-lint explain-package NAME' lists the places"
-        yield f"Not fully analysed: {told_of}. {why}"
+        yield f"Not fully analysed: {list_of_spots}. {why}"
 
 
 def hidden_findings(hidden: HiddenCount) -> str:
-    """Return the number of hidden findings, with the reason."""
+    """Return the number of hidden findings with the reason: "2 findings suppressed by comments"."""
     return f"{count(hidden.count, 'finding')} {hidden.reason}"
 
 
-def told(entry: UnreadFile) -> str:
-    """Return the place that was not checked, with the reason."""
+def unread_file(entry: UnreadFile) -> str:
+    """Return what was not checked, with its place and the reason."""
     span = entry.span
     if span is None or span.path == entry.what:
         return f"{entry.what}: {entry.reason}"
@@ -79,7 +79,7 @@ def told(entry: UnreadFile) -> str:
 
 
 def crashed(crash: Crash) -> str:
-    """Return a sentence about a crash: the rule, the package and the error."""
+    """Return the rule, the package and the error of a crash: "unused-dependency for talker: KeyError: 'a'"."""
     return f"{crash.rule}{f' for {crash.package}' if crash.package else ''}: {crash.error}"
 
 
@@ -89,15 +89,15 @@ def _lines(report: Report, style: Style) -> Iterator[str]:
     fixes = {"--fix": report.fixable(safe=True), "--fix --unsafe-fixes": report.fixable(safe=False)}
     if any(fixes.values()):
         yield f"Fixable: {and_list([f'{number} with {how}' for how, number in fixes.items() if number])}."
-    for sentence in blind_spots(report):
+    for sentence in limits(report):
         yield f"{safe(sentence, style)}."
     if report.not_checked:
         yield f"Not checked: {count(len(report.not_checked), 'item')}"
-        yield from _listed([told(entry) for entry in report.not_checked], style)
+        yield from _shortened([unread_file(entry) for entry in report.not_checked], style)
     if report.crashes:
         fault = f"This is a bug in ros-lint {report.version}; please report it:"
         yield paint(style, "error", f"{count(len(report.crashes), 'check')} failed. {fault}")
-        yield from _listed([crashed(crash) for crash in report.crashes], style)
+        yield from _shortened([crashed(crash) for crash in report.crashes], style)
         yield from (f"  {safe(line, style)}" for line in report.crashes[0].traceback.rstrip().split("\n"))
 
 
@@ -105,7 +105,7 @@ _TITLES = {Severity.ERROR: "Errors", Severity.WARNING: "Warnings", Severity.INFO
 
 
 def _by_rule(report: Report, style: Style) -> Iterator[str]:
-    """Yield a table of rules by number of findings, if there are many findings."""
+    """Yield the numbers of findings of each rule, a line for each severity, if there are many findings."""
     if len(report.issues) <= _FEW:
         return
     for severity, title in _TITLES.items():
@@ -117,21 +117,21 @@ def _by_rule(report: Report, style: Style) -> Iterator[str]:
 
 def _verdict(report: Report, style: Style) -> str:
     data = f"; package index of {report.data_date}" if report.data_date else ""
-    chosen = report.target.source if report.target.explicit else f"assumed: {report.target.source}; set with --distro"
-    world = f"for {report.target.distro} ({chosen}){data}"
+    origin = report.target.source if report.target.explicit else f"assumed: {report.target.source}; set with --distro"
+    target = f"for {report.target.distro} ({origin}){data}"
     if not report.packages:
-        return f"{paint(style, 'error', 'No package found')}, so nothing was checked {world}."
+        return f"{paint(style, 'error', 'No package found')}, so nothing was checked {target}."
     numbers = {severity: report.count(severity) for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)}
-    counts = [paint(style, str(level), _of_level(number, level)) for level, number in numbers.items() if number]
+    counts = [paint(style, str(level), _level_count(number, level)) for level, number in numbers.items() if number]
     verdict = f"Found {and_list(counts)}" if counts else paint(style, "good", "No problems found")
-    return f"{verdict} in {count(report.packages, 'package')} {world}."
+    return f"{verdict} in {count(report.packages, 'package')} {target}."
 
 
-def _of_level(number: int, severity: Severity) -> str:
+def _level_count(number: int, severity: Severity) -> str:
     return f"{number} info" if severity is Severity.INFO else count(number, str(severity))
 
 
-def _listed(entries: Sequence[str], style: Style) -> Iterator[str]:
+def _shortened(entries: Sequence[str], style: Style) -> Iterator[str]:
     yield from (f"  {safe(entry, style)}" for entry in entries[:_LISTED])
     if len(entries) > _LISTED:
         yield f"  and {len(entries) - _LISTED} more; --format json lists all of them"

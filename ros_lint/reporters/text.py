@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
     from ros_lint.analysis.finding import Fix
     from ros_lint.engine.report import Issue, Report
-    from ros_lint.reporters import Texts
+    from ros_lint.reporters import SourceTexts
 
 _PLAIN = Style()
 _RELATED = 8
 """Number of related places to show; the json format has all."""
 _FILES = 2
-"""Number of files to show lines of: a third use adds nothing. All steps of a cycle are shown."""
+"""Number of files to show lines of, except for cycles, of which all steps are shown."""
 
 
-def render(report: Report, texts: Texts, style: Style) -> str:
+def render(report: Report, texts: SourceTexts, style: Style) -> str:
     """Return the report as text."""
     texts = cache(texts)
     packages: dict[str, list[Issue]] = {}
@@ -37,7 +37,7 @@ def render(report: Report, texts: Texts, style: Style) -> str:
     return "".join(parts) + summary(report, style)
 
 
-def render_issues(issues: Iterable[Issue], texts: Texts, style: Style = _PLAIN) -> str:
+def render_issues(issues: Iterable[Issue], texts: SourceTexts, style: Style = _PLAIN) -> str:
     """Return issues as text, separated by empty lines. Infos of one rule and package are one block."""
     blocks = (_infos(block, texts, style) if len(block) > 1 else _issue(block[0], texts, style) for block in _blocks(issues))
     return "\n".join("".join(f"{row}\n" for row in block) for block in blocks)
@@ -52,7 +52,7 @@ def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
     return blocks.values()
 
 
-def _infos(issues: Sequence[Issue], texts: Texts, style: Style) -> Iterator[str]:
+def _infos(issues: Sequence[Issue], texts: SourceTexts, style: Style) -> Iterator[str]:
     """Yield the rows of a block of infos: the rule, a line for each of them, and what fixes them."""
     rule = issues[0].rule
     title = f"{len(issues)} findings of the check that {rule.summary}"
@@ -79,7 +79,7 @@ def _head(issue: Issue, style: Style) -> str:
     return paint(style, level, f"{level}[{issue.rule.code} {issue.rule.name}]")
 
 
-def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
+def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
     finding, level = issue.finding, str(issue.severity)
     marks = [Mark(finding.span, "", level, "^")]
     for number, related in enumerate(finding.related[:_RELATED], 1):
@@ -106,23 +106,23 @@ def _issue(issue: Issue, texts: Texts, style: Style) -> list[str]:
     ]
 
 
-def _preview(fixes: Sequence[Fix], texts: Texts, style: Style, gutter: str) -> Iterator[str]:
-    """Yield the changes of fixes as a diff, next to the gutter of a frame."""
+def _preview(fixes: Sequence[Fix], texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:
+    """Yield the changes of fixes as a diff below a frame, which has this gutter."""
     from ros_lint.base.diff import unified  # noqa: PLC0415
     from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (only for diffs)
 
     sources = {edit.span.path: texts(edit.span.path) for fix in fixes for edit in fix.edits}
-    known = {path: source for path, source in sources.items() if source is not None}
-    if len(known) < len(sources):
+    readable = {path: source for path, source in sources.items() if source is not None}
+    if len(readable) < len(sources):
         return
     bar = paint(style, "gutter", f"{gutter} |")
     try:
-        texts_after = apply(fixes, known.__getitem__)
+        changed_texts = apply(fixes, readable.__getitem__)
     except EditError:  # the file has changed in the meantime
         return
-    for path, changed in texts_after.items():
+    for path, changed in changed_texts.items():
         yield f"{gutter}{paint(style, 'gutter', ':::')} {safe(path, style)}"
-        for line in unified(path, known[path].text, changed).splitlines()[2:]:
+        for line in unified(path, readable[path].text, changed).splitlines()[2:]:
             color = {"+": "added", "-": "removed"}.get(line[:1], "")
             shown = safe(line, style)
             yield f"{bar} {paint(style, color, shown) if color else shown}".rstrip()

@@ -1,4 +1,4 @@
-"""How many columns a character takes on a terminal, whatever version of Unicode the Python that runs knows.
+"""The number of columns that a character takes on a terminal, independent of the running Python's version of Unicode.
 
 Source: DerivedGeneralCategory.txt and EastAsianWidth.txt of Unicode 15.1.0.
 """
@@ -14,7 +14,7 @@ _HIDDEN: Final = """
 80-9f ad 600-605 61c 6dd 70f 890-891 8e2 180e 200b-200f 2028-202e 2060-2064 2066-206f d800-dfff feff fff9-fffb 110bd
 110cd 13430-1343f 1bca0-1bca3 1d173-1d17a e0001 e0020-e007f
 """
-# Marks that stand on the character before them, and Hangul vowels and finals, which join the syllable before them.
+# Marks that are drawn over the preceding character, and Hangul vowels and finals, which join the preceding syllable.
 _JOINING: Final = """
 300-36f 483-489 591-5bd 5bf 5c1-5c2 5c4-5c5 5c7 610-61a 64b-65f 670 6d6-6dc 6df-6e4 6e7-6e8 6ea-6ed 711 730-74a 7a6-7b0
 7eb-7f3 7fd 816-819 81b-823 825-827 829-82d 859-85b 898-89f 8ca-8e1 8e3-903 93a-93c 93e-94f 951-957 962-963 981-983 9bc

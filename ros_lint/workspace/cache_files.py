@@ -89,7 +89,7 @@ def load(path: str, state: str) -> Any:
     try:
         if not files.is_private(os.path.dirname(path)):
             return None
-        head, _, body = files.read(path, _MAX_BYTES, links=False, own=True).partition(b"\n")
+        head, _, body = files.read(path, _MAX_BYTES, links=False, private=True).partition(b"\n")
         return Facts(io.BytesIO(body)).load() if head == _head(state, body) else None
     except Exception:  # the errors of a damaged pickle are not limited: MemoryError, RecursionError, OverflowError and others
         return None

@@ -22,7 +22,7 @@ from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
 from ros_lint.knowledge import Knowledge
-from ros_lint.knowledge.providers import offered
+from ros_lint.knowledge.providers import importable_modules
 from ros_lint.knowledge.underlays import Underlay
 from ros_lint.knowledge.world import Member, World
 from ros_lint.workspace import launch_modules
@@ -74,7 +74,7 @@ class Loader:
     ) -> None:
         self.tree = tree
         self.pinned: dict[str, bytes] = {}
-        """Contents of files as read by :meth:`hold`."""
+        """Contents of files as read by :meth:`pin`."""
         self._original_tree = tree
         self.target = target
         self._context = target.context
@@ -206,7 +206,7 @@ class Loader:
 
     def _members(self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest]) -> Iterator[Member]:
         for package, declared, script, *_ in read_packages:
-            modules = offered(script, package.files) if script else None
+            modules = importable_modules(script, package.files) if script else None
             yield _member(package.name, package.manifest, declared)._replace(modules=modules)
         for manifest in rejected:
             if manifest.name:

@@ -21,7 +21,7 @@ from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
-    from ros_lint.knowledge.provides import Offer
+    from ros_lint.knowledge.provides import ContentKind
     from ros_lint.knowledge.world import World
 
 
@@ -232,17 +232,17 @@ class Workspace:
         return packages
 
     def called(self, name: str) -> tuple[Package, ...]:
-        """Return the packages with a name: the name in ``package.xml``, else the name that colcon uses."""
+        """Return the packages with this name in ``package.xml``; if there are none, those with this name in colcon."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
-    def surely_lacks(self, owner: str, offer: Offer, name: str) -> bool:
+    def surely_lacks(self, owner: str, kind: ContentKind, name: str) -> bool:
         """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 
-        Packages of the workspace have been searched. A released package must be known to lack it: in every
-        distribution, unless the user chose one.
+        True for packages of the workspace, because they have been searched. A released package must lack ``name`` in
+        the distribution that the user chose, or in every distribution.
         """
-        return owner in self.by_name or self.world.lacks(owner, offer, name, everywhere=not self.target.explicit)
+        return owner in self.by_name or self.world.lacks(owner, kind, name, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
         """Return whether a file of the package, or of the workspace if None, could not be read.

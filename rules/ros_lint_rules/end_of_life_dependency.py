@@ -37,7 +37,7 @@ from ros_lint.api import Confidence, Facet, Finding, Package, Role, Rule, Severi
 def check(workspace: Workspace) -> Iterator[Finding]:
     world = workspace.world
     for name, packages in dependencies.declared_names(workspace).items():
-        if world.standing(name) != "end-of-life":
+        if world.resolution(name) != "end-of-life":
             continue
         known_successor = world.successor(name)
         last = world.knowledge.names.end_of_life(name)[0]

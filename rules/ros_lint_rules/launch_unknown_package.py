@@ -154,7 +154,7 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
         idle = not (launch_file.installed or hidden)
         for reference in launch_file.file.references:
             name = reference.package
-            unknowable = workspace.world.standing(name) == "unknowable" or name in workspace.world.awaited.uncloned
+            unknowable = workspace.world.resolution(name) == "unknowable" or name in workspace.world.awaited.uncloned
             if "$" in name or reference.kind == "program" or unknowable:
                 continue  # a template, a program without a package, or a submodule that is not cloned
             if not workspace.world.is_package(name) and name != package.name and not reference.optional:

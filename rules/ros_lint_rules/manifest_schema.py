@@ -37,6 +37,7 @@ group_depend, member_of_group, export. Another fix corrects the format in the ad
 - There is no fix if an element to be moved has a comment, shares its line with another element, or is a description or an export.
 - Only the schemas in `http://download.ros.org/schema/` are known. A manifest that names another address is validated by the
   schema of its format, with medium confidence.
+- A manifest of more than 100,000 characters is not validated.
 - A manifest in UTF-16 is not validated, because versions of `xmllint` differ.
 - Only `package.xml` is validated. `ament_xmllint` checks all XML files of the package.
 """

@@ -188,7 +188,7 @@ def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
     modules = (f"Find{name}.cmake", *build.config_names(name))
     if package.declares(name) or any(file.endswith(modules) for file in package.files):
         return True
-    return world.standing(name) != "unknown" or world.by_cmake(name).known
+    return world.resolution(name) != "unknown" or world.by_cmake(name).known
 
 
 def _is_plain(name: str) -> bool:

@@ -107,7 +107,7 @@ def _runtime(package: Package, workspace: Workspace, place: Span, sure: Confiden
         return
     closure = workspace.world.closure(starts)
     needed = workspace.world.closure([_RUNTIME])
-    only_itself = len(needed) > 1 and set(needed.less(closure)) == {_RUNTIME}
+    only_itself = len(needed) > 1 and set(needed.difference(closure)) == {_RUNTIME}
     provided = _RUNTIME in closure or bool(closure.unknown) or only_itself
     tag = "run_depend" if package.manifest and package.manifest.format == 1 else "exec_depend"
     yield Finding(

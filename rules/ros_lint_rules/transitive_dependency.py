@@ -142,7 +142,7 @@ def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tu
     purpose = next((roles for roles in _PURPOSES if best.role & roles), ~Role(0))
     same = [declared.name for declared in package.declared if declared.role & purpose]
     for starts in (dict.fromkeys(same), dict.fromkeys(declared.name for declared in package.declared)):
-        for name in sorted(best.providers, key=workspace.world.only_runs):
+        for name in sorted(best.providers, key=workspace.world.is_runtime_library):
             if path := workspace.world.path(starts, name):
                 return path
     return (need.name,)

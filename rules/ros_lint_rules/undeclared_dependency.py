@@ -164,7 +164,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
 
 def _suggestion(name: str, workspace: Workspace) -> str:
     """Return the package that an unresolved name most likely means: a near match or one with a prefix; "" if ambiguous."""
-    if workspace.world.standing(name) != "unknown":
+    if workspace.world.resolution(name) != "unknown":
         return ""
     meant = workspace.world.meant(name)
     if meant is not None and workspace.world.is_package(meant.name):

@@ -331,13 +331,13 @@ def _is_unavailable(package: Package, workspace: Workspace, use: Use) -> bool:
 
     Only headers of interfaces and headers of packages of other distributions are known to belong to a package.
     """
-    unavailable = workspace.world.standing(use.package) in ("unknown", "elsewhere")
+    unavailable = workspace.world.resolution(use.package) in ("unknown", "elsewhere")
     return unavailable and use.name.startswith(f"{use.package}/") and bool(package.declares(use.package) & ~Role.TEST)
 
 
 def _compilable_elsewhere(package: Package, workspace: Workspace, script: BuildScript) -> set[str]:
     """Return the installed headers that other packages can compile."""
-    standing = workspace.world.standing
+    standing = workspace.world.resolution
     old = {package.relative(use.span.path) for use in _includes(package) if standing(use.package) == "end-of-life"}
     return _installed(script).difference(package.unusable_headers, old)
 

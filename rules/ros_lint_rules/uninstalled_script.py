@@ -53,7 +53,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     installed = script.products.installed
     nodes = {package.relative(use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}
-    standing = workspace.world.standing
+    standing = workspace.world.resolution
     excluded = installed.union(script.files.build_inputs)
     excluded |= {package.relative(use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
     with_nodes = Counter([file.rpartition("/")[0] for file in nodes & installed])

@@ -59,7 +59,7 @@ _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 def check(workspace: Workspace) -> Iterator[Finding]:
     renamed: dict[tuple[str, str], dependencies.UnresolvedDependency] = {}
     for name, packages in dependencies.declared_names(workspace).items():
-        if workspace.world.standing(name) == "unknown":
+        if workspace.world.resolution(name) == "unknown":
             for stranger in dependencies.unresolved(name, packages):
                 if not name:
                     yield _needless(stranger, f"an empty <{stranger.declared.depend.tag}> declares nothing and makes rosdep fail")

@@ -38,13 +38,13 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if world.is_key(name):
             if dependencies.is_unresolvable_key(workspace, name):
                 yield from (_key(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
-        elif workspace.target.explicit and world.standing(name) == "elsewhere":
+        elif workspace.target.explicit and world.resolution(name) == "elsewhere":
             yield from (_package(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
 
 
 def _key(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
-    anywhere = knowledge.resolving(name)
+    anywhere = knowledge.distros_resolving(name)
     meant = workspace.world.meant(name, python=stranger.runs_python)
     place = f"{knowledge.platform}, the platform of {distro}" if anywhere else "any Ubuntu that ROS 2 supports"
     remedy = f"use '{meant.name}'" if meant else "use another key, or add a rule to rosdistro"

@@ -88,7 +88,7 @@ def _lost_above(
     if not removed_names:
         return None
     uses_by_name = _undeclared_uses_by_name(workspace)
-    lost_names = world.closure(removed_names).less(world.closure(remaining_names))
+    lost_names = world.closure(removed_names).difference(world.closure(remaining_names))
     for name in sorted(uses_by_name.keys() & set(lost_names)):
         for dependent, use in uses_by_name[name]:
             starts = [declared.name for declared in dependent.declared]

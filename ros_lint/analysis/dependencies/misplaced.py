@@ -104,8 +104,8 @@ def _may_provide(closure: Closure, name: str, workspace: Workspace) -> bool:
     """Return whether a dependency may provide a name: an unknown one, or any in the distribution of the user."""
     if may_provide(closure.unknown, name, workspace):
         return True
-    brings = workspace.world.knowledge.brings_elsewhere
-    return not workspace.target.explicit and any(brings(dependency, name) for dependency in closure)
+    provides = workspace.world.knowledge.provides_elsewhere
+    return not workspace.target.explicit and any(provides(dependency, name) for dependency in closure)
 
 
 def _of_phase(phase: _Phase, uses: Iterable[Use]) -> list[Use]:

@@ -86,9 +86,11 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
     declared = frozenset([declared.depend.name for declared in package.declared])
     closure = all_declared(package, workspace)
     closure_of = workspace.world.closure
-    only_runs = workspace.world.only_runs
+    is_runtime_library = workspace.world.is_runtime_library
     result = [
-        need for name, uses in uses_by_package.items() for need in _needs(name, uses, declared, closure, closure_of, only_runs)
+        need
+        for name, uses in uses_by_package.items()
+        for need in _needs(name, uses, declared, closure, closure_of, is_runtime_library)
     ]
     result.sort(key=_place)
     return tuple(result)
@@ -106,12 +108,12 @@ def _needs(
     declared: frozenset[str],
     closure: Closure,
     closure_of: Callable[[tuple[str, ...]], Closure],
-    only_runs: Callable[[str], bool],
+    is_runtime_library: Callable[[str], bool],
 ) -> Iterator[Need]:
     """Yield the needs that some uses of a name result in. ``uses`` is sorted by place.
 
     Each use has to be satisfied by its own providers. Examples: find_package(Eigen3) by its find module, a header of
-    Eigen by the library. A key that ``only_runs`` does not satisfy a build use.
+    Eigen by the library. A key that ``is_runtime_library`` does not satisfy a build use.
     """
     if len(uses) > 1:
         uses.sort(key=_rank)
@@ -130,14 +132,15 @@ def _needs(
     }
     for names, direct in matches.items():
         direct += [provider for provider in sorted(vendors) if provider not in direct and is_vendor(provider, names[0])]
-    built = {use.providers for use in uses if use.role & Role.BUILD} if not only_runs(name) else set()
+    built = {use.providers for use in uses if use.role & Role.BUILD} if not is_runtime_library(name) else set()
     for names in built:
-        if matches[names] and all(map(only_runs, matches[names])):
+        if matches[names] and all(map(is_runtime_library, matches[names])):
             matches[names] = []
     unprovided = [
         names
         for names, direct in matches.items()
-        if not direct and not any(provider in closure and not (names in built and only_runs(provider)) for provider in names)
+        if not direct
+        and not any(provider in closure and not (names in built and is_runtime_library(provider)) for provider in names)
     ]
     provided = [names for names, direct in matches.items() if not direct and names not in unprovided]
     if names := tuple(dict.fromkeys([provider for direct in matches.values() for provider in direct])):

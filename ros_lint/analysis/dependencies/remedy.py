@@ -117,9 +117,9 @@ def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[st
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
         from ros_lint.base.graph_paths import paths  # noqa: PLC0415  (few needs are circular)
 
-        return paths(lambda package_name: sorted(graph.arcs[package_name]), name, package.colcon_name, 1).found[0]
+        return paths(lambda package_name: sorted(graph.arcs[package_name]), name, package.colcon_name, 1).paths[0]
     world = workspace.world
-    if not world.is_package(name) and world.knowledge.brings_elsewhere(name, package.name):
+    if not world.is_package(name) and world.knowledge.provides_elsewhere(name, package.name):
         return (name, package.name)
     return world.path((name,), package.name)
 
@@ -138,7 +138,7 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
     world, knowledge = workspace.world, workspace.world.knowledge
     if world.is_package(name) or not world.is_key(name) or knowledge.resolves(name) is not False:
         return False
-    return workspace.target.explicit or not knowledge.resolving(name)
+    return workspace.target.explicit or not knowledge.distros_resolving(name)
 
 
 def is_of_pip(workspace: Workspace, name: str) -> bool:
@@ -149,4 +149,4 @@ def is_of_pip(workspace: Workspace, name: str) -> bool:
 
 def _where(workspace: Workspace, name: str) -> str:
     knowledge = workspace.world.knowledge
-    return f" on {knowledge.platform}, the platform of {workspace.target.distro}" if knowledge.resolving(name) else ""
+    return f" on {knowledge.platform}, the platform of {workspace.target.distro}" if knowledge.distros_resolving(name) else ""

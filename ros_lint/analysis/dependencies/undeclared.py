@@ -59,7 +59,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.certain for use in need.uses))
         sure = sure and not (_looks_into_nothing(need, workspace) or is_declared_misspelled(package, workspace, need))
-        if workspace.world.standing(need.name) != "known":
+        if workspace.world.resolution(need.name) != "known":
             if provided_in_other_distros(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
             sure = sure and not (workspace.target.explicit and workspace.world.where_else(need.name))
@@ -102,7 +102,7 @@ def provided_in_other_distros(package: Package, workspace: Workspace, name: str)
     for name_here, namesakes in workspace.by_name.items():
         if name_here in closure:
             starts.update(declared.name for namesake in namesakes for declared in namesake.declared)
-    return workspace.world.knowledge.comes_elsewhere(starts, name)
+    return workspace.world.knowledge.is_in_closure_elsewhere(starts, name)
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:

@@ -30,7 +30,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
     library = (workspace.world.is_key(name) and not name.startswith("python3-")) or name.endswith(VENDOR)
     plumbing = name.startswith(("rosidl_", "builtin_", "action_msgs", "service_msgs", "unique_identifier_msgs"))
     for unknown_name in unknown:
-        brings = workspace.world.knowledge.brings_elsewhere(unknown_name, name)
+        brings = workspace.world.knowledge.provides_elsewhere(unknown_name, name)
         if brings:
             return True
         if brings is None and (
@@ -61,12 +61,12 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
     if any(words & _words(unknown_name) for unknown_name in unknown):
         return False
     world = workspace.world
-    if world.standing(name) == "elsewhere":
+    if world.resolution(name) == "elsewhere":
         return False  # packages of that distribution provide it
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
     if most < 1 or any(name in world.closure((local,)) for local in workspace.by_name if local != name):
         return False
-    return world.knowledge.index.bringing(name, most) <= most
+    return world.knowledge.index.count_providers(name, most) <= most
 
 
 _CHANCE = 0.05

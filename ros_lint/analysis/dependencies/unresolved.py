@@ -110,7 +110,7 @@ def misspelled_names(package: Package, workspace: Workspace) -> Mapping[str, str
 def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDependency]:
     known = declared_names(workspace)
     for name in dict.fromkeys([declared.name for declared in package.declared]):
-        if workspace.world.standing(name) == "unknown" and package in known.get(name, ()):
+        if workspace.world.resolution(name) == "unknown" and package in known.get(name, ()):
             yield from unresolved(name, [package])
 
 

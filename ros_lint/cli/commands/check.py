@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
 from ros_lint.analysis.finding import Severity
-from ros_lint.base.tree import Machine, RecordedTree, text_of
-from ros_lint.cli import session as opening
+from ros_lint.base.tree import MachineTree, RecordedTree, text_of
 from ros_lint.cli.progress import Progress
+from ros_lint.cli.session import UsageError, no_packages, open_session, parse_request, report_cache
 from ros_lint.engine.report import Report
 from ros_lint.errors import UserError
 
@@ -25,41 +25,39 @@ if TYPE_CHECKING:
     from ros_lint.engine.selection import Selection
     from ros_lint.reporters.ansi import Style
 
-Said = Mapping[str, Any]
 
-
-def run(said: Said) -> int:
-    """Check the requested workspace, print the findings, return the exit code."""
-    if said.get("version"):
+def run(options: Mapping[str, Any]) -> int:
+    """Check the requested workspace and print the findings. Returns the exit code."""
+    if options.get("version"):
         print(f"ros-lint {__version__}")
         return 0
-    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
         with progress:
-            asked = opening.parse_request(said, os.environ)
-            _warn(asked.settings.warnings)
-            if asked.settings["show-settings"]:
-                print(asked.settings.show(), end="")
+            request = parse_request(options, os.environ)
+            _warn(request.settings.warnings)
+            if request.settings["show-settings"]:
+                print(request.settings.show(), end="")
                 return 0
-            known = _known(asked.settings)
-            if asked.settings["fix"] or asked.settings["diff"]:
+            known_findings = _baseline(request.settings)
+            if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = fix.run(opening.open_session(asked, progress.tell), _selection(asked.settings))
+                report, code = fix.run(open_session(request, progress.update), _selection(request.settings))
             else:
-                report, code = _checked(asked, progress), 0
-            if asked.settings["write-baseline"]:
-                return max(code, _keep(report, asked))
-            if known is not None:
-                path = asked.settings["baseline"]
-                report = known.without(report, os.path.basename(path), _folders(asked, path))
+                report, code = _report(request, progress), 0
+            if request.settings["write-baseline"]:
+                return max(code, _write_baseline(report, request))
+            if known_findings is not None:
+                path = request.settings["baseline"]
+                report = known_findings.hide_known(report, os.path.basename(path), _folders(request, path))
     except UserError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    _warn((*report.warnings, *_alone(asked)))
-    if asked.settings["diff"]:  # standard output is the patch and nothing else
-        return max(code, exit_code(report, asked.settings["fail-on"]))
-    return max(code, _print(report, asked))
+    _warn((*report.warnings, *_single_package_warning(request)))
+    if request.settings["diff"]:  # standard output is the patch and nothing else
+        return max(code, exit_code(report, request.settings["fail-on"]))
+    return max(code, _print(report, request))
 
 
 def _warn(warnings: Iterable[str]) -> None:
@@ -67,16 +65,13 @@ def _warn(warnings: Iterable[str]) -> None:
         print(f"ros-lint: {warning}", file=sys.stderr)
 
 
-def _known(settings: Settings) -> Baseline | None:
-    """Return the baseline, or None if there is none.
-
-    Raises BaselineError, and UsageError for conflicting options.
-    """
+def _baseline(settings: Settings) -> Baseline | None:
+    """Return the baseline to apply, or None. Raises BaselineError, and UsageError for conflicting options."""
     path, write = settings["baseline"], settings["write-baseline"]
     if write and not path:
-        raise opening.UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
+        raise UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
     if write and settings["diff"]:
-        raise opening.UsageError("--write-baseline and --diff cannot be combined, because --diff writes no files")
+        raise UsageError("--write-baseline and --diff cannot be combined, because --diff writes no files")
     if write or not path:
         return None
     from ros_lint.engine import baseline  # noqa: PLC0415
@@ -84,61 +79,61 @@ def _known(settings: Settings) -> Baseline | None:
     return baseline.read(path)
 
 
-def _keep(report: Report, asked: Request) -> int:
-    """Write the findings to the baseline, unless the report is incomplete. Raises BaselineError."""
+def _write_baseline(report: Report, request: Request) -> int:
+    """Write the findings to the baseline, unless the run failed. Returns the exit code. Raises BaselineError."""
     from ros_lint.engine import baseline  # noqa: PLC0415
 
-    path = asked.settings["baseline"]
+    path = request.settings["baseline"]
     if code := exit_code(report, "never"):
-        why = "a rule failed, so its findings are unknown" if report.packages else opening.no_packages(asked)
+        why = "a rule failed, so its findings are unknown" if report.packages else no_packages(request)
         print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
         return code
-    baseline.write(path, report, _folders(asked, path))
+    baseline.write(path, report, _folders(request, path))
     count = len(report.issues)
     print(f"ros-lint: wrote {count} finding{'s' * (count != 1)} to {path}", file=sys.stderr)
     return 0
 
 
-def _folders(asked: Request, path: str) -> list[str]:
-    """Return the requested paths, relative to the folder of a file."""
+def _folders(request: Request, path: str) -> list[str]:
+    """Return the requested paths, relative to the folder of the file ``path``."""
     folder = os.path.dirname(os.path.realpath(path))
-    return [os.path.relpath(os.path.join(asked.base, root), folder).replace(os.sep, "/") for root in asked.roots]
+    return [os.path.relpath(os.path.join(request.base, root), folder).replace(os.sep, "/") for root in request.roots]
 
 
-def _alone(asked: Request) -> Iterator[str]:
-    """Yield a warning if a single package of a workspace is checked: its siblings are unknown then."""
-    root = os.path.join(asked.base, asked.roots[0]) if asked.roots[0] else asked.base
+def _single_package_warning(request: Request) -> Iterator[str]:
+    """Yield a warning if a single package of a workspace is checked, because its sibling packages are not read."""
+    root = os.path.join(request.base, request.roots[0]) if request.roots[0] else request.base
     manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
-    if len(asked.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
+    if len(request.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
         return
     from ros_lint.cli.commands.query import enclosing_workspace  # noqa: PLC0415
 
-    around = enclosing_workspace(manifest)
-    if around != root:
-        what, where = os.path.relpath(root, around), os.path.relpath(around)
+    workspace = enclosing_workspace(manifest)
+    if workspace != root:
+        what, where = os.path.relpath(root, workspace), os.path.relpath(workspace)
         yield f"'{what}' was checked without its sibling packages; run 'ros-lint {where}' for the whole workspace"
 
 
-def _checked(asked: Request, progress: Progress) -> Report:
+def _report(request: Request, progress: Progress) -> Report:
     """Return the report of a run, or the cached one if nothing that it depends on has changed."""
-    reports = opening.reports(asked)
-    disks = asked.disk, Machine()
+    cache = report_cache(request)
+    disks = request.disk, MachineTree()
     recorded = [RecordedTree(disk) for disk in disks]
-    if kept := reports.fetch(recorded):
-        return kept
-    opened = opening.open_session(asked, progress.tell, *(recorded if reports else disks))
+    if cached := cache.fetch(recorded):
+        return cached
+    session = open_session(request, progress.update, *(recorded if cache else disks))
     from ros_lint.engine import registry  # noqa: PLC0415
-    from ros_lint.engine.check import Context, check  # noqa: PLC0415
+    from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
-    context = Context(registry.load(asked.settings["plugins"]), opened.knowledge.date, opened.folder, opened.warnings)
-    workspace = opened.loader.load()
-    report = check(workspace, opened.loader.suppressions(), _selection(asked.settings), context)
-    reports.store(recorded, report)
+    context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.folder, session.warnings)
+    workspace = session.loader.load()
+    report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
+    cache.store(recorded, report)
     return report
 
 
 def _selection(settings: Settings) -> Selection:
-    """Return the rules that the settings select. Raises SelectionError and PluginError."""
+    """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
     from ros_lint.engine import registry  # noqa: PLC0415  (not needed for a cached report)
     from ros_lint.engine.selection import select  # noqa: PLC0415
 
@@ -154,7 +149,10 @@ def _selection(settings: Settings) -> Selection:
 
 
 def exit_code(report: Report, fail_on: str) -> int:
-    """Return 2 if the run was incomplete, 1 for findings at or above ``fail_on``, else 0."""
+    """Return 2 if no package was found or a rule crashed, 1 for findings at or above ``fail_on``, else 0.
+
+    ``fail_on`` is a severity or "never".
+    """
     if not report.packages or report.crashes:
         return 2
     if fail_on == "never":
@@ -162,12 +160,13 @@ def exit_code(report: Report, fail_on: str) -> int:
     return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
 
 
-def _print(report: Report, asked: Request) -> int:
+def _print(report: Report, request: Request) -> int:
+    """Print a report or write it to a file. Returns the exit code."""
     from ros_lint import reporters  # noqa: PLC0415
 
-    settings = asked.settings
+    settings = request.settings
     render = reporters.reporter(settings["format"])
-    data = render(report, partial(text_of, asked.disk), _style(settings)).encode("utf-8", "backslashreplace")
+    data = render(report, partial(text_of, request.disk), _style(settings)).encode("utf-8", "backslashreplace")
     if settings["output"]:
         from ros_lint.engine import edits  # noqa: PLC0415  (few runs write a file)
 
@@ -180,7 +179,7 @@ def _print(report: Report, asked: Request) -> int:
         sys.stdout.buffer.write(data)
         sys.stdout.buffer.flush()
     if not report.packages:
-        print(opening.no_packages(asked), file=sys.stderr)
+        print(no_packages(request), file=sys.stderr)
     return exit_code(report, settings["fail-on"])
 
 

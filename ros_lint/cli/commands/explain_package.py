@@ -19,6 +19,8 @@ _MOST_PLACES = 2
 
 
 class _Row(NamedTuple):
+    """A line of a section: a name, a remark and a place."""
+
     name: str
     note: str
     span: Span
@@ -38,7 +40,7 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
 
 
 _HEADINGS = {"cannot be seen through": "could not be analysed"}
-"""Headings that differ from the keys of the JSON."""
+"""Headings of the text that differ from the keys of the JSON."""
 
 
 def _text(package: Package) -> str:
@@ -55,7 +57,7 @@ def _text(package: Package) -> str:
 
 
 def _sections(package: Package, most: int) -> Iterator[tuple[str, list[_Row]]]:
-    """Yield the sections, with at most ``most`` uses of each package."""
+    """Yield the title and rows of each section. The uses of each other package are limited to ``most`` rows."""
     yield "declares", list(_declares(package))
     yield "uses", list(_uses(package, most))
     yield "provides", list(_provides(package))
@@ -72,7 +74,7 @@ def _declares(package: Package) -> Iterator[_Row]:
 
 
 def _uses(package: Package, most: int) -> Iterator[_Row]:
-    """Yield the first uses of each package, and the number of further ones."""
+    """Yield the first ``most`` uses of each other package, and a row with the number of further uses."""
     places: dict[str, list[_Row]] = {}
     for use in package.uses:
         note = f"{use.what} ({_roles(use.role)}{', optional' if use.optional else ''})"
@@ -98,7 +100,7 @@ def _provides(package: Package) -> Iterator[_Row]:
     for target in script.products.targets:
         yield _Row(target.name, f"{target.kind} target{', test only' if target.test else ''}", target.span)
     for component in script.products.components:
-        yield _Row(component.name, f"component{_maybe(component.conditional)}", component.span)
+        yield _Row(component.name, f"component{_conditional(component.conditional)}", component.span)
     for plugin in script.files.plugin_files:
         for library in plugin.libraries:
             for plugin_class in library.classes:
@@ -115,10 +117,10 @@ def _installs(package: Package) -> Iterator[_Row]:
         built = f"built as {provided.target}" if provided.target else "generated"
         source = f"from {provided.source}" if provided.source else built
         program = ", executable" if provided.program else ""
-        yield _Row(provided.path, f"{source}{program}{_maybe(provided.conditional)}", provided.span)
+        yield _Row(provided.path, f"{source}{program}{_conditional(provided.conditional)}", provided.span)
 
 
-def _maybe(conditional: bool) -> str:
+def _conditional(conditional: bool) -> str:
     return ", conditional" if conditional else ""
 
 
@@ -134,7 +136,7 @@ def _facets(flags: Facet) -> list[str]:
 def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
     import json  # noqa: PLC0415
 
-    found = [
+    documents = [
         {
             "name": package.name,
             "path": package.path,
@@ -146,7 +148,7 @@ def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
         }
         for package in packages
     ]
-    return json.dumps({"distro": workspace.target.distro, "packages": found}, indent=2, ensure_ascii=False) + "\n"
+    return json.dumps({"distro": workspace.target.distro, "packages": documents}, indent=2, ensure_ascii=False) + "\n"
 
 
 def _no_such(workspace: Workspace, name: str) -> str:

@@ -10,20 +10,25 @@ from ros_lint.engine import registry
 from ros_lint.workspace.model import Package, Workspace
 
 
-def run(workspace: Workspace, name: str, other: str) -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code: 2 if there is no such package."""
+def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int]:
+    """Return standard output, standard error and the exit code: 0, or 2 if the workspace has no package ``name``.
+
+    ``dependency`` is a package or a rosdep key.
+    """
     packages = workspace.called(name)
     if not packages:
         return "", f"ros-lint: the workspace has no package '{name}'\n", 2
-    lines = [line for package in packages for line in explain(package, workspace, other, _told(package, workspace, other))]
+    lines: list[str] = []
+    for package in packages:
+        lines += explain(package, workspace, dependency, _reported(package, workspace, dependency))
     return "".join(f"{line}\n" for line in lines), "", 0
 
 
-def _told(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
-    """Return the names of the rules that report a dependency, with their confidence."""
+def _reported(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
+    """Return the names of the rules that report a dependency in a package, with the highest confidence of each."""
     result: dict[str, Confidence] = {}
     for rule in registry.load():
         if rule.name in RULES and rule.package is not None:
-            sure = [finding.confidence for finding in rule.package(package, workspace) if finding.subject == name]
-            result.update({rule.name: max(sure)} if sure else {})
+            confidences = [finding.confidence for finding in rule.package(package, workspace) if finding.subject == name]
+            result.update({rule.name: max(confidences)} if confidences else {})
     return result

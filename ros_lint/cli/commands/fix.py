@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from ros_lint.engine import edits, registry
-from ros_lint.engine.check import Context, check
+from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
 
@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
 
 def run(session: Session, selection: Selection) -> tuple[Report, int]:
-    """Print or write the fixes.
+    """Print the fixes as a patch (--diff) or write them (--fix).
 
-    Return the report of the remaining findings, and 2 if a file was not written, else 0.
+    Return the report of the remaining findings, and 2 if a file could not be written, else 0.
     """
     gc.enable()  # the workspace is loaded several times, and the memory of a trial has to be freed
     settings = session.settings
     rules = registry.load(settings["plugins"])
     trials = FixTrials(session.loader, session.roots, selection, rules, unsafe=settings["unsafe-fixes"])
-    context = Context(rules, session.knowledge.date, session.folder, session.warnings)
+    context = ReportContext(rules, session.knowledge.date, session.folder, session.warnings)
 
     def report(changed: Mapping[str, bytes]) -> Report:
         return check(trials.trial(changed).workspace, session.loader.suppressions(changed), selection, context)
@@ -45,7 +45,7 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     except edits.EditError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return report({path: result.changed[path] for path in error.written}), 2
-    print(f"ros-lint: {_summary(len(result.made), len(result.changed))}", file=sys.stderr)
+    print(f"ros-lint: {_summary(len(result.applied), len(result.changed))}", file=sys.stderr)
     return report(result.changed), 0
 
 

@@ -1,4 +1,4 @@
-"""``ros-lint graph``: the dependency graph for people and for programs.
+"""``ros-lint graph``: print the dependency graph, for people or for programs.
 
 The JSON has ``schema_version`` 1 and, in the order of names:
 
@@ -50,14 +50,14 @@ def _measure(graph: Graph) -> Mapping[str, Metrics]:
 
 
 def _dot(graph: Graph) -> Iterator[str]:
-    knotted = _knotted(graph)
+    in_cycles = _edges_in_cycles(graph)
     yield "digraph workspace {"
     yield "  rankdir=LR;"
     yield "  node [shape=box, fontname=Helvetica];"
     for name in graph.names:
         yield f"  {_quoted(name)};"
     for edge in graph.edges:
-        style = [*(["style=dashed"] if is_test_only(graph, edge) else []), *(["color=red"] if edge in knotted else [])]
+        style = [*(["style=dashed"] if is_test_only(graph, edge) else []), *(["color=red"] if edge in in_cycles else [])]
         attributes = f" [{', '.join(style)}]" if style else ""
         yield f"  {_quoted(edge[0])} -> {_quoted(edge[1])}{attributes};"
     yield "}"
@@ -70,7 +70,7 @@ def _quoted(name: str) -> str:
 
 
 def _mermaid(graph: Graph) -> Iterator[str]:
-    knotted = _knotted(graph)
+    in_cycles = _edges_in_cycles(graph)
     identifier = {name: f"p{number}" for number, name in enumerate(graph.names)}
     yield "flowchart LR"
     for name in graph.names:
@@ -79,7 +79,7 @@ def _mermaid(graph: Graph) -> Iterator[str]:
     for number, edge in enumerate(graph.edges):
         arrow = "-.->" if is_test_only(graph, edge) else "-->"
         yield f"  {identifier[edge[0]]} {arrow} {identifier[edge[1]]}"
-        if edge in knotted:
+        if edge in in_cycles:
             red.append(str(number))
     if red:
         yield f"  linkStyle {','.join(red)} stroke:red"
@@ -111,7 +111,7 @@ def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
             for edge in graph.edges
         ],
         "cycles": [
-            {"packages": knot.names, "cycle": knot.cycle, "cut": knot.cut, "certain": knot.certain} for knot in cycles(graph)
+            {"packages": cycle.names, "cycle": cycle.cycle, "cut": cycle.cut, "certain": cycle.certain} for cycle in cycles(graph)
         ],
     }
     return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
@@ -125,11 +125,11 @@ def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     for name, *cells in rows:
         yield "  ".join((name.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))))
-    ways = [way for metrics in figures.values() for way in metrics.redundant]
-    if ways:
+    redundant_paths = [path for metrics in figures.values() for path in metrics.redundant]
+    if redundant_paths:
         yield ""
         yield "Redundant edges, because another path implies the same build order:"
-        yield from (f"  {way[0]} -> {way[-1]}: {' -> '.join(way)}" for way in ways)
+        yield from (f"  {path[0]} -> {path[-1]}: {' -> '.join(path)}" for path in redundant_paths)
 
 
 def is_test_only(graph: Graph, edge: Edge) -> bool:
@@ -137,7 +137,7 @@ def is_test_only(graph: Graph, edge: Edge) -> bool:
     return all(reason.categories == ("test",) for reason in graph.reasons(edge))
 
 
-def _knotted(graph: Graph) -> frozenset[Edge]:
-    """Return the edges that lie in a cycle."""
+def _edges_in_cycles(graph: Graph) -> frozenset[Edge]:
+    """Return the edges that are part of a cycle."""
     member = {name: number for number, names in enumerate(graph.cycles) for name in names}
     return frozenset(edge for edge in graph.edges if edge[0] in member and member[edge[0]] == member.get(edge[1]))

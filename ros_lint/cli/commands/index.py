@@ -1,4 +1,4 @@
-"""``ros-lint index``: rebuild the data of the released world, or create data of an installed prefix."""
+"""``ros-lint index``: rebuild the data about released packages, or create data about installed packages."""
 
 from __future__ import annotations
 
@@ -9,11 +9,9 @@ from datetime import datetime, timezone
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.auxiliary_files import TEST_FOLDERS
-from ros_lint.knowledge import index, provides, rosdep
-from ros_lint.knowledge import underlays as underlay
+from ros_lint.knowledge import index, provides, rosdep, underlays
 from ros_lint.knowledge.provides import LETTERS, ReleasedContents
-from ros_lint.knowledge.refresh import rosdep_rules
-from ros_lint.knowledge.refresh import rosdistro as upstream
+from ros_lint.knowledge.refresh import rosdep_rules, rosdistro
 from ros_lint.knowledge.store import KnowledgeError, Store, user_directory
 
 if TYPE_CHECKING:
@@ -43,8 +41,8 @@ def run(options: Mapping[str, Any]) -> int:
             for line in refresh(options["source"], options["distro"], to, options["rosdep"]):
                 print(line)
         else:
-            _put(options["distro"], options["to"], *scan(options["prefixes"], options["distro"]))
-    except (KnowledgeError, underlay.UnderlayError) as error:
+            _write_scan(options["distro"], options["to"], *scan(options["prefixes"], options["distro"]))
+    except (KnowledgeError, underlays.UnderlayError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -56,36 +54,34 @@ def run(options: Mapping[str, Any]) -> int:
 def refresh(
     source: str, distros: Sequence[str], to: str, rosdep_files: Sequence[str] = (), date: str = ""
 ) -> tuple[Refreshed, ...]:
-    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` if rule files are given.
+    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` if ``rosdep_files`` are given. Return the changes.
 
-    Return the changes.
-
-    ``source`` is the ``index-v4.yaml`` of rosdistro, a path or a URL as are ``rosdep_files``. Without ``distros`` all
+    ``source`` (the ``index-v4.yaml`` of rosdistro) and ``rosdep_files`` are paths or URLs. Without ``distros``, all
     active ROS 2 distributions are written. ``to`` is a folder. ``date`` is the date of the data, by default today.
     Everything is read before anything is written. Raises KnowledgeError if something cannot be read, and OSError if it
     cannot be written.
     """
     date = date or _today()
-    available = upstream.sources(source)
+    available = rosdistro.sources(source)
     unknown = [name for name in distros if name not in available]
     if unknown:
         raise KnowledgeError(f"{source} has no distribution '{unknown[0]}'; available: {', '.join(sorted(available))}")
-    wanted = distros or sorted(name for name, entry in available.items() if entry.active)
-    files = {f"{name}.idx": index.render_file(name, "", date, upstream.packages(available[name])) for name in wanted}
+    names = distros or sorted(name for name, entry in available.items() if entry.active)
+    files = {f"{name}.idx": index.render_file(name, "", date, rosdistro.packages(available[name])) for name in names}
     if rosdep_files:
-        rules = [(place, upstream.load_yaml(place)) for place in rosdep_files]
+        rules = [(place, rosdistro.load_yaml(place)) for place in rosdep_files]
         files["rosdep.tsv"] = rosdep.render_file(rosdep_rules.keys(rules))
     os.makedirs(to, exist_ok=True)
     return tuple(_replace(to, name, text) for name, text in files.items())
 
 
 def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str]:
-    """Return the ``.idx`` and ``.prov`` files of installed prefixes. The first prefix with a package wins.
+    """Return the contents of an ``.idx`` and a ``.prov`` file for the packages in install prefixes.
 
-    Raises underlay.UnderlayError for a folder that is no prefix.
+    If several prefixes have a package, the first one counts. Raises UnderlayError for a folder that is not a prefix.
     """
     result: dict[str, Installed] = {}
-    for layer in underlay.read(prefixes, distro):
+    for layer in underlays.read(prefixes, distro):
         for name, installed in layer.packages.items():
             result.setdefault(name, installed)
     described = (installed.released or index.Released(name, "", "?-", name, {}) for name, installed in result.items())
@@ -96,8 +92,8 @@ def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str
 def _provided(installed: Installed) -> ReleasedContents:
     fields = {}
     for facet, letter in LETTERS.items():
-        known = installed.known(facet)
-        names = (*known.names, *(f"{name}?" for name in known.maybe))
+        contents = installed.known(facet)
+        names = (*contents.names, *(f"{name}?" for name in contents.maybe))
         if facet == "modules" and installed.known("interfaces").names:
             # The module of an interface package is implied by its interfaces.
             names = tuple(name for name in names if name != installed.name)
@@ -111,7 +107,7 @@ def _provided(installed: Installed) -> ReleasedContents:
     return ReleasedContents(installed.name, "=", fields)
 
 
-def _put(distro: str, to: str, idx: str, prov: str) -> None:
+def _write_scan(distro: str, to: str, idx: str, prov: str) -> None:
     if not to:
         sys.stdout.write(idx + prov)
         return
@@ -121,7 +117,7 @@ def _put(distro: str, to: str, idx: str, prov: str) -> None:
 
 
 def _replace(folder: str, name: str, text: str) -> Refreshed:
-    """Write a data file atomically, so that no reader sees half of it."""
+    """Write a data file atomically, so that it is never read incomplete. Return the numbers of changed lines."""
     try:
         before = _by_name(Store((folder,)).lines(name)[1])
     except KnowledgeError:

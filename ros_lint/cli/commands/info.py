@@ -6,19 +6,19 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from ros_lint.cli import rule_pages as docs
+from ros_lint.cli import rule_pages
 from ros_lint.engine import registry
 
 
-def run(command: str, said: Mapping[str, Any]) -> int:
+def run(command: str, options: Mapping[str, Any]) -> int:
     """Print the requested information and return the exit code."""
     match command:
         case "rules":
             rules = registry.load()
-            print(docs.as_json(rules) if said.get("format") == "json" else docs.listing(rules), end="")
+            print(rule_pages.as_json(rules) if options.get("format") == "json" else rule_pages.listing(rules), end="")
             return 0
         case "rule":
-            return _rule(said["rule"], said.get("format", "text"))
+            return _rule(options["rule"], options.get("format", "text"))
         case "schema":
             import json  # noqa: PLC0415
 
@@ -27,16 +27,16 @@ def run(command: str, said: Mapping[str, Any]) -> int:
             print(json.dumps(schema(), indent=2))
             return 0
         case _:
-            return _completion(said["shell"])
+            return _completion(options["shell"])
 
 
 def _rule(name: str, form: str) -> int:
     rules = registry.load()
     matches = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
     if not matches:
-        print(f"ros-lint: {registry.no_rule(rules, name)}", file=sys.stderr)
+        print(f"ros-lint: {registry.unknown_rule_message(rules, name)}", file=sys.stderr)
         return 2
-    print(docs.as_json(matches) if form == "json" else docs.page(matches[0]), end="")
+    print(rule_pages.as_json(matches) if form == "json" else rule_pages.page(matches[0]), end="")
     return 0
 
 
@@ -46,7 +46,7 @@ def _completion(shell: str) -> int:
     except ModuleNotFoundError:
         print("ros-lint: completion needs shtab: pip install 'ros-lint[completion]'", file=sys.stderr)
         return 2
-    from ros_lint.cli.arguments import parser  # noqa: PLC0415
+    from ros_lint.cli.arguments import create_parser  # noqa: PLC0415
 
-    print(shtab.complete(parser("check", top=True), shell=shell))
+    print(shtab.complete(create_parser("check", top=True), shell=shell))
     return 0

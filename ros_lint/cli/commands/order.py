@@ -1,4 +1,4 @@
-"""``ros-lint order``: the names of the packages in build order, one on each line."""
+"""``ros-lint order``: print the names of the packages in build order, one per line."""
 
 from __future__ import annotations
 
@@ -22,33 +22,33 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
     can be ordered are printed anyway.
     """
     graph = dependency_graph(workspace)
-    messages = [*_cycles(graph), *_left_out(graph), *_twice(graph)]
+    messages = [*_cycles(graph), *_behind_cycles(graph), *_duplicates(graph)]
     return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in messages), int(bool(messages))
 
 
 def _cycles(graph: Graph) -> Iterator[str]:
-    for knot in cycles(graph):
-        if knot.certain:
-            yield f"no build order, because of a dependency cycle: {', '.join(knot.names)}"
-            yield from _edges(graph, knot)
+    for cycle in cycles(graph):
+        if cycle.certain:
+            yield f"no build order, because of a dependency cycle: {', '.join(cycle.names)}"
+            yield from _edges(graph, cycle)
 
 
-def _edges(graph: Graph, knot: Cycle) -> Iterator[str]:
-    cycle = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
-    yield f"  shortest cycle: {' -> '.join((*knot.cycle, knot.cycle[0]))}"
-    for edge in (*cycle, *(edge for edge in knot.cut if edge not in cycle)):
-        out = "; removing it breaks the cycle" if edge in knot.cut else ""
+def _edges(graph: Graph, cycle: Cycle) -> Iterator[str]:
+    edges = tuple(zip(cycle.cycle, (*cycle.cycle[1:], cycle.cycle[0]), strict=True))
+    yield f"  shortest cycle: {' -> '.join((*cycle.cycle, cycle.cycle[0]))}"
+    for edge in (*edges, *(edge for edge in cycle.cut if edge not in edges)):
+        out = "; removing it breaks the cycle" if edge in cycle.cut else ""
         for reason in graph.reasons(edge):
             yield f"    {reason.span}: {edge[0]} depends on {edge[1]} ({reason.tag}){out}"
 
 
-def _left_out(graph: Graph) -> Iterator[str]:
+def _behind_cycles(graph: Graph) -> Iterator[str]:
     on_cycles = {name for cycle in graph.cycles for name in cycle}
-    if after := [name for name in graph.order.stuck if name not in on_cycles]:
-        yield f"no build order, because of a dependency on a package of the cycle: {', '.join(after)}"
+    if blocked := [name for name in graph.order.stuck if name not in on_cycles]:
+        yield f"no build order, because of a dependency on a package of the cycle: {', '.join(blocked)}"
 
 
-def _twice(graph: Graph) -> Iterator[str]:
+def _duplicates(graph: Graph) -> Iterator[str]:
     for name, places in graph.places.items():
         if len(places) > 1:
             where = " and ".join(package.path or "." for package in places)

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def where(span: Span) -> dict[str, object]:
-    """Return a place for JSON."""
+    """Return the start of a span for JSON: path, line and column."""
     return {"path": span.path, "line": span.line, "column": span.column}
 
 

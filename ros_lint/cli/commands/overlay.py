@@ -1,4 +1,4 @@
-"""``ros-lint overlay``: which layer provides a package that several layers have."""
+"""``ros-lint overlay``: list the packages that exist in several layers, and the layer that wins."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 
-class _Place(NamedTuple):
+class _LayerEntry(NamedTuple):
+    """A package as one layer has it."""
+
     where: str
     version: str
     layer: str
@@ -27,33 +29,33 @@ def run(workspace: Workspace) -> tuple[str, str, int]:
     lines: list[str] = []
     names = {*workspace.by_name, *(name for underlay in workspace.world.underlays for name in underlay.packages)}
     for name in sorted(names):
-        places = list(_places(workspace, name))
-        if len({place.layer for place in places}) > 1:
-            lines += ["", *_tell(name, places)] if lines else _tell(name, places)
+        entries = list(_entries(workspace, name))
+        if len({entry.layer for entry in entries}) > 1:
+            lines += ["", *_lines(name, entries)] if lines else _lines(name, entries)
     return "".join(f"{line}\n" for line in lines) or "No package exists in more than one layer.\n", "", 0
 
 
-def _places(workspace: Workspace, name: str) -> Iterator[_Place]:
+def _entries(workspace: Workspace, name: str) -> Iterator[_LayerEntry]:
     for package in workspace.by_name.get(name, ()):
         version = package.manifest.version if package.manifest else ""
-        yield _Place(package.path or ".", version, "workspace", package.colcon_name)
+        yield _LayerEntry(package.path or ".", version, "workspace", package.colcon_name)
     for number, underlay in enumerate(workspace.world.underlays, 1):
         installed = underlay.packages.get(name)
         if installed is not None:
             version = installed.released.version if installed.released else ""
-            yield _Place(installed.prefix.root, version, f"underlay {number}")
+            yield _LayerEntry(installed.prefix.root, version, f"underlay {number}")
     released = workspace.world.knowledge.index.get(name)
     if released is not None:
-        yield _Place(f"released in {workspace.target.distro}", released.version, "distribution")
+        yield _LayerEntry(f"released in {workspace.target.distro}", released.version, "distribution")
 
 
-def _tell(name: str, places: list[_Place]) -> Iterator[str]:
+def _lines(name: str, entries: list[_LayerEntry]) -> Iterator[str]:
     yield name
-    same = [place for place in places if place.layer == places[0].layer]
-    width = max(len(place.where) for place in places)
-    version_width = max(len(place.version or "-") for place in places)
-    for place in places:
-        sign = "*" if same == [place] else "?" if place in same else " "
-        yield f"  {sign} {place.where.ljust(width)}  {(place.version or '-').ljust(version_width)}  {place.layer}"
-    if len(same) > len({place.colcon_name for place in same}):
-        yield f"    colcon rejects the workspace, because {len(same)} packages are named '{name}'"
+    topmost = [entry for entry in entries if entry.layer == entries[0].layer]
+    width = max(len(entry.where) for entry in entries)
+    version_width = max(len(entry.version or "-") for entry in entries)
+    for entry in entries:
+        sign = "*" if topmost == [entry] else "?" if entry in topmost else " "
+        yield f"  {sign} {entry.where.ljust(width)}  {(entry.version or '-').ljust(version_width)}  {entry.layer}"
+    if len(topmost) > len({entry.colcon_name for entry in topmost}):
+        yield f"    colcon rejects the workspace, because {len(topmost)} packages are named '{name}'"

@@ -1,4 +1,4 @@
-"""Shared code of the commands that answer a question: open and load a workspace, print the answer."""
+"""Shared code of the commands that query a workspace: open and load it, print the output."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ CommandOutput = tuple[str, str, int]
 """Standard output, standard error and the exit code."""
 
 
-def run_query(said: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
-    """Print the answer about the requested workspace. Returns the exit code, 2 if there is no answer.
+def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
+    """Load the requested workspace and print what ``answer`` returns for it. Returns the exit code.
 
-    Without ``sources`` only manifests are read.
+    It is 2 if the workspace cannot be opened. Without ``sources`` only manifests are read.
     """
-    progress = Progress(sys.stderr, wanted=said.get("progress", True))
+    progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
         with progress:
-            opened = open_workspace(said, os.environ, progress.tell)
-            workspace = opened.loader.load(sources=sources)
-        out, err, code = answer(opened, workspace)
+            session = open_workspace(options, os.environ, progress.update)
+            workspace = session.loader.load(sources=sources)
+        out, err, code = answer(session, workspace)
     except (UsageError, ConfigError, KnowledgeError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in (*opened.settings.warnings, *opened.warnings):
+    for warning in (*session.settings.warnings, *session.warnings):
         print(f"ros-lint: {warning}", file=sys.stderr)
     sys.stdout.write(out)
     sys.stdout.flush()
@@ -42,20 +42,19 @@ def run_query(said: Mapping[str, Any], answer: Callable[[Session, Workspace], Co
 
 
 def current_workspace() -> str:
-    """Return the workspace around the current folder if that is in a package, else the current folder."""
+    """Return the workspace of the package that contains the current folder; else the current folder itself."""
     in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in upwards(os.path.realpath(os.curdir)))
     return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir
 
 
 def enclosing_workspace(file: str) -> str:
-    """Return the workspace that contains a file.
+    """Return the folder of the workspace that contains a file: the first of these that exists.
 
-    The candidates, in order:
-    - the folder whose ``src`` contains the file's package, if the repository reaches so far up or colcon has built
-      there,
+    - the folder whose ``src`` contains the package of the file, if the folder is in the same repository or colcon has
+      built in it,
     - the repository,
     - the current folder, if the file is below it,
-    - the package, or else the folder of the file.
+    - the folder of the package, or else of the file.
     """
     folders = list(upwards(os.path.dirname(os.path.realpath(file))))
     repository = repository_of(folders[0])
@@ -68,5 +67,5 @@ def enclosing_workspace(file: str) -> str:
         built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
         if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
             return above
-    here = os.path.realpath(os.curdir)
-    return repository or (here if here in folders else start)
+    current = os.path.realpath(os.curdir)
+    return repository or (current if current in folders else start)

@@ -1,4 +1,4 @@
-"""``ros-lint why A B``: all paths by which one package depends on another, with the line of each edge."""
+"""``ros-lint why A B``: print the paths by which package A depends on B, with the manifest line of each edge."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.dependencies.explain import used_in
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
-from ros_lint.base.graph_paths import Paths, paths
+from ros_lint.base.graph_paths import GraphPaths, paths
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.facts.manifest import DEPENDENCY_KINDS
 
@@ -23,7 +23,9 @@ _TAGS = {tag: DEPENDENCY_KINDS[tag].letters for tag in ("build_export_depend", "
 _MOST_USES = 2
 
 
-class _Line(NamedTuple):
+class _EdgeReason(NamedTuple):
+    """A declaration that makes one package depend on another."""
+
     tag: str
     place: str
     condition: str = ""
@@ -32,17 +34,17 @@ class _Line(NamedTuple):
 def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code.
 
-    In the workspace, every dependency that orders packages counts; outside of it, only run-time dependencies. At most
-    ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is none, 2 if a name is
-    unknown. Raises KnowledgeError.
+    For packages of the workspace, each dependency counts that affects the build order; for others, only run-time
+    dependencies. At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is
+    none, 2 if a name is unknown. Raises KnowledgeError.
     """
     unknown = [name for name in (start, end) if not _is_known(workspace, name)]
     if unknown:
         return "", "".join(_no_such(workspace, name) for name in unknown), 2
-    model = _Model(workspace)
-    found_paths = paths(model.needs, start, end, most)
-    if not found_paths.found:
-        back = paths(model.needs, end, start, 1).found
+    model = _DependencyModel(workspace)
+    result = paths(model.needs, start, end, most)
+    if not result.paths:
+        back = paths(model.needs, end, start, 1).paths
         uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
         if uses:
             hint = f" ('{end}' depends on '{start}': see 'ros-lint why {end} {start}')" if back else ""
@@ -50,10 +52,10 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
             return "".join(f"{line}\n" for line in (head, *(f"   {line}" for line in used_in(uses)))), "", 1
         hint = f"; but '{end}' depends on '{start}': see 'ros-lint why {end} {start}'" if back else ""
         return f"'{start}' does not depend on '{end}'{hint}\n", "", 1
-    return "".join(f"{line}\n" for line in _tell(model, found_paths, start, end)), "", 0
+    return "".join(f"{line}\n" for line in _path_lines(model, result, start, end)), "", 0
 
 
-class _Model:
+class _DependencyModel:
     """The dependencies of packages in the workspace and outside of it."""
 
     def __init__(self, workspace: Workspace) -> None:
@@ -61,6 +63,7 @@ class _Model:
         self._needs: dict[str, tuple[str, ...]] = {}
 
     def needs(self, name: str) -> tuple[str, ...]:
+        """Return the names that a package depends on directly, sorted."""
         if name not in self._needs:
             names = set(dependency_graph(self.workspace).needs.get(name, ()))
             names.update(declared.name for declared in self._declared(name))
@@ -69,53 +72,53 @@ class _Model:
             self._needs[name] = tuple(sorted(names))
         return self._needs[name]
 
-    def lines(self, name: str, other: str) -> Iterator[_Line]:
-        """Yield the reasons of an edge."""
+    def reasons(self, name: str, dependency: str) -> Iterator[_EdgeReason]:
+        """Yield the declarations because of which ``name`` depends directly on ``dependency``."""
         graph = dependency_graph(self.workspace)
-        if other in graph.needs.get(name, ()):
-            for reason in graph.reasons((name, other)):
-                yield _Line(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
+        if dependency in graph.needs.get(name, ()):
+            for reason in graph.reasons((name, dependency)):
+                yield _EdgeReason(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
             return
         for declared in self._declared(name):
-            if declared.name == other:
+            if declared.name == dependency:
                 condition = "" if declared.certain else f"if {declared.depend.condition}"
-                yield _Line(declared.depend.tag, str(declared.depend.span), condition)
+                yield _EdgeReason(declared.depend.tag, str(declared.depend.span), condition)
         if not self._packages(name):
             world = self.workspace.world
-            tags = [tag for tag, kind in _TAGS.items() if other in (world.depends(name, kind) or ())]
+            tags = [tag for tag, kind in _TAGS.items() if dependency in (world.depends(name, kind) or ())]
             layer = world.layer(name)
             place = f"as released in {self.workspace.target.distro}" if layer == "index" else f"in the {layer}"
-            yield from (_Line(tag, place) for tag in tags)
+            yield from (_EdgeReason(tag, place) for tag in tags)
 
-    def uses(self, name: str, other: str) -> list[tuple[str, Span]]:
-        """Return the places in the sources that use the dependency, sorted."""
-        places = {use.span: use.what for package in self._packages(name) for use in package.uses if other in use.providers}
+    def uses(self, name: str, dependency: str) -> list[tuple[str, Span]]:
+        """Return what uses the dependency in the sources of the package, each with its place, sorted by place."""
+        places = {use.span: use.what for package in self._packages(name) for use in package.uses if dependency in use.providers}
         return [(places[span], span) for span in sorted(places)]
 
     def _declared(self, name: str) -> Iterator[Declared]:
         for package in self._packages(name):
-            if package.type.startswith("ros."):  # otherwise the manifest is not read
+            if package.type.startswith("ros."):  # colcon ignores the manifest of other types
                 yield from package.declared
 
     def _packages(self, name: str) -> Sequence[Package]:
         return self.workspace.called(name)
 
 
-def _tell(model: _Model, found: Paths, start: str, end: str) -> Iterator[str]:
-    count = f"{'at least ' if found.more else ''}{len(found.found)} path{'s' if len(found.found) > 1 else ''}"
-    yield f"'{start}' depends on '{end}' through {count}{'; shortest first' if len(found.found) > 1 else ''}:"
+def _path_lines(model: _DependencyModel, result: GraphPaths, start: str, end: str) -> Iterator[str]:
+    count = f"{'at least ' if result.more else ''}{len(result.paths)} path{'s' if len(result.paths) > 1 else ''}"
+    yield f"'{start}' depends on '{end}' through {count}{'; shortest first' if len(result.paths) > 1 else ''}:"
     printed: set[tuple[str, str]] = set()
-    for number, path in enumerate(found.found, 1):
+    for number, path in enumerate(result.paths, 1):
         yield ""
         yield f"{number}. {' -> '.join(path)}"
         for edge in pairwise(path):
-            yield from _tell_edge(model, edge, again=edge in printed)
+            yield from _edge_lines(model, edge, again=edge in printed)
             printed.add(edge)
 
 
-def _tell_edge(model: _Model, edge: tuple[str, str], *, again: bool) -> Iterator[str]:
+def _edge_lines(model: _DependencyModel, edge: tuple[str, str], *, again: bool) -> Iterator[str]:
     name, dependency = edge
-    for line in model.lines(name, dependency):
+    for line in model.reasons(name, dependency):
         condition = f" {line.condition}" if line.condition else ""
         yield f"   {name} -> {dependency}: {_tag(line.tag)}{condition} {line.place}"
     uses = [] if again else model.uses(name, dependency)

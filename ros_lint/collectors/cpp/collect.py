@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import Include, mentions
+from ros_lint.collectors.cpp.includes import Include, scan_includes
 from ros_lint.collectors.cpp.lookups import loaders, look_ups
 from ros_lint.collectors.cpp.registrations import registrations, wrapper_macros
 from ros_lint.collectors.cpp.symbols import symbols
@@ -29,7 +29,7 @@ def collect(source: Text) -> FileFacts:
     - Interface types whose package is not included are ``via="symbol"``.
     - Lookups by ament_index_cpp and pluginlib with a literal are ``via="package"``.
     """
-    scan = mentions(source)
+    scan = scan_includes(source)
     included, code = scan.mentions, scan.code
     included_folders = {mention[0].partition("/")[0] for mention in included}  # by index: there are tens of thousands
     packages, files = look_ups(source, code)

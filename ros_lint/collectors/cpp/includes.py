@@ -66,7 +66,7 @@ _STANDARD = (
     "string.h tgmath.h threads.h time.h uchar.h wchar.h wctype.h"
 )
 STANDARD = frozenset(_STANDARD.split())
-"""Headers of the C and C++ standard libraries, which half of all includes name."""
+"""Headers of the C and C++ standard libraries; about half of all includes name one of them."""
 
 
 _NONE: frozenset[int] = frozenset()
@@ -98,18 +98,18 @@ class IncludeScan(NamedTuple):
     """The directives for :func:`branches`; empty if only an include guard is conditional."""
 
 
-def mentions(source: Text) -> IncludeScan:
+def scan_includes(source: Text) -> IncludeScan:
     """Return the includes of a C or C++ source, without standard headers and without those in ``#if 0``.
 
     An include in a conditional is optional, unless each branch includes the same folder. Conditions that hold in every
     build, such as include guards, do not count.
     """
-    return _plain(source) or exact(source)
+    return _scan_fast(source) or scan_exactly(source)
 
 
-def exact(source: Text) -> IncludeScan:
-    """Return the result of :func:`mentions` by the slower method that is exact for every text."""
-    text = blanked(source.text)
+def scan_exactly(source: Text) -> IncludeScan:
+    """Return the result of :func:`scan_includes` by the slower method that is exact for every text."""
+    text = blank_comments(source.text)
     directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
     guarded = _is_guarded(text, directives)
     includes = _includes(text, directives, guarded)
@@ -128,7 +128,7 @@ def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
     return _make(Mention, (name, "include", span, quotation, optional, False, ""))
 
 
-def _plain(source: Text) -> IncludeScan | None:
+def _scan_fast(source: Text) -> IncludeScan | None:
     """Return the result of one scan, or None if a directive may be hidden or a macro names an include."""
     text, path = source.text, source.path
     if "\r" in text and text.count("\r") != text.count("\r\n"):
@@ -214,7 +214,7 @@ def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list
     return result
 
 
-def blanked(text: str) -> str:
+def blank_comments(text: str) -> str:
     """Return the text with blanks for comments and raw strings, and continued lines joined.
 
     Offsets are unchanged.
@@ -222,7 +222,7 @@ def blanked(text: str) -> str:
     return _TOKENS.sub(_blank, text)
 
 
-def in_doubt(text: str, at: int, code: Sequence[int] = ()) -> bool:
+def may_be_comment(text: str, at: int, code: Sequence[int] = ()) -> bool:
     """Return whether an offset may be in a comment or a raw string.
 
     ``code`` are sorted offsets known to be code.
@@ -382,7 +382,7 @@ def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
     """Return the value of a condition, or None if it depends on the build.
 
-    ``first``: no directive precedes it.
+    ``first`` is True if no other directive precedes it.
     """
     word, condition = match[5], _without_comments(match[6])
     if word in ("if", "elif"):

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import blanked, in_doubt
+from ros_lint.collectors.cpp.includes import blank_comments, may_be_comment
 from ros_lint.collectors.cpp.registrations import class_name
 from ros_lint.facts.sources import LookUp, Mention, PluginLoader
 
@@ -34,8 +34,8 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
     text = source.text
     if "get_package_" not in text:
         return [], ()
-    if any(in_doubt(text, match.start(), code) for match in _LOOK_UP.finditer(text)):
-        text = blanked(text)
+    if any(may_be_comment(text, match.start(), code) for match in _LOOK_UP.finditer(text)):
+        text = blank_comments(text)
     calls = list(_LOOK_UP.finditer(text))
     spans = source.spans([match.span(2) for match in calls])
     guarded = _guarded_blocks(text) if "PackageNotFoundError" in text else []
@@ -53,8 +53,8 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
     if "oader" not in source.text:
         return ()
     matches = list(_LOADER.finditer(source.text))
-    if any(in_doubt(source.text, match.start(), code) for match in matches):
-        matches = list(_LOADER.finditer(blanked(source.text)))
+    if any(may_be_comment(source.text, match.start(), code) for match in matches):
+        matches = list(_LOADER.finditer(blank_comments(source.text)))
     spans = source.spans([match.span(1) for match in matches])
     return tuple(PluginLoader(match[1], class_name(match[2]), span) for match, span in zip(matches, spans, strict=True))
 
@@ -97,7 +97,7 @@ def _try_start(text: str, end: int) -> int:
 
 
 def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
-    """Yield the place of the first literal, the package and the path of files that are looked up."""
+    """Yield each looked-up file: the place of its first literal, its package and its path."""
     variables: dict[str, set[str]] = {}
     for call in calls:
         if call[1] == "get_package_prefix":

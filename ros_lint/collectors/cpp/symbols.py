@@ -12,7 +12,7 @@ import string
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import IncludeScan, branches, in_doubt
+from ros_lint.collectors.cpp.includes import IncludeScan, branches, may_be_comment
 from ros_lint.facts.sources import Mention
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
     start = text.find(qualifier)
     while start >= 0:
         name = pattern.match(text, start + len(package))
-        if name and _is_code(text, start) and not in_doubt(text, start, code):
+        if name and _is_code(text, start) and not may_be_comment(text, start, code):
             if not conditional or not any(start in index for index in conditional):
                 return start, name.end(), False, package
             optional = optional or (start, name.end(), True, package)

@@ -32,12 +32,12 @@ _MIN_LENGTH = 4
 """Length of the shortest name considered, because shorter names are too often ambiguous."""
 
 
-def declared(text: bytes) -> frozenset[bytes]:
+def declared_types(text: bytes) -> frozenset[bytes]:
     """Return the names of the types that C++ code declares, without forward declarations."""
     return frozenset(name for name in _TYPE.findall(text) if len(name) >= _MIN_LENGTH)
 
 
-def introduced(text: bytes) -> Mapping[str, set[bytes]]:
+def interface_aliases(text: bytes) -> Mapping[str, set[bytes]]:
     """Return the aliases of interface types by package: ``using pkg::msg::T;``, ``using X = ...``."""
     result: dict[str, set[bytes]] = {}
     if b"using " in text:
@@ -49,11 +49,11 @@ def introduced(text: bytes) -> Mapping[str, set[bytes]]:
 
 
 def namespaces(text: bytes) -> frozenset[bytes]:
-    """Return the parts of the names of the namespaces that C++ code opens."""
+    """Return the namespaces that C++ code opens; ``namespace a::b`` opens ``a`` and ``b``."""
     return frozenset(part for name in _NAMESPACE.findall(text) for part in name.split(b"::"))
 
 
-def code(text: bytes) -> bytes:
+def without_comments(text: bytes) -> bytes:
     """Return C++ code with blanks for comments and strings. Offsets are unchanged."""
     return _COMMENTS_AND_STRINGS.sub(_blank, text)
 
@@ -62,7 +62,7 @@ def _blank(match: re.Match[bytes]) -> bytes:
     return b"\n".join([b" " * len(line) for line in match[0].split(b"\n")])
 
 
-def first(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Container[bytes]) -> Span | None:
+def first_use(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Container[bytes]) -> Span | None:
     """Return the first place where the code uses a name, unqualified or qualified by one of some namespaces.
 
     None if the code defines the name itself, or also uses it from another namespace. For the name of a namespace, it is

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import blanked
+from ros_lint.collectors.cpp.includes import blank_comments
 from ros_lint.collectors.interfaces import lines
 from ros_lint.facts.sources import FileFacts, Mention
 
@@ -38,7 +38,7 @@ def collect(source: Text) -> FileFacts:
 
 
 def _idl(source: Text) -> Iterable[Mention]:
-    text = blanked(source.text)
+    text = blank_comments(source.text)
     types = [(match.start(2), match.end(3) + 4, match[2], match[3]) for match in _IDL_INCLUDE.finditer(text)]
     bare = _IDL_STRING.sub(lambda string: " " * len(string[0]), text)
     types += [(match.start(), match.end(), match[1], match[2]) for match in _IDL_NAME.finditer(bare)]

@@ -45,5 +45,5 @@ def snake(name: str) -> str:
 
 
 def camel(name: str) -> str:
-    """Return a name in the form that rosidl requires of interfaces."""
+    """Return a name in CamelCase, which rosidl requires for interfaces."""
     return "".join(word[:1].upper() + word[1:] for word in _BETWEEN_WORDS.split(name))

@@ -297,13 +297,13 @@ class _Run:
 
         Namespaces, parameters and remappings that hold for later nodes are launch configurations of launch_ros.
         """
-        kept = {name: self._texts(value, scope) for name, value in action.arguments}
+        configurations = {name: self._texts(value, scope) for name, value in action.arguments}
         if scope.certain:
             scope.values.clear()
-            scope.values.update(kept)
+            scope.values.update(configurations)
             return scope._replace(namespace=("",), parameters=(), remappings=())
         for name in scope.values:
-            self._set(scope, name, kept.get(name, (UNKNOWN,)), certain=False)
+            self._set(scope, name, configurations.get(name, (UNKNOWN,)), certain=False)
         return scope._replace(namespace=(*scope.namespace, ""))
 
     def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:

@@ -1,4 +1,4 @@
-"""Groups of launch files, as ``GroupAction.get_sub_entities()`` of launch makes them."""
+"""Groups of actions, as ``GroupAction.get_sub_entities()`` of launch expands them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def group(
 ) -> LaunchAction:
     """Return a group of actions with its own launch configurations.
 
-    A scoped group that does not forward starts with nothing but these.
+    A scoped group that does not forward the outer configurations starts with these only.
     """
     if scoped and not forwarding:
         resets = (LaunchAction("reset_environment", span), LaunchAction("reset", span, arguments=configurations))

@@ -16,7 +16,7 @@ from ros_lint.collectors.launch.path_values import FilePart, values_of
 from ros_lint.collectors.launch.presence_checks import EVERYWHERE, distributions_under, is_guarded_by_presence
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
-    Installed,
+    InstallPlace,
     configurations,
     configurations_with_places,
     fill,
@@ -226,7 +226,7 @@ class References:
             if runs_xacro(text):
                 self._note_command("xacro", value, conditional)
 
-    def _note_missing_slash(self, places: Iterable[Installed], value: LaunchValue) -> None:
+    def _note_missing_slash(self, places: Iterable[InstallPlace], value: LaunchValue) -> None:
         """Note paths that are appended to the share folder of a package without a slash."""
         for package, path in places:
             remainder = path.removeprefix(f"share/{package}")

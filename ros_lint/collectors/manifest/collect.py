@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.manifest.problems import ALLOWED, VERSIONS, find_problems, read_format, surely_accepted
-from ros_lint.collectors.manifest.xml import BLANK, Document, Fault, Node, attribute, child, markup, read, value
+from ros_lint.collectors.manifest.xml import BLANK, Document, Fault, XmlNode, attribute, child, markup, read, value
 from ros_lint.facts.manifest import DEPENDENCY_KINDS, Depend, Element, Manifest
 from ros_lint.facts.visibility import Problem
 
@@ -91,7 +91,7 @@ class _PackageContent:
 
 
 def _read_children(
-    path: str, document: Document, root: Node, allowed: Mapping[str, frozenset[str]], place: _Place
+    path: str, document: Document, root: XmlNode, allowed: Mapping[str, frozenset[str]], place: _Place
 ) -> _PackageContent:
     content = _PackageContent()
     text, events = document.text, document.events
@@ -149,7 +149,7 @@ def _read_asides(gap: str, start: int, content: _PackageContent, place: _Place) 
             content.strays.append(span)
 
 
-def _depend(text: str, node: Node, place: _Place) -> Depend:
+def _depend(text: str, node: XmlNode, place: _Place) -> Depend:
     span = place(node.start, node.end)
     name, start, end = value(text, node)
     name_span = place(start, end)
@@ -162,7 +162,7 @@ def _depend(text: str, node: Node, place: _Place) -> Depend:
     return Depend(name, node.tag, condition, versions, span, name_span, close)
 
 
-def _element(text: str, node: Node, place: _Place, *, rich: bool = False) -> Element:
+def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> Element:
     """Return an element. The text of ``rich`` elements includes their markup, as in catkin_pkg."""
     span = place(node.start, node.end)
     if rich:

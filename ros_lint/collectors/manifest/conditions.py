@@ -112,7 +112,7 @@ def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
 
 
 def always(text: str) -> bool:
-    """Return whether an element with this condition, or without one, counts in every ROS 2 environment."""
+    """Return whether an element with this condition ("" for none) counts in every ROS 2 environment."""
     return truth(text, ROS_2) is True
 
 

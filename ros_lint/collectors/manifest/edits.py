@@ -59,7 +59,10 @@ def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
 
 
 def _insert_by_order(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, element: str) -> Edit:
-    """Return the edit for an element at the place of ``order``, the name if names are sorted, else ""."""
+    """Return the edit that inserts an element for a dependency.
+
+    ``order`` is its name if the dependencies of the kind are sorted by name, else "".
+    """
     manifest = layout.manifest
     siblings = [depend for depend in depends if depend.tag == tag]
     if siblings:
@@ -288,7 +291,7 @@ class _Layout:
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
-        """Return the span from the first of the comments directly above an item to the item."""
+        """Return the first of the comments directly above an item, or the item itself."""
         at = self.items.index(span)
         while at and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:

@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.collectors.manifest.xml import Document, Fault, Node, attribute, children, value
+from ros_lint.collectors.manifest.xml import Document, Fault, XmlNode, attribute, children, value
 from ros_lint.facts.manifest import Depend, Element
 
-_Elements = Sequence[tuple[Node, Element]]
-_Depends = Sequence[tuple[Node, Depend]]
+_Elements = Sequence[tuple[XmlNode, Element]]
+_Depends = Sequence[tuple[XmlNode, Depend]]
 """Children of ``<package>``, each with its parsed dependency."""
 
 VERSIONS: Final = frozenset(("version_lt", "version_lte", "version_eq", "version_gte", "version_gt"))
@@ -59,7 +59,7 @@ _EXPORT_TAGS = frozenset(("build_type", "metapackage", "architecture_independent
 _TAGS_FOR_OTHERS = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
 
 
-def read_format(root: Node) -> int:
+def read_format(root: XmlNode) -> int:
     """Return the format of a manifest, or 0 for an unknown one."""
     try:
         format_number = int(root.attributes.get("format", "1"))
@@ -68,7 +68,7 @@ def read_format(root: Node) -> int:
     return format_number if format_number in ALLOWED else 0
 
 
-def surely_accepted(root: Node, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
+def surely_accepted(root: XmlNode, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
     """Return True if :func:`find_problems` can only report attributes and children. A fifth of its cost."""
     if not format_number or not root.attributes.keys() <= {"format"}:
         return False
@@ -111,7 +111,7 @@ def _is_valid(element: Element) -> bool:
 
 
 def find_problems(
-    document: Document, root: Node, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]
+    document: Document, root: XmlNode, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]
 ) -> Iterator[Fault]:
     """Yield the errors in the content of a manifest, unordered. ``form`` is 0 if the format is unknown.
 
@@ -146,7 +146,7 @@ def find_problems(
         yield from _duplicates(of_depends)
 
 
-def _content(document: Document, node: Node, format_number: int) -> Iterator[Fault]:
+def _content(document: Document, node: XmlNode, format_number: int) -> Iterator[Fault]:
     """Yield an element that its format does not have, or its invalid attributes and children."""
     allowed = ALLOWED[format_number].get(node.tag)
     if allowed is None:
@@ -161,7 +161,7 @@ def _content(document: Document, node: Node, format_number: int) -> Iterator[Fau
             yield Fault("nested-tag", message, inner_node.start, inner_node.end if inner_node.end >= 0 else document.read)
 
 
-def _unknown_tag(node: Node, format_number: int) -> Fault:
+def _unknown_tag(node: XmlNode, format_number: int) -> Fault:
     tag = node.tag
     newer_format = next((str(later) for later, tags in ALLOWED.items() if later > format_number and tag in tags), "")
     if tag == "run_depend":
@@ -184,7 +184,7 @@ def _unknown_tag(node: Node, format_number: int) -> Fault:
     )
 
 
-def _unknown_attribute(text: str, node: Node, name: str, format_number: int) -> Fault:
+def _unknown_attribute(text: str, node: XmlNode, name: str, format_number: int) -> Fault:
     start, _, end = attribute(text, node, name)
     newer_format = next(
         (str(later) for later, tags in ALLOWED.items() if later > format_number and name in tags.get(node.tag, ())), ""
@@ -196,7 +196,7 @@ def _unknown_attribute(text: str, node: Node, name: str, format_number: int) -> 
     return Fault("unknown-attribute", message, start, min(end + 1, node.inner), newer_format)
 
 
-def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[Fault]:
+def _presence(document: Document, root: XmlNode, elements: _Elements) -> Iterator[Fault]:
     """Yield missing elements, and elements that occur too often."""
     tags = [node.tag for node, _ in elements]
     for tag in ("name", "version", "description", "export"):
@@ -212,7 +212,7 @@ def _presence(document: Document, root: Node, elements: _Elements) -> Iterator[F
                 yield Fault("missing-tag", message, root.start + 1, root.start + 1 + len(root.tag))
 
 
-def _name(text: str, node: Node, element: Element) -> Iterator[Fault]:
+def _name(text: str, node: XmlNode, element: Element) -> Iterator[Fault]:
     if not element.text:
         yield Fault("empty-tag", "<name> is empty; write the name of the package", node.start, node.end)
     elif not _NAME.match(element.text):
@@ -221,7 +221,7 @@ def _name(text: str, node: Node, element: Element) -> Iterator[Fault]:
         yield Fault("invalid-name", message, start, end)
 
 
-def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
+def _version(text: str, node: XmlNode, element: Element) -> Iterator[Fault]:
     compatibility = node.attributes.get("compatibility")
     if compatibility and not _VERSION.match(compatibility):
         _, start, end = attribute(text, node, "compatibility")
@@ -235,12 +235,12 @@ def _version(text: str, node: Node, element: Element) -> Iterator[Fault]:
         yield Fault("invalid-version", message, start, end)
 
 
-def _description(_: str, node: Node, element: Element) -> Iterator[Fault]:
+def _description(_: str, node: XmlNode, element: Element) -> Iterator[Fault]:
     if not element.text:
         yield Fault("empty-tag", "<description> is empty; describe the package", node.start, node.end)
 
 
-def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
+def _person(text: str, node: XmlNode, element: Element) -> Iterator[Fault]:
     email = node.attributes.get("email")
     if email is None:
         if node.tag == "maintainer":
@@ -251,12 +251,12 @@ def _person(text: str, node: Node, element: Element) -> Iterator[Fault]:
         yield Fault("invalid-email", f"'{email}' is not an e-mail address; write an address such as name@example.org", start, end)
 
 
-def _license(_: str, node: Node, element: Element) -> Iterator[Fault]:
+def _license(_: str, node: XmlNode, element: Element) -> Iterator[Fault]:
     if not element.text.strip():
         yield Fault("empty-tag", "<license> is empty; name the licence, e.g. Apache-2.0", node.start, node.end)
 
 
-_CHECKS: dict[str, Callable[[str, Node, Element], Iterator[Fault]]] = {
+_CHECKS: dict[str, Callable[[str, XmlNode, Element], Iterator[Fault]]] = {
     "name": _name,
     "version": _version,
     "description": _description,
@@ -280,7 +280,7 @@ def _self_dependencies(depends: _Depends, own_name: str) -> Iterator[Fault]:
 
 
 def _duplicates(depends: _Depends) -> Iterator[Fault]:
-    """Yield dependencies that repeat a <depend> with equal name, versions and condition, letter by letter."""
+    """Yield dependencies that repeat a <depend> with the same name, versions and condition text."""
     first_depends = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
     if not first_depends:
         return
@@ -299,5 +299,5 @@ def _duplicate_tests(depends: _Depends) -> Iterator[Fault]:
             yield Fault("duplicate-dependency", message, node.start, node.end)
 
 
-def _equality(node: Node, depend: Depend) -> tuple[object, ...]:
+def _equality(node: XmlNode, depend: Depend) -> tuple[object, ...]:
     return (depend.name, node.attributes.get("condition"), frozenset(depend.versions)) if node.attributes else (depend.name,)

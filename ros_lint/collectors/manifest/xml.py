@@ -50,7 +50,7 @@ Event = Start | int
 """A start tag, or the offset where an element ends for expat: at its end tag, or after ``<a/>``."""
 
 
-class Node(NamedTuple):
+class XmlNode(NamedTuple):
     """An element. ``end`` is -1 if it is never closed.
 
     The content is from ``inner`` to ``close``, empty in ``<a/>``.
@@ -62,7 +62,7 @@ class Node(NamedTuple):
     inner: int
     close: int
     end: int
-    children: tuple[Node, ...] = ()
+    children: tuple[XmlNode, ...] = ()
     """The children without their own children."""
 
 
@@ -73,7 +73,7 @@ class Document(NamedTuple):
     """The text that expat read. Its offsets are valid in the original text, too."""
     events: list[Event]
     """All tags in order; the root's is the first."""
-    root: Node | None
+    root: XmlNode | None
     """The root without its children, see :func:`children`."""
     faults: tuple[Fault, ...]
     read: int
@@ -94,7 +94,7 @@ def read(source: Text) -> Document:
 _START = re.compile(r"<[^\s/>]+")
 
 
-def attribute(text: str, node: Node, name: str) -> tuple[int, int, int]:
+def attribute(text: str, node: XmlNode, name: str) -> tuple[int, int, int]:
     """Return the offsets of an attribute's name, of its value, and of the value's end."""
     start_tag = _START.match(text, node.start)
     at = start_tag.end() if start_tag else node.start
@@ -106,7 +106,7 @@ def attribute(text: str, node: Node, name: str) -> tuple[int, int, int]:
     return node.start, node.start, node.start
 
 
-def value(text: str, node: Node) -> tuple[str, int, int]:
+def value(text: str, node: XmlNode) -> tuple[str, int, int]:
     """Return the text directly in an element as catkin_pkg reads it, and its start and end offsets.
 
     Comments, CDATA sections and the text of children do not count.
@@ -132,7 +132,7 @@ def value(text: str, node: Node) -> tuple[str, int, int]:
     return "".join(parts).strip(BLANK), *((places[0], places[-1]) if places else (node.inner, node.inner))
 
 
-def markup(text: str, node: Node) -> str:
+def markup(text: str, node: XmlNode) -> str:
     """Return the content of an element with its markup, as catkin_pkg reads description and export, or ""."""
     raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # as xml.dom.minidom does
     if "<" not in raw:
@@ -207,7 +207,7 @@ def _parse(text: str) -> Document:
     return Document(text, events, root, faults, stopped)
 
 
-def children(document: Document) -> list[Node]:
+def children(document: Document) -> list[XmlNode]:
     """Return the children of the root with their children."""
     result = []
     at, last = 1, len(document.events)
@@ -217,10 +217,10 @@ def children(document: Document) -> list[Node]:
     return result
 
 
-def child(document: Document, at: int) -> tuple[Node, int]:
+def child(document: Document, at: int) -> tuple[XmlNode, int]:
     """Return the element that starts at an event, and the next event after its end."""
     text, events, last = document.text, document.events, len(document.events)
-    open_elements: list[tuple[Start, list[Node]]] = []
+    open_elements: list[tuple[Start, list[XmlNode]]] = []
     while at < last:
         event = events[at]
         at += 1
@@ -295,19 +295,19 @@ def _too_deep(events: list[Event]) -> int:
     return -1
 
 
-def _closed(text: str, event: Start, close: int, children: tuple[Node, ...]) -> Node:
+def _closed(text: str, event: Start, close: int, children: tuple[XmlNode, ...]) -> XmlNode:
     """Return a closed element. ``after`` is the offset where it ends for expat."""
     tag, inner = _start_tag(text, event)
     if text[inner - 2] == "/":
         close = end = inner
     else:
         end = text.index(">", close) + 1
-    return _new(Node, (tag, _names(event[1]), event[2], inner, close, end, children))
+    return _new(XmlNode, (tag, _names(event[1]), event[2], inner, close, end, children))
 
 
-def _unclosed(text: str, event: Start, read_length: int, children: tuple[Node, ...]) -> Node:
+def _unclosed(text: str, event: Start, read_length: int, children: tuple[XmlNode, ...]) -> XmlNode:
     tag, inner = _start_tag(text, event)
-    return Node(tag, _names(event[1]), event[2], inner, max(inner, read_length), -1, children)
+    return XmlNode(tag, _names(event[1]), event[2], inner, max(inner, read_length), -1, children)
 
 
 def _start_tag(text: str, event: Start) -> tuple[str, int]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ros_lint.base.xml_tree import Element, XmlError, attribute_places, parse
+from ros_lint.base.xml_tree import XmlElement, XmlError, attribute_places, parse
 from ros_lint.collectors.cpp.registrations import class_name
 from ros_lint.facts.build import PluginClass, PluginFile, PluginLibrary
 
@@ -19,7 +19,7 @@ _PLACEHOLDER = "\ue000"
 _ROOT = "<_>"
 
 
-def roots(text: str) -> list[Element]:
+def roots(text: str) -> list[XmlElement]:
     """Return the top-level elements, as tinyxml2 reads them for pluginlib; [] for a text that it rejects.
 
     There may be several roots, and values of attributes may contain "<", as template types do.
@@ -58,12 +58,12 @@ def collect(path: str, source: Text) -> PluginFile | None:
     return PluginFile(path, tuple(_library(source, element) for element in libraries), place)
 
 
-def _library(source: Text, element: Element) -> PluginLibrary:
+def _library(source: Text, element: XmlElement) -> PluginLibrary:
     classes = tuple(_classes(source, element))
     return PluginLibrary(element.attributes.get("path", ""), _place(source, element, "path"), classes)
 
 
-def _classes(source: Text, library: Element) -> Iterator[PluginClass]:
+def _classes(source: Text, library: XmlElement) -> Iterator[PluginClass]:
     for element in library.children:
         if element.tag == "class":
             get = element.attributes.get
@@ -72,7 +72,7 @@ def _classes(source: Text, library: Element) -> Iterator[PluginClass]:
             yield PluginClass(get("name", class_type), class_name(class_type), class_name(get("base_class_type", "")), place)
 
 
-def _place(source: Text, element: Element, attribute: str) -> Span:
+def _place(source: Text, element: XmlElement, attribute: str) -> Span:
     places = attribute_places(source.text, element)
     start, end = places.get(attribute, (element.start, element.start + 1 + len(element.tag)))
     return source.span(start, end)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_lint.knowledge.rosdep import LETTERS, Key
+from ros_lint.knowledge.rosdep import LETTERS, RosdepKey
 from ros_lint.knowledge.store import KnowledgeError
 
 if TYPE_CHECKING:
@@ -16,11 +16,11 @@ _APT = ("ubuntu", "debian")
 _ONLY_OSX = frozenset({"osx"})
 
 
-def keys(files: Iterable[tuple[str, object]]) -> dict[str, Key]:
-    """Return the keys of rule files, which are pairs of place and content.
+def keys(files: Iterable[tuple[str, object]]) -> dict[str, RosdepKey]:
+    """Return the rosdep keys of rule files. ``files`` are pairs of the place of a file and its parsed contents.
 
-    The files are in the order of rosdep's sources. The first file with a key wins, except that a rule for macOS
-    alone applies on macOS only. Raises KnowledgeError for a file of another kind.
+    The files are in the order of rosdep's sources: of several rules for a key, the first one counts, except that a rule
+    for macOS only does not hide the others. Raises KnowledgeError for a file that has no rules.
     """
     merged: dict[str, dict[str, object]] = {}
     for place, rules in files:
@@ -29,14 +29,14 @@ def keys(files: Iterable[tuple[str, object]]) -> dict[str, Key]:
         for name, rule in rules.items():
             if not isinstance(rule, dict):
                 raise KnowledgeError(f"{place}: the rule of '{name}' is not a mapping from systems")
-            known = merged.get(str(name), {})
-            if known.keys() <= _ONLY_OSX:
-                merged[str(name)] = {**rule, **known}
+            known_rule = merged.get(str(name), {})
+            if known_rule.keys() <= _ONLY_OSX:
+                merged[str(name)] = {**rule, **known_rule}
     # A package for Linux cannot use a key that exists on macOS only.
     return {name: _key(name, rule) for name, rule in merged.items() if rule.keys() - _ONLY_OSX}
 
 
-def _key(name: str, rule: Mapping[str, object]) -> Key:
+def _key(name: str, rule: Mapping[str, object]) -> RosdepKey:
     platforms = tuple(platform for platform in LETTERS.values() if _resolve(rule, platform) is not None)
     apt = {
         package
@@ -45,11 +45,11 @@ def _key(name: str, rule: Mapping[str, object]) -> Key:
         for installer, package in _resolve(rule, platform) or ()
         if installer in ("apt", "")
     }
-    return Key(name, platforms, tuple(sorted(apt)), tuple(sorted(set(_pip(rule)))))
+    return RosdepKey(name, platforms, tuple(sorted(apt)), tuple(sorted(set(_pip(rule)))))
 
 
 def _pip(rule: object) -> Iterator[str]:
-    """Yield the pip packages of a rule for all platforms, including platforms that the data do not list."""
+    """Yield the pip packages of a rule for any platform."""
     if isinstance(rule, dict):
         for name, inside in rule.items():
             if name == "pip":
@@ -59,22 +59,25 @@ def _pip(rule: object) -> Iterator[str]:
 
 
 def _resolve(rule: Mapping[str, object], platform: str) -> tuple[tuple[str, str], ...] | None:
-    """Return packages and their installers ("" for the default installer); None if there is no rule."""
+    """Return pairs of installer and package for a platform; None if the rule does not apply to it.
+
+    The installer is "" for the default one of the platform.
+    """
     system, _, version = platform.partition(":")
-    found = rule[system] if system in rule else rule.get("*")
+    entry = rule[system] if system in rule else rule.get("*")
     for _ in range(3):  # the version, the installer, its packages
-        if isinstance(found, dict):
-            if found.keys() & _INSTALLERS:
+        if isinstance(entry, dict):
+            if entry.keys() & _INSTALLERS:
                 break
-            found = found[version] if version in found else found.get("*")
-    if isinstance(found, dict):
-        installer = sorted(found.keys() & _INSTALLERS)
+            entry = entry[version] if version in entry else entry.get("*")
+    if isinstance(entry, dict):
+        installer = sorted(entry.keys() & _INSTALLERS)
         if not installer:
             return None
-        inside = found[installer[0]]
+        inside = entry[installer[0]]
         packages = inside.get("packages", ()) if isinstance(inside, dict) else inside
         return tuple((installer[0], name) for name in _words(packages))
-    return None if found is None else tuple(("", name) for name in _words(found))
+    return None if entry is None else tuple(("", name) for name in _words(entry))
 
 
 def _words(packages: object) -> list[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.safe_yaml import YamlError, load
 from ros_lint.base.text import Text
-from ros_lint.collectors.manifest import collect as manifests
+from ros_lint.collectors.manifest import collect
 from ros_lint.knowledge.describe import context, describe
 from ros_lint.knowledge.index import Released
 from ros_lint.knowledge.store import KnowledgeError
@@ -24,7 +24,7 @@ _TIMEOUT = 60.0
 _MOST_BYTES = 1 << 28
 
 
-class Source(NamedTuple):
+class DistributionSource(NamedTuple):
     """The files that describe a distribution. Places are paths or URLs."""
 
     name: str
@@ -35,27 +35,30 @@ class Source(NamedTuple):
     """True for a ROS 2 distribution before its end of life."""
 
 
-def sources(place: str) -> dict[str, Source]:
-    """Return the distributions of an index (``index-v4.yaml``) by name. Raises KnowledgeError if invalid."""
-    index = _mapping(place, load_yaml(place), "distributions")["distributions"]
-    found = {}
+def sources(place: str) -> dict[str, DistributionSource]:
+    """Return the distributions in an index (``index-v4.yaml``, by path or URL) by name.
+
+    Raises KnowledgeError if the file is unreadable or invalid.
+    """
+    index = _with_mapping(place, load_yaml(place), "distributions")["distributions"]
+    result = {}
     for name, entry in index.items():
         if not isinstance(entry, dict) or not isinstance(entry.get("distribution"), list):
             raise KnowledgeError(f"{place}: distribution '{name}' has no list of files")
-        files = tuple(_beside(place, str(file)) for file in entry["distribution"])
+        files = tuple(_resolve_place(place, str(file)) for file in entry["distribution"])
         cache = str(entry.get("distribution_cache") or "")
         active = entry.get("distribution_type") == "ros2" and entry.get("distribution_status") != "end-of-life"
-        found[str(name)] = Source(str(name), files, _beside(place, cache) if cache else "", active)
-    return found
+        result[str(name)] = DistributionSource(str(name), files, _resolve_place(place, cache) if cache else "", active)
+    return result
 
 
-def packages(source: Source) -> Iterator[Released]:
+def packages(source: DistributionSource) -> Iterator[Released]:
     """Yield the packages of a distribution. Raises KnowledgeError if a file is unreadable or invalid."""
     if not source.cache:
         raise KnowledgeError(f"the index has no cache for '{source.name}', so its dependencies are unknown")
-    cache = _mapping(source.cache, load_yaml(source.cache), "release_package_xmls")
-    released = cache["release_package_xmls"] or {}
-    in_sources = {
+    cache = _with_mapping(source.cache, load_yaml(source.cache), "release_package_xmls")
+    released_manifests = cache["release_package_xmls"] or {}
+    source_manifests = {
         name: entry[1]
         for repository in (cache.get("source_repo_package_xmls") or {}).values()
         for name, entry in repository.items()
@@ -63,32 +66,35 @@ def packages(source: Source) -> Iterator[Released]:
     }
     repositories: dict[str, Any] = {}
     for file in source.files:
-        repositories.update(_mapping(file, load_yaml(file), "repositories")["repositories"] or {})
-    known = context(source.name)
+        repositories.update(_with_mapping(file, load_yaml(file), "repositories")["repositories"] or {})
+    variables = context(source.name)
     for repository, entry in repositories.items():
         release = (entry or {}).get("release")
         if not release:
             continue
         version = str(release.get("version") or "").rpartition("-")[0]
-        ended = "E" * (entry.get("status") in ("end-of-life", "unmaintained"))
+        end_of_life_flag = "E" * (entry.get("status") in ("end-of-life", "unmaintained"))
         for name in map(str, release.get("packages") or [repository]):
             listed = Released(name, version, f"?{'' if version else 'U'}", str(repository), {})
-            if name in released:
-                yield _described(source, listed, released[name], known, ended)
-            elif name in in_sources:
-                yield _described(source, listed, in_sources[name], known, ended)
+            if name in released_manifests:
+                yield _described(source, listed, released_manifests[name], variables, end_of_life_flag)
+            elif name in source_manifests:
+                yield _described(source, listed, source_manifests[name], variables, end_of_life_flag)
             else:
                 yield listed._replace(flags=listed.flags if not version else "?-")
 
 
-def _described(source: Source, listed: Released, xml: object, known: Mapping[str, str], ended: str) -> Released:
-    manifest = manifests.collect(Text(f"{source.cache}: {listed.name}", str(xml)))
+def _described(
+    source: DistributionSource, listed: Released, xml: object, variables: Mapping[str, str], end_of_life_flag: str
+) -> Released:
+    """Return an entry of a distribution file, completed with the dependencies and flags of its manifest."""
+    manifest = collect.collect(Text(f"{source.cache}: {listed.name}", str(xml)))
     if manifest.name != listed.name:
         return listed._replace(flags="?-")
-    found = describe(manifest, known)
+    package = describe(manifest, variables)
     # The cache may be older than the distribution file.
-    state = "U" if not listed.version else "~" if found.version != listed.version else ""
-    return listed._replace(flags=found.flags + state + ended, depends=found.depends)
+    state = "U" if not listed.version else "~" if package.version != listed.version else ""
+    return listed._replace(flags=package.flags + state + end_of_life_flag, depends=package.depends)
 
 
 def load_yaml(place: str) -> Any:
@@ -101,7 +107,7 @@ def load_yaml(place: str) -> Any:
 
 
 def read(place: str) -> bytes:
-    """Return the bytes of a file, by path or URL (http, https, file), unpacked. Raises KnowledgeError."""
+    """Return the bytes of a file, given by path or URL (http, https, file); gzip is unpacked. Raises KnowledgeError."""
     try:
         data = _download(place) if _is_url(place) else _open(place)
         return gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
@@ -132,15 +138,15 @@ def _is_url(place: str) -> bool:
     return "://" in place
 
 
-def _beside(index: str, place: str) -> str:
-    """Return a place that an index names, resolved relative to the index."""
+def _resolve_place(index: str, place: str) -> str:
+    """Return a path or URL in an index as one that can be opened: relative ones are relative to the index."""
     if _is_url(place) or os.path.isabs(place):
         return place
     folder = index.rpartition("/")[0] if _is_url(index) else os.path.dirname(index)
     return f"{folder}/{place}" if folder else place
 
 
-def _mapping(place: str, found: object, key: str) -> dict[str, Any]:
-    if not isinstance(found, dict) or not isinstance(found.get(key, ""), dict | None):
+def _with_mapping(place: str, document: object, key: str) -> dict[str, Any]:
+    if not isinstance(document, dict) or not isinstance(document.get(key, ""), dict | None):
         raise KnowledgeError(f"{place} has no mapping {key!r}, so it is not the expected file")
-    return found
+    return document

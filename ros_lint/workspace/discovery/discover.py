@@ -17,7 +17,7 @@ from ros_lint.workspace.discovery.identify import (
     Folder,
     Identity,
     Ignored,
-    Settings,
+    MetaSettings,
     build_product,
     identify,
     ignored_by_ros,
@@ -116,7 +116,7 @@ class _Walk:
         self._rejected: list[Manifest] = []
         self._skipped: list[Skipped] = []
         self._not_checked: list[UnreadFile] = []
-        self._settings = Settings({}, {})
+        self._settings = MetaSettings({}, {})
 
     def run(self, roots: Sequence[str]) -> Discovery:
         self._settings = self._read_meta(("", *roots))
@@ -174,7 +174,7 @@ class _Walk:
                     verdict.type,
                     manifest,
                     verdict.depends,
-                    tuple(sorted(files.found)),
+                    tuple(sorted(files.files)),
                     tuple(sorted(files.nested, key=lambda nested: nested.path)),
                     tuple(sorted(files.unvisited)),
                 )
@@ -190,7 +190,7 @@ class _Walk:
             self._not_checked.append(UnreadFile.of(path, error))
             return None
 
-    def _read_meta(self, places: Sequence[str]) -> Settings:
+    def _read_meta(self, places: Sequence[str]) -> MetaSettings:
         by_name: dict[str, ColconSettings] = {}
         by_identity: dict[str, ColconSettings] = {}
         for place in dict.fromkeys(places):
@@ -200,7 +200,7 @@ class _Walk:
             folder = parent(meta.path)
             for path, values in meta.by_path:
                 by_identity[self._tree.identity(resolve(folder, path))] = values
-        return Settings(by_name, by_identity)
+        return MetaSettings(by_name, by_identity)
 
     def _meta(self, place: str) -> ColconMeta | None:
         path = join(place, "colcon.meta")
@@ -226,7 +226,7 @@ class _Walk:
 
 
 class _PackageFiles:
-    """The files of one package."""
+    """Collects the files of one package, and the manifests and folders that are not part of it."""
 
     def __init__(self, tree: Tree, package: str, roots: tuple[str, ...]) -> None:
         self._tree = tree
@@ -234,7 +234,7 @@ class _PackageFiles:
         self._roots = roots
         self._linked: set[str] = set()
         self._marked: list[str] = []
-        self.found: list[str] = []
+        self.files: list[str] = []
         self.nested: list[Manifest] = []
         self.unvisited: list[Skipped] = []
         self.not_checked: list[UnreadFile] = []
@@ -250,7 +250,7 @@ class _PackageFiles:
             prefix = f"{folder}/" if folder else ""
             for name, kind, link in entries:
                 if kind == "file":
-                    self.found.append(prefix + name)
+                    self.files.append(prefix + name)
                 if kind != "directory" or name in SKIPPED_FOLDERS:
                     continue
                 child, child_link_folders = prefix + name, (*link_folders, identity) if link else link_folders

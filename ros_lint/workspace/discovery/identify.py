@@ -36,7 +36,7 @@ class Ignored(NamedTuple):
     reason: str
 
 
-class Settings(NamedTuple):
+class MetaSettings(NamedTuple):
     """Settings in ``colcon.meta`` files, by the name of a package and by the identity of its folder."""
 
     by_name: Mapping[str, ColconSettings]
@@ -156,7 +156,7 @@ def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
     return (certain or [name for name, _ in types] or ["catkin"])[0]
 
 
-def identify(folder: Folder, manifest: Manifest | None, settings: Settings, context: Mapping[str, str]) -> Verdict:
+def identify(folder: Folder, manifest: Manifest | None, settings: MetaSettings, context: Mapping[str, str]) -> Verdict:
     """Return how colcon identifies a folder: a package, a folder to skip, or None for neither.
 
     ``context`` has the known variables of conditions in package.xml.

@@ -84,7 +84,7 @@ class FileRoles:
         """
         folder, _, name = path.rpartition("/")
         folders = folder.split("/")
-        if not auxiliary_files.EDITORS_COPIES.isdisjoint(folders):
+        if not auxiliary_files.EDITOR_COPY_FOLDERS.isdisjoint(folders):
             return True
         looks_unrelated = any(part in name for part in _TEMPLATE_MARKS) or (name.startswith("setup.py.") and folder)
         if not looks_unrelated and name.endswith(".py"):
@@ -201,7 +201,7 @@ class FileRoles:
         return frozenset([files[0] for files in map(self._own_files.by_name.get, named) if files is not None and len(files) == 1])
 
     def _siblings_are_used(self, path: str) -> bool:
-        """Return whether other files of the same folder and suffix are built or installed, but not this one."""
+        """Return whether other files of the same folder and suffix are built or installed by name."""
         folder, _, name = path.rpartition("/")
         return f"{folder}/*{name[name.rfind('.') :]}" in self._used_patterns and (name.endswith(".py") or self._sources_known)
 
@@ -329,7 +329,10 @@ class FileRoles:
         return frozenset([_stem(file) for file in self._optional if file.endswith(SOURCES)])
 
     def _compiled(self, *, test: bool) -> set[str]:
-        """Return the sources compiled in every build, also by one of two alternative targets of one name."""
+        """Return the sources that every build compiles.
+
+        A target may have alternative definitions; a source in all of them counts.
+        """
         result: set[str] = set()
         optional_by_target: dict[str, list[set[str]]] = {}
         for target in self._script.products.targets:

@@ -18,7 +18,7 @@ Without __init__.py such a folder does not hide the module (PEP 420).
 
 
 class OwnFiles:
-    """The files of one package by the names in includes and imports. Paths are relative to the package."""
+    """Resolves includes and imports to files of one package. Paths are relative to the package."""
 
     def __init__(self, name: str, files: Sequence[str], script: BuildScript | None, facts: Mapping[str, FileFacts]) -> None:
         self._name = name

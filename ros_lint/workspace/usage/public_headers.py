@@ -42,7 +42,7 @@ def _endings(facts: FileFacts) -> Iterator[str]:
 
 
 def _includes(facts: FileFacts) -> Iterator[str]:
-    """Yield the headers that a file requires; a path through ``..`` loses all parts up to it."""
+    """Yield the headers that a file requires; ``../a/b.hpp`` gives ``a/b.hpp``."""
     for mention in facts.mentions:
         if mention.via == "include" and not mention.optional:
             yield mention.name.rpartition("../")[2].removeprefix("./")

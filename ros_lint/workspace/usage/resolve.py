@@ -35,7 +35,7 @@ class ProviderLookup(Protocol):
     def by_include(self, header: str) -> Providers: ...
     def by_import(self, module: str) -> Providers: ...
     def is_package(self, name: str) -> bool: ...
-    def standing(self, name: str) -> Resolution: ...
+    def resolution(self, name: str) -> Resolution: ...
     def is_declared(self, name: str) -> bool: ...
     @property
     def awaited(self) -> ExpectedRepositories: ...
@@ -130,9 +130,8 @@ class Resolver:
 
     def looked_up(self, name: str) -> ProviderMatch:
         """Return an owner of an unknown name that is certainly looked up: the package of that name."""
-        return (
-            ProviderMatch((name,), False, name) if self.names.standing(name) == "unknown" and may_be_package(name) else _NO_MATCH
-        )
+        is_unknown = self.names.resolution(name) == "unknown" and may_be_package(name)
+        return ProviderMatch((name,), False, name) if is_unknown else _NO_MATCH
 
     def _find_package(self, name: str) -> ProviderMatch:
         providers = self.names.by_cmake(name)
@@ -150,7 +149,7 @@ class Resolver:
         The owner is a package of another or a former distribution, or (``is_interface``) the package of an interface.
         The latter is certain only if the workspace declares the package.
         """
-        resolution = self.names.standing(name) if name else "unknowable"
+        resolution = self.names.resolution(name) if name else "unknowable"
         if resolution == "elsewhere":
             return ProviderMatch((name,))
         is_declared = is_interface and self.names.is_declared(name)
@@ -333,7 +332,7 @@ class _Uses:
 
 
 def _files_with_optional_imports(source: PackageSource, roles: FileRoles) -> list[str]:
-    """Return the files of the package with optional imports, tests aside."""
+    """Return the files of the package, except for tests, that contain optional imports."""
     return [path for path, facts in source.facts.items() if facts.optional_modules and roles.role(path)[0] is not _TEST]
 
 

@@ -136,10 +136,9 @@ _CODE_SUFFIXES = (".c", ".cc", ".cpp", ".cu", ".cxx", ".em", ".h", ".hh", ".hpp"
 
 
 def _unknown_folders(package: Package, source: PackageSource) -> frozenset[str]:
-    """Return the first folders of included headers that no known package has.
+    """Return the first folder of each included header that no known package provides.
 
-    The names of packages begin with such a folder, as ``moveit_core`` with the folder of
-    ``moveit/planning_scene.h``.
+    The name of its package often begins with this folder: ``moveit_core`` provides ``moveit/planning_scene.h``.
     """
     used = {use.span for use in package.uses if use.via == "include"}
     headers = {

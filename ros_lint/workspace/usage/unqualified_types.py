@@ -1,6 +1,6 @@
 """Find types of other packages that C++ code uses by unqualified names.
 
-Neither an include nor the name of the package is in the code. Examples:
+The code contains neither an include of the package nor its name. Examples:
 
 * `route_handler::RouteHandler` inside the outer namespace of both packages,
 * a class, through a using-declaration of a third package,
@@ -75,8 +75,8 @@ class Types:
             tail = to_bytes(name.partition("_")[2])
             for word in (*sorted(type_names.types), *([tail] if tail in type_names.spaces else [])):
                 texts_with_word = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
-                code.update((path, cpp_types.code(text)) for path, text in texts_with_word if path not in code)
-                place = cpp_types.first([(path, code[path]) for path, _ in texts_with_word], word, type_names.spaces)
+                code.update((path, cpp_types.without_comments(text)) for path, text in texts_with_word if path not in code)
+                place = cpp_types.first_use([(path, code[path]) for path, _ in texts_with_word], word, type_names.spaces)
                 if place:
                     places[name] = place
                     break
@@ -96,7 +96,9 @@ class Types:
         if source.name not in self._public:
             texts = [text for _, text in self._texts(source, filter(_is_public, source.files))]
             spaces = frozenset(part for text in texts for part in cpp_types.namespaces(text))
-            self._public[source.name] = _TypeNames(frozenset(name for text in texts for name in cpp_types.declared(text)), spaces)
+            self._public[source.name] = _TypeNames(
+                frozenset(name for text in texts for name in cpp_types.declared_types(text)), spaces
+            )
         return self._public[source.name]
 
     def _message_aliases(self, name: str, package: str, file: str) -> Set[bytes]:
@@ -104,7 +106,7 @@ class Types:
         source = self._by_name[package]
         key = join(source.path, file)
         if key not in self._introduced:
-            self._introduced[key] = cpp_types.introduced(b"".join([text for _, text in self._texts(source, [file])]))
+            self._introduced[key] = cpp_types.interface_aliases(b"".join([text for _, text in self._texts(source, [file])]))
         return self._introduced[key].get(name, frozenset())
 
     @cached_property

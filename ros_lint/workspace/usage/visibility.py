@@ -25,7 +25,7 @@ def name_suggests_no_trace(world: World, name: str) -> bool:
     Macros of a package in the workspace are evaluated, so its use is visible.
     """
     names = world.knowledge.names
-    return names.works_unseen(name) and not (world.layer(name) == "workspace" and names.sounds_like_macros(name))
+    return names.leaves_no_trace(name) and not (world.layer(name) == "workspace" and names.provides_macros(name))
 
 
 def is_fully_visible(package: Package) -> bool:

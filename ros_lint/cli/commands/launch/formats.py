@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from ros_lint.base.text import Span
-    from ros_lint.cli.commands.launch.lookup import LookUp
+    from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
     from ros_lint.collectors.launch.expand import Argument, Expansion, Started
     from ros_lint.facts.launch import LaunchCondition, LaunchFile
 
@@ -35,12 +35,12 @@ SCHEMA_VERSION = 1
 _MOST_UNKNOWN = 20
 
 
-class Found(NamedTuple):
-    """The data to print."""
+class ExpandedFile(NamedTuple):
+    """A launch file with its expansion, as the formats print it."""
 
     file: LaunchFile
     expansion: Expansion
-    look_up: LookUp
+    lookup: LaunchFileLookup
 
 
 # --- words ---------------------------------------------------------------------------------------------------------
@@ -55,7 +55,7 @@ def _value(texts: Iterable[str]) -> str:
 
 
 def _full_name(started: Started) -> str:
-    """Return the name with its namespace, as far as the launch file sets it."""
+    """Return the name of a node with its namespace, as far as the launch file sets them."""
     spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
     if not started.name:
         return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))
@@ -63,7 +63,7 @@ def _full_name(started: Started) -> str:
 
 
 def _condition(condition: LaunchCondition) -> str:
-    """Return the condition as text, or "" if it is unknown."""
+    """Return a condition as text, such as "if $(var use_sim_time)"; "" if nothing is known about it."""
     if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
         return ""
     text = _text(condition.texts)
@@ -76,14 +76,14 @@ def _when(started: Started) -> list[str]:
     return [text for condition in dict.fromkeys(started.when) if (text := _condition(condition))]
 
 
-def _why_not_followed(started: Started, look_up: LookUp) -> str:
+def _why_not_followed(started: Started, lookup: LaunchFileLookup) -> str:
     if len(started.target) != 1 or UNKNOWN in started.target[0]:
-        return _NOT_KNOWN
-    absent = look_up.absent(started.target[0])
-    return absent.reason if absent is not None else _NOT_KNOWN
+        return _UNKNOWN_PATH
+    absent = lookup.absent(started.target[0])
+    return absent.reason if absent is not None else _UNKNOWN_PATH
 
 
-_NOT_KNOWN = "the path of the file is not known"
+_UNKNOWN_PATH = "the path of the file is unknown"
 
 
 def _head(started: Started) -> str:
@@ -98,24 +98,24 @@ def _head(started: Started) -> str:
     return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later}"
 
 
-def _unknown(found: Found) -> list[tuple[str, Span]]:
-    files = (found.file, *found.look_up.followed)
+def _unknown(expanded: ExpandedFile) -> list[tuple[str, Span]]:
+    files = (expanded.file, *expanded.lookup.followed)
     return list(dict.fromkeys((opaque.reason, opaque.span) for file in files for opaque in file.opaque))
 
 
 # --- tree ----------------------------------------------------------------------------------------------------------
 
 
-def tree(found: Found) -> str:
-    """Return the expansion as an indented list."""
-    expansion = found.expansion
-    lines = [found.file.path]
+def tree(expanded: ExpandedFile) -> str:
+    """Return the expansion as text: an indented line for each action that is started, and a summary."""
+    expansion = expanded.expansion
+    lines = [expanded.file.path]
     lines += [f"  {_argument(argument)}" for argument in expansion.arguments if argument.depth == 0]
     for started in expansion.started:
         indent = "  " * (started.depth + 1)
         lines.append(f"{indent}{_head(started)}")
-        lines += [f"{indent}  {detail}" for detail in _details(started, found)]
-    unknown = _unknown(found)
+        lines += [f"{indent}  {detail}" for detail in _details(started, expanded)]
+    unknown = _unknown(expanded)
     if unknown:
         lines += ["", "not analysed:"]
         lines += [f"  {span}: {reason}" for reason, span in unknown[:_MOST_UNKNOWN]]
@@ -128,9 +128,9 @@ def _argument(argument: Argument) -> str:
     return f"argument {readable(argument.name)} = {_value(argument.texts)}{' (given)' if argument.given else ''}"
 
 
-def _details(started: Started, found: Found) -> Iterator[str]:
+def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
     if not started.certain:
-        yield " and ".join(_when(started)) or "conditional: the condition is not known"
+        yield " and ".join(_when(started)) or "conditional: the condition is unknown"
     if started.container:
         yield f"in container {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
     if started.words:
@@ -148,7 +148,7 @@ def _details(started: Started, found: Found) -> Iterator[str]:
     for name, texts in started.arguments:
         yield f"{'argument ' if started.kind == 'include' else ''}{readable(name)} = {_value(texts)}"
     if started.kind == "include" and not started.file:
-        yield f"not followed: {_why_not_followed(started, found.look_up)}"
+        yield f"not followed: {_why_not_followed(started, expanded.lookup)}"
     yield from (f"? {reason}" for reason in started.unknown)
 
 
@@ -162,22 +162,22 @@ def _summary(expansion: Expansion) -> str:
         for kind in ("node", "component", "process", "include")
         if kind in counts
     ]
-    perhaps = sum(not started.certain for started in expansion.started)
-    cut = "" if expansion.complete else "; incomplete"
-    return f"{', '.join(parts) or 'starts nothing'}{f' ({perhaps} conditional)' if perhaps else ''}{cut}"
+    conditional = sum(not started.certain for started in expansion.started)
+    suffix = "" if expansion.complete else "; incomplete"
+    return f"{', '.join(parts) or 'starts nothing'}{f' ({conditional} conditional)' if conditional else ''}{suffix}"
 
 
 # --- json ----------------------------------------------------------------------------------------------------------
 
 
-def json(found: Found) -> str:
+def json(expanded: ExpandedFile) -> str:
     """Return the expansion as JSON."""
     import json as library  # noqa: PLC0415  (only for this format)
 
-    expansion = found.expansion
+    expansion = expanded.expansion
     document = {
         "schema_version": SCHEMA_VERSION,
-        "file": found.file.path,
+        "file": expanded.file.path,
         "arguments": [
             {
                 **_named([(argument.name, argument.texts)])[0],
@@ -187,14 +187,14 @@ def json(found: Found) -> str:
             }
             for argument in expansion.arguments
         ],
-        "starts": _nested(expansion.started, 0, found),
-        "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(found)],
+        "starts": _nested(expansion.started, 0, expanded),
+        "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(expanded)],
         "complete": expansion.complete,
     }
     return library.dumps(document, indent=2, ensure_ascii=False) + "\n"
 
 
-def _nested(started: Sequence[Started], depth: int, found: Found) -> list[dict[str, Any]]:
+def _nested(started: Sequence[Started], depth: int, expanded: ExpandedFile) -> list[dict[str, Any]]:
     items: list[dict[str, Any]] = []
     at = 0
     while at < len(started):
@@ -206,31 +206,31 @@ def _nested(started: Sequence[Started], depth: int, found: Found) -> list[dict[s
         if entry.kind == "include":
             item["follows"] = entry.file or None
             if not entry.file:
-                item["unknown"].append(_why_not_followed(entry, found.look_up))
-            item["starts"] = _nested(started[at + 1 : end], depth + 1, found)
+                item["unknown"].append(_why_not_followed(entry, expanded.lookup))
+            item["starts"] = _nested(started[at + 1 : end], depth + 1, expanded)
         items.append(item)
         at = end
     return items
 
 
-def _item(one: Started) -> dict[str, Any]:
+def _item(started: Started) -> dict[str, Any]:
     return {
-        "kind": one.kind,
-        "package": _list(one.package),
-        "target": _list(one.target),
-        "name": _list(one.name),
-        "namespace": [f"/{space.strip('/')}" for space in _list(one.namespace)],
-        "container": _list(one.container),
-        "words": [_list(texts) for texts in one.words],
-        "later": one.later,
-        "parameters": _named(one.parameters),
-        "remappings": [{"from": _list(before), "to": _list(after)} for before, after in one.remappings],
-        "environment": _named(one.environment),
-        "arguments": _named(one.arguments),
-        "certain": one.certain,
-        "when": _when(one),
-        "unknown": list(one.unknown),
-        **where(one.span),
+        "kind": started.kind,
+        "package": _list(started.package),
+        "target": _list(started.target),
+        "name": _list(started.name),
+        "namespace": [f"/{space.strip('/')}" for space in _list(started.namespace)],
+        "container": _list(started.container),
+        "words": [_list(texts) for texts in started.words],
+        "later": started.later,
+        "parameters": _named(started.parameters),
+        "remappings": [{"from": _list(before), "to": _list(after)} for before, after in started.remappings],
+        "environment": _named(started.environment),
+        "arguments": _named(started.arguments),
+        "certain": started.certain,
+        "when": _when(started),
+        "unknown": list(started.unknown),
+        **where(started.span),
     }
 
 
@@ -245,14 +245,14 @@ def _list(texts: Iterable[str]) -> list[str]:
 # --- mermaid -------------------------------------------------------------------------------------------------------
 
 
-def mermaid(found: Found) -> str:
-    """Return the expansion as a flow chart of files, processes and includes; dotted if conditional."""
-    lines = ["flowchart LR", f'  n0["{label(found.file.path.rpartition("/")[2])}"]']
+def mermaid(expanded: ExpandedFile) -> str:
+    """Return the expansion as a Mermaid flow chart. Arrows to conditional actions are dotted."""
+    lines = ["flowchart LR", f'  n0["{label(expanded.file.path.rpartition("/")[2])}"]']
     above = ["n0"]
-    for number, started in enumerate(found.expansion.started, 1):
+    for number, started in enumerate(expanded.expansion.started, 1):
         del above[started.depth + 1 :]
         name = f"n{number}"
-        opening, closing = _SHAPES[started.kind]
+        opening, closing = _NODE_SHAPES[started.kind]
         lines.append(f'  {name}{opening}"{_label(started)}"{closing}')
         conditions = " and ".join(_when(started))
         arrow = "-->" if started.certain else f'-.->|"{label(conditions)}"|' if conditions else "-.->"
@@ -262,7 +262,7 @@ def mermaid(found: Found) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-_SHAPES = {"node": ("(", ")"), "component": ("([", "])"), "process": ("{{", "}}"), "include": ("[", "]")}
+_NODE_SHAPES = {"node": ("(", ")"), "component": ("([", "])"), "process": ("{{", "}}"), "include": ("[", "]")}
 
 
 def _label(started: Started) -> str:
@@ -273,4 +273,4 @@ def _label(started: Started) -> str:
     return "<br/>".join(label(line) for line in lines if line)
 
 
-FORMATS: Mapping[str, Callable[[Found], str]] = {"tree": tree, "json": json, "mermaid": mermaid}
+FORMATS: Mapping[str, Callable[[ExpandedFile], str]] = {"tree": tree, "json": json, "mermaid": mermaid}

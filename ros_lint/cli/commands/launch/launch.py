@@ -3,7 +3,7 @@
 The exit code is:
 - 0 if launching would succeed, as far as can be determined,
 - 1 if it would fail, with the reasons on standard error,
-- 2 for an invalid request: a missing file, package or argument, or a file that is no launch file.
+- 2 for an invalid request: an unknown file, package or argument, or a file that is not a launch file.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.cli.commands.launch import formats as launch_formats
-from ros_lint.cli.commands.launch.lookup import LookUp
+from ros_lint.cli.commands.launch import formats
+from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, enclosing_workspace, run_query
 from ros_lint.cli.session import Session, UsageError
 from ros_lint.collectors.launch.expand import Expansion, expand
@@ -27,35 +27,37 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 
-class Asked(NamedTuple):
-    """The parsed words of the command line."""
+class LaunchRequest(NamedTuple):
+    """The launch file and the launch arguments on the command line."""
 
     package: str
-    """The package, or "" if the file is given by its path."""
+    """Name of the package, or "" if ``file`` is a path."""
     file: str
-    given: Mapping[str, str]
+    """File name of an installed launch file of the package, or a path."""
+    arguments: Mapping[str, str]
 
 
-def run(said: Mapping[str, Any]) -> int:
+def run(options: Mapping[str, Any]) -> int:
     """Run the command, print the answer, return the exit code."""
     try:
-        asked = understood(said["words"], os.path.isfile)
-        paths = said.get("paths") or [current_workspace() if asked.package else enclosing_workspace(asked.file)]
+        request = parse_launch_request(options["words"], os.path.isfile)
+        paths = options.get("paths") or [current_workspace() if request.package else enclosing_workspace(request.file)]
     except UsageError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
 
-    def answered(opened: Session, workspace: Workspace) -> CommandOutput:
-        path = "" if asked.package else os.path.relpath(os.path.realpath(asked.file), opened.base).replace(os.sep, "/")
-        return answer(workspace, LookUp(workspace, opened.loader.tree), asked, path, said["format"])
+    def answer_request(session: Session, workspace: Workspace) -> CommandOutput:
+        path = "" if request.package else os.path.relpath(os.path.realpath(request.file), session.base).replace(os.sep, "/")
+        return answer(workspace, LaunchFileLookup(workspace, session.loader.tree), request, path, options["format"])
 
-    return run_query({**said, "paths": paths}, answered)
+    return run_query({**options, "paths": paths}, answer_request)
 
 
-def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
-    """Return the request in words: FILE or PACKAGE FILE, and arguments, as ``ros2 launch`` takes them.
+def parse_launch_request(words: Sequence[str], is_file: Callable[[str], bool]) -> LaunchRequest:
+    """Return the request that the words of the command line make, in the syntax of ``ros2 launch``.
 
-    Raises UsageError.
+    The words are FILE or PACKAGE FILE, and arguments ``name:=value`` in any place. ``is_file`` returns whether a path is
+    an existing file. Raises UsageError.
     """
     places = [word for word in words if ":=" not in word]
     arguments: dict[str, str] = {}
@@ -70,47 +72,53 @@ def understood(words: Sequence[str], is_file: Callable[[str], bool]) -> Asked:
     if len(places) > 2 or (len(places) == 2 and is_file(places[0])):
         raise UsageError(f"unexpected '{places[-1]}'; launch arguments are written as name:=value")
     if len(places) == 2:
-        return Asked(places[0], places[1], arguments)
+        return LaunchRequest(places[0], places[1], arguments)
     if not is_file(places[0]):
         raise UsageError(f"{places[0]}: no such file; for an installed launch file use 'ros-lint launch PACKAGE FILE'")
-    return Asked("", places[0], arguments)
+    return LaunchRequest("", places[0], arguments)
 
 
-def answer(workspace: Workspace, look_up: LookUp, asked: Asked, path: str, form: str) -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code.
+def answer(workspace: Workspace, lookup: LaunchFileLookup, request: LaunchRequest, path: str, form: str) -> tuple[str, str, int]:
+    """Return standard output, standard error and the exit code: 1 if launching would fail, else 0.
 
-    ``path`` is the path of the file relative to the base of the workspace, if no package is given. Raises UsageError.
+    ``path`` is the path of the file relative to the base of the workspace; it is ignored if the request names a package.
+    ``form`` is a key of ``formats.FORMATS``. Raises UsageError.
     """
-    if asked.package:
-        file, place = look_up.installed_file(asked.package, asked.file)
+    if request.package:
+        file, place = lookup.installed_file(request.package, request.file)
     else:
-        file, place = look_up.source_file(path), path
-    expansion = expand(file._replace(path=place), asked.given, look_up.included, workspace.target.distro)
-    doubts = list(_doubts(file, look_up, expansion, asked.given))
-    problems = list(dict.fromkeys(_problems(file, look_up, expansion)))
-    err = "".join(f"ros-lint: {line}\n" for line in (*doubts, *problems))
-    content = launch_formats.Found(file, expansion, look_up)
-    return launch_formats.FORMATS[form](content), err, 1 if problems else 0
+        file, place = lookup.source_file(path), path
+    expansion = expand(file._replace(path=place), request.arguments, lookup.included, workspace.target.distro)
+    warnings = list(_argument_warnings(file, lookup, expansion, request.arguments))
+    problems = list(dict.fromkeys(_problems(file, lookup, expansion)))
+    err = "".join(f"ros-lint: {line}\n" for line in (*warnings, *problems))
+    content = formats.ExpandedFile(file, expansion, lookup)
+    return formats.FORMATS[form](content), err, 1 if problems else 0
 
 
-def _doubts(file: LaunchFile, look_up: LookUp, expansion: Expansion, given: Mapping[str, str]) -> Iterator[str]:
-    """Yield warnings about arguments that are not used. Raises UsageError if an error is almost certain."""
-    takes = look_up.takes(file)
+def _argument_warnings(
+    file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion, arguments: Mapping[str, str]
+) -> Iterator[str]:
+    """Yield a warning for each argument that no readable launch file uses.
+
+    Raises UsageError if all files are readable or a declared argument has a similar name.
+    """
+    accepted = lookup.accepted_arguments(file)
     declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
-    known = {*takes.known, *declared, *look_up.used(file)}
-    for name in given:
-        if name in known:
+    accepted_names = {*accepted.known, *declared, *lookup.used(file)}
+    for name in arguments:
+        if name in accepted_names:
             continue
         near = similar_names(name, declared, 1, 0.75)
         hint = did_you_mean(near) or (f"; available: {', '.join(declared)}" if declared else "; it declares none")
-        if takes.complete or near:
+        if accepted.complete or near:
             raise UsageError(f"{file.path} has no argument '{name}'{hint}")
         yield f"no launch file that can be read uses the argument '{name}'{hint}"
 
 
-def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterator[str]:
-    """Yield the reasons why launching fails."""
-    for launch_file in (file, *look_up.followed):
+def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion) -> Iterator[str]:
+    """Yield the reasons why launching would fail, each with its place."""
+    for launch_file in (file, *lookup.followed):
         for problem in launch_file.problems:
             yield f"{problem.span}: {problem.message}"
     for missing in expansion.missing:
@@ -118,13 +126,13 @@ def _problems(file: LaunchFile, look_up: LookUp, expansion: Expansion) -> Iterat
             yield f"{missing.span}: the argument '{missing.name}' has no default; pass {missing.name}:=VALUE"
         else:
             yield f"{missing.include}: the argument '{missing.name}' is not passed here and has no default at {missing.span}"
-    for refused in expansion.refused:
-        choices = ", ".join(refused.choices)
-        yield f"{refused.span}: '{refused.value}' is not a valid choice for the argument '{refused.name}'; use one of {choices}"
-    for circle in expansion.circles:
-        yield f"{circle.span}: this include leads back to {circle.path}, so launching never ends"
+    for invalid in expansion.refused:
+        choices = ", ".join(invalid.choices)
+        yield f"{invalid.span}: '{invalid.value}' is not a valid choice for the argument '{invalid.name}'; use one of {choices}"
+    for cycle in expansion.circles:
+        yield f"{cycle.span}: this include leads back to {cycle.path}, so launching never ends"
     for started in expansion.started:
         if started.kind == "include" and started.certain and not started.file and len(started.target) == 1:
-            absent = look_up.absent(started.target[0])
-            if absent is not None and absent.surely:
+            absent = lookup.absent(started.target[0])
+            if absent is not None and absent.certain:
                 yield f"{started.span}: {readable(started.target[0])}: {absent.reason}"

@@ -1,4 +1,4 @@
-"""Lookup of launch files by path or package: in the workspace, or installed in an underlay."""
+"""Find launch files by path or by package, in the workspace or installed in an underlay."""
 
 from __future__ import annotations
 
@@ -28,28 +28,28 @@ class Absent(NamedTuple):
     """The reason why a launch file could not be read."""
 
     reason: str
-    surely: bool
-    """True if it will certainly not exist when the launch file runs."""
+    certain: bool
+    """True if the launch file will certainly not exist at run time."""
 
 
-class LookUp:
-    """Finds launch files, and records the included files and those that could not be read."""
+class LaunchFileLookup:
+    """Finds launch files. It remembers which includes were read, and which could not be read."""
 
     def __init__(self, workspace: Workspace, tree: Tree) -> None:
         self._workspace = workspace
         self._tree = tree
         self._sources = {file.path: file for package in workspace.packages for file in package.launch}
-        self._links = IncludeResolver(workspace.packages)
-        self._found: dict[str, LaunchFile | Absent] = {}
+        self._includes = IncludeResolver(workspace.packages)
+        self._results: dict[str, LaunchFile | Absent] = {}
 
     @property
     def followed(self) -> tuple[LaunchFile, ...]:
         """Return the included files in the order in which they were read."""
-        return tuple(file for file in self._found.values() if not isinstance(file, Absent))
+        return tuple(file for file in self._results.values() if not isinstance(file, Absent))
 
-    def takes(self, file: LaunchFile) -> AcceptedArguments:
-        """Return the launch configurations that a file and its includes in the workspace accept."""
-        return self._links.takes(file)
+    def accepted_arguments(self, file: LaunchFile) -> AcceptedArguments:
+        """Return the launch arguments that a file and its includes in the workspace accept."""
+        return self._includes.takes(file)
 
     def used(self, file: LaunchFile) -> frozenset[str]:
         """Return the launch configurations that a file or one of its includes reads."""
@@ -62,8 +62,8 @@ class LookUp:
         return frozenset(result)
 
     def absent(self, path: str) -> Absent | None:
-        """Return why an included file could not be read, or None if it was read or never requested."""
-        result = self._found.get(path)
+        """Return why the file of an include could not be read; None if it was read or :meth:`included` was not called."""
+        result = self._results.get(path)
         return result if isinstance(result, Absent) else None
 
     # --- the file that is launched --------------------------------------------------------------------------------
@@ -74,34 +74,35 @@ class LookUp:
         return self._launchable(launch_file, path)
 
     def installed_file(self, package: str, name: str) -> tuple[LaunchFile, str]:
-        """Return the launch file of a package by its name, and its install path.
+        """Return the launch file that a package installs under a file name, and its install path.
 
-        As ``ros2 launch`` (ros2launch/api), it searches below share/<package> for the exact file name. Raises
-        UsageError.
+        Like ``ros2 launch`` (ros2launch/api), it searches all folders below share/<package>. Raises UsageError if there
+        is not exactly one file of that name.
         """
         packages = self._workspace.by_name.get(package, ())
-        below = self._workspace.world.installed(package)
+        installed_package = self._workspace.world.installed(package)
         if packages:
             paths = [path for candidate in packages for path in _share_files(candidate)]
-        elif below is not None:
-            paths = list(below.share_files.names)
+        elif installed_package is not None:
+            paths = list(installed_package.share_files.names)
         else:
             raise UsageError(self._no_package(package))
-        same = sorted({path for path in paths if path.rpartition("/")[2] == name})
-        if len(same) > 1:
-            raise UsageError(f"'{package}' installs several files '{name}', so ros2 launch rejects the name: {', '.join(same)}")
-        if not same:
+        matches = sorted({path for path in paths if path.rpartition("/")[2] == name})
+        if len(matches) > 1:
+            paths_text = ", ".join(matches)
+            raise UsageError(f"'{package}' installs several files '{name}', so ros2 launch rejects the name: {paths_text}")
+        if not matches:
             raise UsageError(self._no_file(packages, package, name, paths))
-        path = f"{share(package)}/{same[0]}"
+        path = f"{share(package)}/{matches[0]}"
         launch_file = self.included(path)
-        return self._launchable(launch_file or self._found[path], f"{package}/{same[0]}"), path
+        return self._launchable(launch_file or self._results[path], f"{package}/{matches[0]}"), path
 
-    def _launchable(self, found: LaunchFile | Absent, path: str) -> LaunchFile:
-        if isinstance(found, Absent):
-            raise UsageError(f"{path}: {found.reason}")
-        if found.helper:
+    def _launchable(self, result: LaunchFile | Absent, path: str) -> LaunchFile:
+        if isinstance(result, Absent):
+            raise UsageError(f"{path}: {result.reason}")
+        if result.helper:
             raise UsageError(f"{path}: not a launch file: it has no generate_launch_description() without parameters")
-        return found
+        return result
 
     def _no_package(self, package: str) -> str:
         if self._workspace.world.is_package(package):
@@ -122,10 +123,10 @@ class LookUp:
     # --- files that are included ----------------------------------------------------------------------------------
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return a launch file by the path in an include, or None if it cannot be read; see :meth:`absent`."""
-        result = self._found.get(path)
+        """Return the launch file at the path of an include; None if it cannot be read, see :meth:`absent`."""
+        result = self._results.get(path)
         if result is None:
-            result = self._found[path] = self._find(path)
+            result = self._results[path] = self._find(path)
         return None if isinstance(result, Absent) else result
 
     def _find(self, path: str) -> LaunchFile | Absent:
@@ -133,7 +134,7 @@ class LookUp:
         if places:
             return self._in_package(places[0].package, places[0].path)
         if path.startswith("/"):
-            return Absent("it is outside the workspace", surely=False)
+            return Absent("it is outside the workspace", certain=False)
         path = posixpath.normpath(path)
         return self._sources.get(path) or self._read(path)
 
@@ -144,34 +145,34 @@ class LookUp:
             for provided in candidate.built.products.installs:
                 if provided.path == path:
                     if not provided.source:
-                        return Absent("it is generated when the package is built", surely=False)
+                        return Absent("it is generated when the package is built", certain=False)
                     source = resolve(candidate.path, provided.source)
                     return self._sources.get(source) or self._read(source)
         if packages:
             if any(candidate.script is None or candidate.hidden(Facet.SHARE, path) for candidate in packages):
-                return Absent(f"'{package}' may install it in a way that cannot be analysed", surely=False)
-            return Absent(f"'{package}' does not install '{name}'", surely=True)
-        below = self._workspace.world.installed(package)
-        if below is None:
-            return Absent(self._no_package(package), surely=False)
-        data = below.prefix.read(path)
+                return Absent(f"'{package}' may install it in a way that cannot be analysed", certain=False)
+            return Absent(f"'{package}' does not install '{name}'", certain=True)
+        installed_package = self._workspace.world.installed(package)
+        if installed_package is None:
+            return Absent(self._no_package(package), certain=False)
+        data = installed_package.prefix.read(path)
         if data is None:
-            return Absent(f"'{package}' in the underlay has no '{name}'", surely=True)
-        return self._collected(f"{below.prefix.root}/{path}", data)
+            return Absent(f"'{package}' in the underlay has no '{name}'", certain=True)
+        return self._collected(f"{installed_package.prefix.root}/{path}", data)
 
     def _read(self, path: str) -> LaunchFile | Absent:
         try:
             data = self._tree.read(path)
         except (FileNotFoundError, NotADirectoryError):
-            return Absent("no such file", surely=True)
+            return Absent("no such file", certain=True)
         except OSError as error:
-            return Absent(f"it cannot be read: {error.strerror or error}", surely=False)
+            return Absent(f"it cannot be read: {error.strerror or error}", certain=False)
         return self._collected(path, data)
 
     def _collected(self, path: str, data: bytes) -> LaunchFile | Absent:
         kind = kind_of(path)
         launch = collect(read(path, data), kind).launch if kind is not None else None
-        return launch if launch is not None else Absent("not a ROS 2 launch file", surely=True)
+        return launch if launch is not None else Absent("not a ROS 2 launch file", certain=True)
 
 
 def _share_files(package: Package) -> list[str]:

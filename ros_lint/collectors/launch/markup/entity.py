@@ -10,7 +10,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from ros_lint.base.text import Span
-from ros_lint.base.xml_tree import Element, attribute_places
+from ros_lint.base.xml_tree import XmlElement, attribute_places
 from ros_lint.collectors.launch.markup.tags import ROS_1
 from ros_lint.facts.visibility import Problem
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
-"""The requested type of an attribute; ``any`` is the type that YAML gives to the text."""
+"""The requested type of an attribute; ``any`` is the type that YAML infers from the text."""
 
 _make = tuple.__new__  # half the time of the constructor
 
@@ -74,7 +74,7 @@ class Entity:
         self._source = source
         self.tag = tag
         self.attributes = attributes
-        """In XML texts; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
+        """Texts in XML; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
         self.children = children
         """In YAML the items of ``children``, and of lists of mappings under other keys, whose tag is the key."""
         self.start = start
@@ -117,7 +117,7 @@ class Entity:
                 start = text.find(name, at)
                 gap = text[at:start]
                 if not (text.startswith(plain, start) and gap.isspace()):
-                    return self._from_spots(attribute_places(text, Element(self.tag, {}, self.start - 1)))
+                    return self._from_spots(attribute_places(text, XmlElement(self.tag, {}, self.start - 1)))
                 if not gap.isascii() or "\r" in gap:
                     _, line, column, _, _ = source.span(start, start)
                     line_offset = start - column

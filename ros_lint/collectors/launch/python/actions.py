@@ -175,22 +175,22 @@ def _configurations(walker: Walker, launch_object: LaunchObject, position: int) 
 
 
 def _reset(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    kept = tuple(_configurations(walker, launch_object, 0))
-    return [LaunchAction("reset", place_of(launch_object), arguments=kept, conditions=conditions)]
+    configurations = tuple(_configurations(walker, launch_object, 0))
+    return [LaunchAction("reset", place_of(launch_object), arguments=configurations, conditions=conditions)]
 
 
 def _unset(kind: str) -> ActionBuilder:
-    def rule(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    def build(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         return [LaunchAction(kind, place_of(launch_object), target=walker.value(launch_object, 0, "name"), conditions=conditions)]
 
-    return rule
+    return build
 
 
-def _bare(kind: str) -> ActionBuilder:
-    def rule(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
+def _plain_action(kind: str) -> ActionBuilder:
+    def build(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:  # noqa: ARG001
         return [LaunchAction(kind, place_of(launch_object), conditions=conditions)]
 
-    return rule
+    return build
 
 
 def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
@@ -266,7 +266,7 @@ _BUILDERS: Mapping[str, ActionBuilder] = {
     "EmitEvent": _no_action,
     "UnsetEnvironmentVariable": _unset("unset_environment"),
     "UnsetLaunchConfiguration": _unset("unset"),
-    "ResetEnvironment": _bare("reset_environment"),
+    "ResetEnvironment": _plain_action("reset_environment"),
     "ResetLaunchConfigurations": _reset,
     "SetUseSimTime": _no_action,
     "ReadyToTest": _no_action,

@@ -157,7 +157,7 @@ _SLASH = re.compile(r",\s*['\"]/")
 
 
 def _joined_parts(node: ast.Call) -> list[ast.expr]:
-    """Return the parts that a call joins to a path."""
+    """Return the parts that a call joins to a path, [] for any other call."""
     if callee(node) == "PathJoinSubstitution" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
         return node.args[0].elts
     return node.args if dotted(node.func) in ("os.path.join", "path.join") else []

@@ -9,7 +9,7 @@ import ast
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ros_lint.base.python_parser import compiled
+from ros_lint.base.python_parser import compile_error
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.launch.detect import entries
 from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
@@ -17,7 +17,7 @@ from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped_paths, rejected_arguments
 from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
-from ros_lint.collectors.launch.python.runtime_errors import misused, not_condition, not_text, undefined
+from ros_lint.collectors.launch.python.runtime_errors import misused_substitutions, undefined_names, wrong_conditions, wrong_texts
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
@@ -80,7 +80,7 @@ def collect(
 
 def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
     """Yield the errors of the Python compiler, such as a repeated keyword argument."""
-    if (error := compiled(tree)) is not None:
+    if (error := compile_error(tree)) is not None:
         from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
 
         yield from misplaced(error, tree, source)
@@ -127,10 +127,10 @@ class _Interpretation:
         return self._walker.problems
 
     def runtime_problems(self, tree: ast.Module) -> Iterator[Problem]:
-        yield from undefined(tree, self._source, self._machine.unbound)
-        yield from misused(tree, self._source, self._machine.misused)
-        yield from not_text(tree, self._source, self._machine.made)
-        yield from not_condition(tree, self._source, self._machine.made)
+        yield from undefined_names(tree, self._source, self._machine.unbound)
+        yield from misused_substitutions(tree, self._source, self._machine.misused)
+        yield from wrong_texts(tree, self._source, self._machine.made)
+        yield from wrong_conditions(tree, self._source, self._machine.made)
         yield from rejected_arguments(tree, self._source, self._machine.made)
         yield from dropped_paths(tree, self._source)
         yield from misplaced_imports(tree, self._source)

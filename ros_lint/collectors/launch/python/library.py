@@ -84,7 +84,7 @@ def _create(call: Call, name: str) -> LaunchObject:
 
 
 def _note_command(call: Call, launch_object: LaunchObject) -> None:
-    """Note the package of a command, xacro, at the first place that runs it."""
+    """Note the first place that runs xacro, which is a use of the package xacro."""
     command, expression = launch_object.get(0, "command"), launch_object.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(command)):
         first = expression.elts[0] if isinstance(expression, (ast.List, ast.Tuple)) and expression.elts else expression
@@ -171,12 +171,12 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
                 call.machine.named.setdefault(text, (at, source))
 
 
-_ADDS = frozenset({"add_action", "add_entity", "append"})
+_ADD_METHODS = frozenset({"add_action", "add_entity", "append"})
 
 
 def _method(call: Call, owner: LaunchObject) -> Value:
     machine, name = call.machine, call.name
-    if name in _ADDS and owner.name == "LaunchDescription":
+    if name in _ADD_METHODS and owner.name == "LaunchDescription":
         machine.spend(1)
         owner.entities.append(machine.guard(call.get(0, "action", "entity")))
         return None

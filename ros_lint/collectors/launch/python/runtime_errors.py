@@ -2,8 +2,8 @@
 
 - A name that is not defined.
 - A substitution used as a text.
-- A number where launch takes texts.
-- A function where launch takes a condition.
+- A number where launch accepts only texts.
+- A function where launch expects a condition.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Source, Value
 
 
-def undefined(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
+def undefined_names(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
     """Yield the names that certainly raise NameError; ``names`` were unbound in the interpretation."""
     for node in unbound(tree, [node for node, module in names if module is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
@@ -49,7 +49,7 @@ _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error"
 """Functions that print or log their arguments."""
 
 
-def misused(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
+def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
     """Yield the problems of misused substitutions in a module, at most one for each line."""
     misuses = [misuse for misuse in misuses if misuse.source is source]
     if not misuses:
@@ -98,7 +98,7 @@ def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all nodes in comparisons; a text that is formatted there is only compared."""
+    """Return all nodes in comparisons. A substitution formatted there is only compared, not launched."""
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 
@@ -134,7 +134,7 @@ _TEXT_ARGUMENTS: Mapping[str, tuple[tuple[int, str], ...]] = {
 """The arguments that must be texts or substitutions (``normalize_to_list_of_substitutions``)."""
 
 
-def not_text(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
+def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield numbers, booleans and actions given as a text, and launch_arguments given as a dictionary."""
     errors: list[tuple[str, ast.expr]] = []
     for launch_object in launch_objects:
@@ -158,7 +158,7 @@ def not_text(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchOb
             yield Problem("no-text", message, span_of(node, source))
 
 
-def not_condition(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
+def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield values given as a condition that have no evaluate(), which launch calls."""
     errors: list[tuple[str, ast.expr]] = []
     for launch_object in launch_objects:

@@ -30,6 +30,9 @@ class Violation(NamedTuple):
     """The words of libxml2, without a final full stop."""
 
 
+MOST_CHARACTERS: Final = 100_000
+"""Size limit of a validated manifest. libxml2 takes quadratic time for many errors; real manifests have 5,000 characters."""
+
 _UNEXPECTED = "ELEMENT_CONTENT"
 
 MISPLACED: Final = "misplaced"
@@ -46,10 +49,10 @@ def violations(source: Text, form: int) -> tuple[Violation, ...] | None:
     """Return what the schema of a format does not allow in a manifest; empty exactly if xmllint accepts the file.
 
     xmllint stops at the first misplaced element. Here the elements after it are checked as well, as if all were
-    sorted. None if the file is not checked: it is not well-formed, declares an entity, is nested too deep, or is in
-    UTF-16, which versions of xmllint read differently.
+    sorted. None if the file is not checked: it is not well-formed, declares an entity, is too large or nested too deep,
+    or is in UTF-16, which versions of xmllint read differently.
     """
-    if source.codec.startswith("utf-16") or read(source).faults:
+    if len(source.text) > MOST_CHARACTERS or source.codec.startswith("utf-16") or read(source).faults:
         return None
     if message := _misdeclared_encoding(source):
         return (Violation("", -1, "", message),)
@@ -61,7 +64,7 @@ def violations(source: Text, form: int) -> tuple[Violation, ...] | None:
         found = list(_errors(root, children, form))
         if any(violation.kind == _UNEXPECTED for violation in found):
             root[:] = sorted(root, key=lambda child: schema_rank(child.tag) if isinstance(child.tag, str) else 0)
-            of_sorted = list(_errors(root, children, form))
+            of_sorted = dict.fromkeys(_errors(root, children, form))
             found = [*of_sorted, *(_misplaced(violation) for violation in found if violation not in of_sorted)]
     except etree.XMLSyntaxError as error:
         return (Violation("", -1, "", " ".join(error.msg.split())),)
@@ -147,31 +150,25 @@ def _errors(root: etree._Element, children: list[etree._Element], form: int) -> 
     schema = _schema(form)
     if schema.validate(root):
         return
+    positions = {child: position for position, child in enumerate(children)}
+    by_step: dict[str, list[int]] = {"*": []}
+    for child in root:
+        if child in positions:
+            by_step["*"].append(positions[child])
+            if (name := _written(child)) != "*":
+                by_step.setdefault(name, []).append(positions[child])
     for error in _entries(schema.error_log):
         attribute = _ATTRIBUTE.match(error.message)
-        child = _child_at(root, error.path or "")
+        step = _STEP.match(error.path or "")
         yield Violation(
             error.type_name.removeprefix("SCHEMAV_"),
-            -1 if child is None else children.index(child),
+            -1 if step is None else by_step[step[1]][int(step[2] or 1) - 1],
             attribute[1] if attribute else "",
             error.message.rstrip(". "),
         )
 
 
-def _child_at(root: etree._Element, path: str) -> etree._Element | None:
-    """Return the child of the root that contains the place of an error, None for the root itself.
-
-    libxml2 writes an element in a default namespace as ``*``.
-    """
-    step = _STEP.match(path)
-    if step is None:
-        return None
-    children = [child for child in root if isinstance(child.tag, str)]
-    matches = [child for child in children if step[1] in ("*", _written(child))]
-    return matches[int(step[2] or 1) - 1]
-
-
 def _written(element: etree._Element) -> str:
-    """Return the tag as libxml2 writes it in a path."""
+    """Return the tag as libxml2 writes it in a path: ``*`` in a default namespace."""
     name = str(element.tag).rpartition("}")[2]
     return f"{element.prefix}:{name}" if element.prefix else name if name == element.tag else "*"

@@ -1,3 +1,5 @@
+"""Settings: their order of precedence, validation and origins."""
+
 import time
 from pathlib import Path
 from typing import Any
@@ -22,19 +24,19 @@ def settings(
     return settle(said or {}, str(folder), env or {}, str(folder))
 
 
-def test_the_command_line_wins_then_the_file_then_the_environment(tmp_path: Path) -> None:
+def test_the_command_line_overrides_the_file_and_the_file_the_environment(tmp_path: Path) -> None:
     env = {"ROS_DISTRO": "kilted"}
     assert settings(tmp_path, env=env)["distro"] == "kilted"
     assert settings(tmp_path, env=env).origin("distro") == "ROS_DISTRO"
-    found = settings(tmp_path, 'distro = "humble"', env=env)
-    assert (found["distro"], found.origin("distro")) == ("humble", "ros-lint.toml")
-    found = settings(tmp_path, env=env, said={"distro": "jazzy"})
-    assert (found["distro"], found.origin("distro")) == ("jazzy", "--distro")
-    found = settings(tmp_path, env=env, said={"isolated": True})
-    assert (found["distro"], found.origin("distro")) == ("", "default")
+    result = settings(tmp_path, 'distro = "humble"', env=env)
+    assert (result["distro"], result.origin("distro")) == ("humble", "ros-lint.toml")
+    result = settings(tmp_path, env=env, said={"distro": "jazzy"})
+    assert (result["distro"], result.origin("distro")) == ("jazzy", "--distro")
+    result = settings(tmp_path, env=env, said={"isolated": True})
+    assert (result["distro"], result.origin("distro")) == ("", "default")
 
 
-def test_the_nearest_file_wins_and_a_foreign_pyproject_is_passed_over(tmp_path: Path) -> None:
+def test_the_nearest_file_with_settings_is_used(tmp_path: Path) -> None:
     inner = tmp_path / "ws" / "src"
     inner.mkdir(parents=True)
     (tmp_path / "pyproject.toml").write_text('[tool.ros-lint]\ndistro = "humble"\n')
@@ -73,7 +75,7 @@ def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
         ("distro = oops", r"ros-lint.toml: .*line 1"),
     ],
 )
-def test_what_is_wrong_is_said_with_the_place(tmp_path: Path, text: str, message: str) -> None:
+def test_an_invalid_setting_is_reported_with_its_place(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         settings(tmp_path, text)
 
@@ -86,7 +88,7 @@ def test_what_is_wrong_is_said_with_the_place(tmp_path: Path, text: str, message
         ("[[tool]]", "pyproject.toml: tool is not a table"),
     ],
 )
-def test_a_pyproject_without_tables(tmp_path: Path, text: str, message: str) -> None:
+def test_a_pyproject_with_values_in_place_of_tables_is_an_error(tmp_path: Path, text: str, message: str) -> None:
     (tmp_path / "pyproject.toml").write_text(text)
     with pytest.raises(ConfigError, match=message):
         settings(tmp_path, said={"config": str(tmp_path / "pyproject.toml")})
@@ -95,14 +97,14 @@ def test_a_pyproject_without_tables(tmp_path: Path, text: str, message: str) -> 
         settings(tmp_path, text, name="pyproject.toml")
 
 
-def test_a_pyproject_is_looked_through_in_linear_time(tmp_path: Path) -> None:
+def test_a_pyproject_is_searched_in_linear_time(tmp_path: Path) -> None:
     (tmp_path / "pyproject.toml").write_text("\n" * 200_000)
     began = time.process_time()
     assert settings(tmp_path)["distro"] == ""
     assert time.process_time() - began < 1
 
 
-def test_a_large_pyproject(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_large_pyproject_is_an_error_only_if_it_has_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = f"[tool.ruff]\n{'#' * (256 << 10)}\n"
     assert settings(tmp_path, text, name="pyproject.toml")["distro"] == ""
     with pytest.raises(ConfigError, match=r"pyproject.toml: .* is more than the limit of 256 KB"):
@@ -112,24 +114,24 @@ def test_a_large_pyproject(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize("value", ["true", "false", "1"])
-def test_a_file_loads_no_plugins(tmp_path: Path, value: str) -> None:
-    found = settings(tmp_path, f'distro = "humble"\nplugins = {value}\n')
-    assert (found["plugins"], found.origin("plugins"), found["distro"]) == (False, "default", "humble")
+def test_a_file_cannot_enable_plugins(tmp_path: Path, value: str) -> None:
+    result = settings(tmp_path, f'distro = "humble"\nplugins = {value}\n')
+    assert (result["plugins"], result.origin("plugins"), result["distro"]) == (False, "default", "humble")
     place = f"{tmp_path}/ros-lint.toml:2"
-    assert found.warnings == (
+    assert result.warnings == (
         f"{place}: plugins has no effect in a file because it loads code; use --plugins on the command line",
     )
-    found = settings(tmp_path, said={"plugins": True})
-    assert (found["plugins"], found.origin("plugins")) == (True, "--plugins")
+    result = settings(tmp_path, said={"plugins": True})
+    assert (result["plugins"], result.origin("plugins")) == (True, "--plugins")
     assert "plugins" not in schema()["properties"]
 
 
-def test_a_missing_file_that_was_asked_for(tmp_path: Path) -> None:
+def test_a_missing_configuration_file_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="nowhere.toml: no such configuration file"):
         settings(tmp_path, said={"config": "nowhere.toml"})
 
 
-def test_the_schema_takes_what_the_table_takes() -> None:
+def test_the_schema_accepts_the_same_settings_as_the_table_of_options() -> None:
     jsonschema = pytest.importorskip("jsonschema")
     jsonschema.Draft7Validator.check_schema(schema())
     validator = jsonschema.Draft7Validator(schema())

@@ -1,10 +1,10 @@
-"""Types of other packages that stand in C++ code by their bare names."""
+"""Types of other packages that C++ code uses by unqualified names."""
 
 import pytest
 
 from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
-from ros_lint.collectors.cpp.types import declared, introduced
+from ros_lint.collectors.cpp.types import declared_types, interface_aliases
 from ros_lint.facts.sources import FileFacts, Mention
 from ros_lint.workspace.usage.package_files import PackageSource
 from ros_lint.workspace.usage.unqualified_types import Types
@@ -13,22 +13,22 @@ ROUTE = b"namespace house::route_handler {\nclass HOUSE_PUBLIC RouteHandler : Ba
 DATA = b"using nav_msgs::msg::Odometry;\nusing Line = nav_msgs::msg::Path;\n"
 
 
-def test_what_is_declared() -> None:
-    assert declared(ROUTE) == {b"RouteHandler", b"Node"}
-    assert declared(b"enum class Mode : int { A };\nenum Kind { B };\nstruct Point final { };") == {
+def test_declared_types_are_found() -> None:
+    assert declared_types(ROUTE) == {b"RouteHandler", b"Node"}
+    assert declared_types(b"enum class Mode : int { A };\nenum Kind { B };\nstruct Point final { };") == {
         b"Mode",
         b"Kind",
         b"Point",
     }
 
 
-def test_what_is_introduced() -> None:
-    assert introduced(DATA) == {"nav_msgs": {b"Odometry", b"Line"}}
+def test_aliases_of_interface_types_are_found() -> None:
+    assert interface_aliases(DATA) == {"nav_msgs": {b"Odometry", b"Line"}}
 
 
 def source(name: str, files: dict[str, bytes], mentions: tuple[str, ...] = ()) -> PackageSource:
-    found = tuple(Mention(each, "include", Span("f", 1, 1, 1, 2)) for each in mentions)
-    facts = {file: FileFacts(found) for file in files}
+    included = tuple(Mention(file, "include", Span("f", 1, 1, 1, 2)) for file in mentions)
+    facts = {file: FileFacts(included) for file in files}
     return PackageSource(name, name, tuple(files), None, facts, (), "ament_cmake")
 
 
@@ -41,13 +41,13 @@ def places(code: bytes) -> dict[str, tuple[int, int]]:
     sources = {name: source(name, of, ("nav_msgs/msg/path.hpp",) if name == "common" else ()) for name, of in files.items()}
     texts = {f"{name}/{file}": text for name, of in files.items() for file, text in of.items()}
     types = Types(list(sources.values()), MemoryTree(texts), lambda name: set(files) if name == "node" else set())
-    found = types.used(sources["node"], ["house_route_handler", "nav_msgs", "sensor_msgs"])
-    assert all(span.path == "node/src/node.cpp" for span in found.values())
-    return {name: span[1:3] for name, span in found.items()}
+    result = types.used(sources["node"], ["house_route_handler", "nav_msgs", "sensor_msgs"])
+    assert all(span.path == "node/src/node.cpp" for span in result.values())
+    return {name: span[1:3] for name, span in result.items()}
 
 
 @pytest.mark.parametrize(
-    ("code", "found"),
+    ("code", "expected"),
     [
         (b"\nauto x = std::make_shared<route_handler::RouteHandler>();", {"house_route_handler": (2, 42)}),
         (b"RouteHandler route;", {"house_route_handler": (1, 1)}),
@@ -60,5 +60,5 @@ def places(code: bytes) -> dict[str, tuple[int, int]]:
         (b"using Line = int;\nLine line;", {}),
     ],
 )
-def test_where_they_are_used(code: bytes, found: dict[str, tuple[int, int]]) -> None:
-    assert places(code) == found
+def test_unqualified_uses_are_found(code: bytes, expected: dict[str, tuple[int, int]]) -> None:
+    assert places(code) == expected

@@ -1,4 +1,4 @@
-"""Which workspace a question is about that names none."""
+"""The workspace that a command queries if the command line names none."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 from ros_lint.cli.commands.query import current_workspace, enclosing_workspace
 
 
-def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:
+def test_the_enclosing_workspace_is_the_built_folder_the_repository_or_the_package(tmp_path: Path) -> None:
     launch_file = tmp_path / "ws" / "src" / "repo" / "p" / "launch" / "a.launch.py"
     launch_file.parent.mkdir(parents=True)
     launch_file.touch()
@@ -25,11 +25,13 @@ def test_the_workspace_that_encloses_a_file(tmp_path: Path) -> None:
     assert enclosing_workspace(str(launch_file)) == str(tmp_path / "ws")
 
 
-def test_the_workspace_around_the_current_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_current_workspace_is_that_of_the_package_around_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     package = tmp_path / "ws" / "src" / "p"
     (package / "launch").mkdir(parents=True)
     (package / "package.xml").touch()
     (tmp_path / "ws" / "install").mkdir()
-    for folder, found in ((package, tmp_path / "ws"), (package / "launch", tmp_path / "ws"), (tmp_path / "ws" / "src", ".")):
+    for folder, result in ((package, tmp_path / "ws"), (package / "launch", tmp_path / "ws"), (tmp_path / "ws" / "src", ".")):
         monkeypatch.chdir(folder)
-        assert current_workspace() == str(found)
+        assert current_workspace() == str(result)

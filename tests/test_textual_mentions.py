@@ -1,4 +1,4 @@
-"""Traces of names: which spellings count, and where they stand."""
+"""Textual mentions of names: spellings and places."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from ros_lint.workspace.usage.package_files import PackageSource
 from ros_lint.workspace.usage.textual_mentions import find_code_mentions, find_mentions
 
 
-def test_a_name_leaves_traces_in_many_spellings() -> None:
+def test_a_name_is_found_in_many_spellings() -> None:
     files = [
         ("a.cpp", b"// \xff\nacme::route_tools::Route route;\n"),
         ("b.cpp", b"auto message = tf2::toMsg(transform);\n"),
         ("c.yaml", b"key: my-own-tools\nother: nav_msgs_extra\n"),
     ]
-    found = find_mentions(("acme_route_tools", "tf2_eigen", "my_own_tools", "route", "nav", "std_msgs", "xnav_msgs"), files)
-    assert {name: (span.path, span.line) for name, span in found.items()} == {
+    places = find_mentions(("acme_route_tools", "tf2_eigen", "my_own_tools", "route", "nav", "std_msgs", "xnav_msgs"), files)
+    assert {name: (span.path, span.line) for name, span in places.items()} == {
         "acme_route_tools": ("a.cpp", 2),
         "tf2_eigen": ("b.cpp", 1),
         "my_own_tools": ("c.yaml", 1),
@@ -26,40 +26,40 @@ def test_a_name_leaves_traces_in_many_spellings() -> None:
     }
 
 
-def test_a_namespace_is_written_from_within_another_and_a_library_without_saying_so() -> None:
+def test_inner_namespaces_and_library_names_without_prefix_are_found() -> None:
     files = [
         ("a.cpp", b"int route_tools = 0; draw_tools::Pen pen; my_line_tools::Line line;\n"),
         ("b.cpp", b"namespace acme { route_tools::Route route; }\n"),
         ("c.cpp", b"#include <arm/arm.hpp>\nleg::Leg left;\n"),
     ]
-    found = find_mentions(
+    places = find_mentions(
         ("acme_route_tools", "acme_tools", "acme_draw", "acme_line_tools", "libarm", "libleg", "libfoot"), files
     )
-    assert {name: (span.path, span.line) for name, span in found.items()} == {
+    assert {name: (span.path, span.line) for name, span in places.items()} == {
         "acme_route_tools": ("b.cpp", 1),
         "libarm": ("c.cpp", 1),
         "libleg": ("c.cpp", 2),
     }
 
 
-def test_words_leave_traces_whatever_their_capitals() -> None:
+def test_replacement_words_are_found_case_insensitively() -> None:
     files = [("a.cpp", b"#include <cpprest/http_client.h>\n"), ("CMakeLists.txt", b"find_package(CHOLMOD)\n")]
     names = Names(Store())
     keys = ("libcpprest-dev", "suitesparse", "python3-open3d")
-    found = find_mentions(keys, files, {key: names.called(key) for key in keys})
-    assert {name: (span.path, span.line) for name, span in found.items()} == {
+    places = find_mentions(keys, files, {key: names.called(key) for key in keys})
+    assert {name: (span.path, span.line) for name, span in places.items()} == {
         "libcpprest-dev": ("a.cpp", 1),
         "suitesparse": ("CMakeLists.txt", 1),
     }
 
 
-def test_what_an_include_names_is_a_trace_where_the_text_has_it() -> None:
+def test_a_name_in_an_include_is_found_at_its_place() -> None:
     source = b"#include <acme/route_tools/route.hpp>\n#include <Eigen/Core>\nacme_msgs::msg::Route route;\n"
     names, words = ("acme_route_tools", "acme_msgs", "eigen", "acme_other"), {"eigen": ("eigen",)}
     facts = {file: cpp.collect(read(f"talker/{file}", source)) for file in ("a.cpp", "readme.cpp")}
     package = PackageSource("talker", "talker", tuple(facts), None, facts, (), "ament_cmake")
-    found = find_code_mentions(names, package, words, lambda file: file != "readme.cpp")
+    places = find_code_mentions(names, package, words, lambda file: file != "readme.cpp")
     texts = find_mentions(names, [("talker/a.cpp", source)], words)
-    assert {name: span.line for name, span in found.items()} == {name: span.line for name, span in texts.items()}
-    assert found.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
+    assert {name: span.line for name, span in places.items()} == {name: span.line for name, span in texts.items()}
+    assert places.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
     assert not find_code_mentions(names, package, words, lambda file: False)

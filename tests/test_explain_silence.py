@@ -1,4 +1,4 @@
-"""Why a rule says nothing."""
+"""``ros-lint why A B --explain-silence`` gives the reason why a dependency rule reports nothing."""
 
 from __future__ import annotations
 
@@ -65,13 +65,13 @@ UNSURE = "reported with lower confidence"
         ("joy", "not reported, because no use of it was found", NOT_DECLARED),
     ],
 )
-def test_each_reason(workspace: Workspace, name: str, undeclared: str, unused: str) -> None:
+def test_the_reason_for_each_rule_is_given(workspace: Workspace, name: str, undeclared: str, unused: str) -> None:
     out, err, code = silence.run(workspace, "talker", name)
-    said = dict(line.split(": ", 1) for line in out.splitlines() if line.startswith("un"))
+    output = dict(line.split(": ", 1) for line in out.splitlines() if line.startswith("un"))
     assert (err, code) == ("", 0)
-    assert said["undeclared-dependency"].startswith(undeclared)
-    assert said["unused-dependency"].startswith(unused)
+    assert output["undeclared-dependency"].startswith(undeclared)
+    assert output["unused-dependency"].startswith(unused)
 
 
-def test_no_such_package(workspace: Workspace) -> None:
+def test_an_unknown_package_gives_exit_code_2(workspace: Workspace) -> None:
     assert silence.run(workspace, "listener", "rclcpp")[2] == 2

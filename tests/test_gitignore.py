@@ -1,4 +1,4 @@
-"""Patterns of .gitignore, against git itself."""
+"""Patterns of .gitignore files, compared with git."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _line(choice: random.Random) -> str:
 
 
 @pytest.mark.skipif(not shutil.which("git"), reason="there is no git")
-def test_patterns_mean_what_they_mean_to_git(tmp_path: Path) -> None:
+def test_patterns_match_the_same_paths_as_in_git(tmp_path: Path) -> None:
     subprocess.run(["git", "init", "-q", tmp_path], check=True)
     choice = random.Random(20261121)
     paths = {"/".join(choice.choice(NAMES) for _ in range(choice.choice((1, 2, 3, 4)))) for _ in range(80)}
@@ -39,12 +39,12 @@ def test_patterns_mean_what_they_mean_to_git(tmp_path: Path) -> None:
             (tmp_path / folder / ".gitignore").write_text("# not this\n\n" + "\n".join(lines) + "\n", "utf-8")
         command = ["git", "check-ignore", "--stdin", "-z", "--no-index"]
         asked = "\0".join(paths).encode()
-        said = subprocess.run(command, cwd=tmp_path, input=asked, capture_output=True, check=False).stdout.decode()
+        output = subprocess.run(command, cwd=tmp_path, input=asked, capture_output=True, check=False).stdout.decode()
         given = [pattern for folder, lines in files.items() for pattern in patterns(folder, "\n".join(lines))]
-        assert {path for path in paths if is_ignored(given, path)} == set(filter(None, said.split("\0"))), files
+        assert {path for path in paths if is_ignored(given, path)} == set(filter(None, output.split("\0"))), files
 
 
-def test_files_are_found_above_packages_and_in_them() -> None:
+def test_ignore_files_are_read_above_packages_and_in_them() -> None:
     tree = MemoryTree(
         {".gitignore": "*.so\n", "src/.gitignore": "!keep.so\n", "src/arm/.gitignore": "/made\n", "x/.gitignore": "*\n"}
     )

@@ -1,4 +1,4 @@
-"""A file of the cache folder runs no code, whatever it holds, and costs a slow run at most."""
+"""A file of the cache folder never runs code, whatever it contains; at most the run is slow."""
 
 from __future__ import annotations
 
@@ -22,59 +22,63 @@ from ros_lint.base import files
 from ros_lint.base.sealed import Sealed
 from ros_lint.base.text import Span, file_start
 from ros_lint.facts.visibility import Facet, Opaque
-from ros_lint.workspace import cache_files as kept_files
+from ros_lint.workspace import cache_files
 
 ATTRIBUTES = ("__dict__", "__class__", "__setstate__", "__call__", "__new__", "__doc__", "anything")
 
 
 def modules() -> list[ModuleType]:
-    ours = [found.name for found in walk_packages(ros_lint.__path__, "ros_lint.") if not found.name.endswith("__main__")]
+    ours = [
+        modules_found.name
+        for modules_found in walk_packages(ros_lint.__path__, "ros_lint.")
+        if not modules_found.name.endswith("__main__")
+    ]
     return [*map(import_module, ours), ros_lint, builtins, operator, os, pickle, sys]
 
 
 def names(module: ModuleType) -> Iterator[str]:
-    """Yield every name that a pickle can ask a module for, also the dotted ones, which protocol 4 resolves step by step."""
+    """Yield every name that a pickle can request from a module, with the dotted names of protocol 4."""
     for name in {*vars(module), *dir(module), "", ".", "nothing"}:
         yield name
         yield from (f"{name}.{attribute}" for attribute in dir(getattr(module, name, None)))
 
 
-def test_no_name_of_any_module_leads_to_anything_but_facts() -> None:
-    reached: set[tuple[str, str]] = set()
+def test_unpickling_can_create_only_facts() -> None:
+    reached_names: set[tuple[str, str]] = set()
     for module in modules():
         for name in names(module):
             try:
-                made = kept_files.maker(module.__name__, name)
+                created = cache_files.maker(module.__name__, name)
             except LookupError:
                 continue
-            reached.add((module.__name__, name))
-            assert not isinstance(made, type), name
-            found = getattr(module, name)
-            assert (found.__module__, found.__qualname__) == (module.__name__, name)
-            assert issubclass(found, tuple | Sealed), name
+            reached_names.add((module.__name__, name))
+            assert not isinstance(created, type), name
+            modules_found = getattr(module, name)
+            assert (modules_found.__module__, modules_found.__qualname__) == (module.__name__, name)
+            assert issubclass(modules_found, tuple | Sealed), name
             # An object takes no state: it has none, or refuses it. No opcode calls a method of it.
-            assert issubclass(found, Sealed) or found.__dictoffset__ == 0, name
-            assert not any(hasattr(found, method) for method in ("append", "extend", "add", "__setitem__")), name
+            assert issubclass(modules_found, Sealed) or modules_found.__dictoffset__ == 0, name
+            assert not any(hasattr(modules_found, method) for method in ("append", "extend", "add", "__setitem__")), name
             for attribute in ATTRIBUTES:
                 with pytest.raises((AttributeError, TypeError)):
-                    setattr(made, attribute, tuple)
+                    setattr(created, attribute, tuple)
     assert {
         ("ros_lint.engine.report", "Report"),
         ("ros_lint.facts.visibility", "Opaque"),
         ("ros_lint.analysis.finding", "Severity"),
-    } <= reached
-    assert {module for module, _ in reached} == set(kept_files.MODULES)
+    } <= reached_names
+    assert {module for module, _ in reached_names} == set(cache_files.MODULES)
 
 
-def test_all_classes_of_facts_can_be_kept() -> None:
-    for module in kept_files.MODULES:
-        for found in kept_files.classes(module).values():
-            assert kept_files.maker(module, found.__qualname__)
-    assert {Facet, Opaque, Severity, Confidence, Span} <= set(kept_files._reducers())
+def test_all_classes_of_facts_can_be_cached() -> None:
+    for module in cache_files.MODULES:
+        for modules_found in cache_files.classes(module).values():
+            assert cache_files.maker(module, modules_found.__qualname__)
+    assert {Facet, Opaque, Severity, Confidence, Span} <= set(cache_files._reducers())
 
 
 def write(path: Path, pickled: bytes, state: str = "state") -> None:
-    path.write_bytes(kept_files._head(state, pickled) + b"\n" + pickled)
+    path.write_bytes(cache_files._head(state, pickled) + b"\n" + pickled)
 
 
 def text(value: str) -> bytes:
@@ -92,20 +96,20 @@ SLOTS = b"N}" + text("__doc__") + b"K\x01s\x86"
 @pytest.mark.parametrize(
     "of", [SPAN, MEMBER, CLASS, b"cros_lint.base.text\nSpan\n"], ids=["fact", "member", "enumeration", "class"]
 )
-def test_no_object_takes_a_state(tmp_path: Path, of: bytes, state: bytes) -> None:
-    before = [dict(vars(found)) for found in (Span, Severity, Severity.ERROR)]
+def test_no_cached_object_accepts_a_pickled_state(tmp_path: Path, of: bytes, state: bytes) -> None:
+    content = [dict(vars(modules_found)) for modules_found in (Span, Severity, Severity.ERROR)]
     write(tmp_path / "kept", of + b".")
-    assert kept_files.load(str(tmp_path / "kept"), "state") is not None
+    assert cache_files.load(str(tmp_path / "kept"), "state") is not None
     write(tmp_path / "kept", of + state + b"b.")
-    assert kept_files.load(str(tmp_path / "kept"), "state") is None
-    assert [dict(vars(found)) for found in (Span, Severity, Severity.ERROR)] == before
+    assert cache_files.load(str(tmp_path / "kept"), "state") is None
+    assert [dict(vars(modules_found)) for modules_found in (Span, Severity, Severity.ERROR)] == content
 
 
 KEPT = (file_start("a"), Facet.USES | Facet.SHARE, Severity.ERROR, {"b": [1, "c"]})
 
 
 class Place(NamedTuple):
-    """A cache folder with a file in it that can be read."""
+    """Create a cache folder with a readable file."""
 
     folder: Path
     file: Path
@@ -114,9 +118,9 @@ class Place(NamedTuple):
 @pytest.fixture
 def place(tmp_path: Path) -> Place:
     file = tmp_path / "cache" / "kept"
-    assert kept_files.save(str(file), "state", KEPT)
-    assert kept_files.load(str(file), "state") == KEPT
-    assert kept_files.load(str(file), "another state") is None
+    assert cache_files.save(str(file), "state", KEPT)
+    assert cache_files.load(str(file), "state") == KEPT
+    assert cache_files.load(str(file), "another state") is None
     return Place(file.parent, file)
 
 
@@ -149,32 +153,32 @@ NOT_READ: dict[str, Callable[[Place], object]] = {
 
 
 @pytest.mark.parametrize("change", NOT_READ.values(), ids=NOT_READ)
-def test_what_is_not_read(place: Place, change: Callable[[Place], object]) -> None:
+def test_damaged_and_foreign_files_are_not_read(place: Place, change: Callable[[Place], object]) -> None:
     change(place)
-    assert kept_files.load(str(place.file), "state") is None
+    assert cache_files.load(str(place.file), "state") is None
     if not place.file.is_dir():
-        assert kept_files.save(str(place.file), "state", KEPT)  # the next run is a fast one
-        assert kept_files.load(str(place.file), "state") == KEPT
+        assert cache_files.save(str(place.file), "state", KEPT)  # the next run is a fast one
+        assert cache_files.load(str(place.file), "state") == KEPT
 
 
 def test_large_files_are_not_read(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept_files, "_MAX_BYTES", place.file.stat().st_size - 1)
-    assert kept_files.load(str(place.file), "state") is None
-    other = place.folder / "other"
-    assert not kept_files.save(str(other), "state", KEPT)  # it could not be read again
+    monkeypatch.setattr(cache_files, "_MAX_BYTES", place.file.stat().st_size - 1)
+    assert cache_files.load(str(place.file), "state") is None
+    other_file = place.folder / "other"
+    assert not cache_files.save(str(other_file), "state", KEPT)  # it could not be read again
     assert [path.name for path in place.folder.iterdir()] == ["kept"]
 
 
 def untouched(place: Place, path: Path) -> bool:
-    """Return whether a file is neither read nor written, and nothing else is written beside it."""
-    before = {file: file.read_bytes() for file in place.folder.iterdir()}
-    assert kept_files.load(str(path), "state") is None
-    assert not kept_files.save(str(path), "state", ("other",))
-    return before == {file: file.read_bytes() for file in place.folder.iterdir()}
+    """Return whether a file is neither read nor written, and no other file is written next to it."""
+    content = {file: file.read_bytes() for file in place.folder.iterdir()}
+    assert cache_files.load(str(path), "state") is None
+    assert not cache_files.save(str(path), "state", ("other",))
+    return content == {file: file.read_bytes() for file in place.folder.iterdir()}
 
 
 @pytest.mark.parametrize("mode", [0o777, 0o770, 0o702, 0o1777])
-def test_folders_that_others_can_write_are_left_alone(place: Place, tmp_path: Path, mode: int) -> None:
+def test_folders_that_others_can_write_are_not_used(place: Place, tmp_path: Path, mode: int) -> None:
     place.folder.chmod(mode)
     (tmp_path / "link").symlink_to(place.folder)
     assert untouched(place, place.file)
@@ -183,13 +187,13 @@ def test_folders_that_others_can_write_are_left_alone(place: Place, tmp_path: Pa
 
 def test_a_link_to_a_folder_of_the_user_is_followed(place: Place, tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(place.folder)
-    assert kept_files.load(str(tmp_path / "link" / "kept"), "state") == KEPT
+    assert cache_files.load(str(tmp_path / "link" / "kept"), "state") == KEPT
 
 
-def test_folders_of_another_user_are_left_alone(place: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_folders_of_another_user_are_not_used(place: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "link").symlink_to(place.folder)
-    other = os.geteuid() + 1
-    monkeypatch.setattr(os, "geteuid", lambda: other)
+    other_file = os.geteuid() + 1
+    monkeypatch.setattr(os, "geteuid", lambda: other_file)
     assert untouched(place, place.file)
     assert untouched(place, tmp_path / "link" / "kept")
 
@@ -206,22 +210,22 @@ def test_a_file_of_another_user_is_not_read_and_is_replaced(place: Place) -> Non
     if os.geteuid():
         pytest.skip("only root can give a file to another user")
     os.chown(place.file, 65534, 65534)
-    assert kept_files.load(str(place.file), "state") is None
-    assert kept_files.save(str(place.file), "state", KEPT)
-    assert kept_files.load(str(place.file), "state") == KEPT
+    assert cache_files.load(str(place.file), "state") is None
+    assert cache_files.save(str(place.file), "state", KEPT)
+    assert cache_files.load(str(place.file), "state") == KEPT
 
 
-def test_what_cannot_be_kept_leaves_nothing_behind(place: Place) -> None:
+def test_a_failed_write_leaves_no_file(place: Place) -> None:
     deep: Any = ()
     for _ in range(100_000):
         deep = (deep,)
     for value in (deep, lambda: None):
-        assert not kept_files.save(str(place.file), "state", value)
+        assert not cache_files.save(str(place.file), "state", value)
         assert [path.name for path in place.folder.iterdir()] == ["kept"]
-    assert kept_files.load(str(place.file), "state") == KEPT
+    assert cache_files.load(str(place.file), "state") == KEPT
 
 
-def test_files_of_a_limited_size(tmp_path: Path) -> None:
+def test_files_above_the_size_limit_are_not_written(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"12345")
     assert files.read(str(tmp_path / "a"), 5) == b"12345"
     with pytest.raises(OSError, match="is more than the limit of 1 KB"):

@@ -1,4 +1,4 @@
-"""Java, Rust and MATLAB: which packages sources in other languages name."""
+"""Packages that sources in Java, Rust and MATLAB use."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def collected(path: str, text: str) -> tuple[Mention, ...]:
         ('// std_msgs.msg.A\n/* std_msgs.msg.B */ s = "std_msgs.msg.C";', []),
     ],
 )
-def test_java(text: str, expected: list[tuple[str, str]]) -> None:
+def test_java_sources_mention_interface_packages(text: str, expected: list[tuple[str, str]]) -> None:
     assert [(mention.name, mention.what) for mention in collected("a/B.java", text)] == expected
 
 
@@ -46,11 +46,11 @@ def test_java(text: str, expected: list[tuple[str, str]]) -> None:
         ("fn f(c: ::a_b::msg::C) {}\n#[cfg(test)]\nmod tests { use d_e::msg::F; }\n", [("a_b", False), ("d_e", True)]),
     ],
 )
-def test_rust(text: str, expected: list[tuple[str, bool]]) -> None:
+def test_rust_sources_mention_interface_packages(text: str, expected: list[tuple[str, bool]]) -> None:
     assert [(mention.name, mention.test) for mention in collected("src/main.rs", text)] == expected
 
 
-def test_cargo() -> None:
+def test_cargo_dependencies_are_mentioned() -> None:
     text = """
 [package]
 name = "a"
@@ -93,7 +93,7 @@ default = []
         ('p = rospublisher("/chatter", "std_msgs/String");', []),
     ],
 )
-def test_matlab(text: str, expected: list[str]) -> None:
+def test_matlab_scripts_mention_interface_packages(text: str, expected: list[str]) -> None:
     mentions = collected("scripts/talk.m", text)
     assert [mention.name for mention in mentions] == expected
     assert all(mention.optional for mention in mentions)

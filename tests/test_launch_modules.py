@@ -1,4 +1,4 @@
-"""Launch files that read helper modules and files of the workspace are followed with these at hand."""
+"""Launch files are interpreted again with the modules and files of the workspace that they read."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ros_lint.collectors.launch.collect import collect
 from ros_lint.collectors.symbolic_text import share
 from ros_lint.facts.build import BuildProducts, BuildScript, InstalledFile
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.workspace import launch_modules as launch_around
+from ros_lint.workspace import launch_modules
 
 HELPER = """
 from launch_ros.actions import Node
@@ -21,29 +21,29 @@ def start(name):
 
 def _package(
     name: str, files: dict[str, str], provides: dict[str, str], modules: tuple[str, ...] = ()
-) -> launch_around.LaunchPackage:
-    here = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
-    installs = tuple(InstalledFile(path, source, False, False, here) for path, source in provides.items())
+) -> launch_modules.LaunchPackage:
+    span = Span(f"{name}/CMakeLists.txt", 1, 1, 1, 1)
+    installs = tuple(InstalledFile(path, source, False, False, span) for path, source in provides.items())
     script = BuildScript(f"{name}/CMakeLists.txt", products=BuildProducts(installs=installs, python_packages=modules))
-    found = []
+    launch_files = []
     for path, text in files.items():
         language = launch.is_launch_file(path, text)
         if language:
-            found.append(collect(Text(f"{name}/{path}", text), language))
-    return launch_around.LaunchPackage(name, name, tuple(files), script, tuple(found))
+            launch_files.append(collect(Text(f"{name}/{path}", text), language))
+    return launch_modules.LaunchPackage(name, name, tuple(files), script, tuple(launch_files))
 
 
-def _completed(*packages: tuple[launch_around.LaunchPackage, dict[str, str]]) -> dict[str, LaunchFile]:
+def _completed(*packages: tuple[launch_modules.LaunchPackage, dict[str, str]]) -> dict[str, LaunchFile]:
     tree = MemoryTree({f"{package.name}/{path}": text for package, files in packages for path, text in files.items()})
-    done = launch_around.resolve_modules(tree, [package for package, _ in packages], "jazzy")
-    return {file.path: file for files in done for file in files}
+    resolved = launch_modules.resolve_modules(tree, [package for package, _ in packages], "jazzy")
+    return {file.path: file for files in resolved for file in files}
 
 
 def _named(file: LaunchFile) -> set[tuple[str, str]]:
     return {(reference.package, reference.name) for reference in file.references if reference.kind != "package"}
 
 
-def test_helper_module_of_the_same_package() -> None:
+def test_a_helper_module_of_the_same_package_is_interpreted() -> None:
     files = {
         "app/helpers.py": HELPER,
         "app/__init__.py": "",
@@ -56,15 +56,15 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.helpers"))
-    (before,) = [file for file in package.launch if not file.helper]
-    assert before.opaque
-    assert before.missing_inputs == ("app.helpers", "app.helpers.start")
-    after = _completed((package, files))["app/launch/a.launch.py"]
-    assert not after.opaque
-    assert _named(after) == {("driver", "camera")}
+    (unresolved,) = [file for file in package.launch if not file.helper]
+    assert unresolved.opaque
+    assert unresolved.missing_inputs == ("app.helpers", "app.helpers.start")
+    resolved_file = _completed((package, files))["app/launch/a.launch.py"]
+    assert not resolved_file.opaque
+    assert _named(resolved_file) == {("driver", "camera")}
 
 
-def test_what_a_module_of_another_package_starts_is_the_need_of_that_one() -> None:
+def test_references_in_a_module_of_another_package_belong_to_that_package() -> None:
     library = {"tools/__init__.py": "", "tools/helpers.py": HELPER}
     files = {
         "launch/a.launch.py": """
@@ -75,15 +75,15 @@ def generate_launch_description():
     return LaunchDescription([helpers.start("camera")])
 """,
     }
-    after = _completed(
+    resolved_file = _completed(
         (_package("tools", library, {}, ("tools", "tools.helpers")), library), (_package("app", files, {}), files)
     )["app/launch/a.launch.py"]
-    assert not after.opaque
-    assert after.references == ()
-    assert [action.target and action.target.texts for action in after.actions] == [("camera",)]
+    assert not resolved_file.opaque
+    assert resolved_file.references == ()
+    assert [action.target and action.target.texts for action in resolved_file.actions] == [("camera",)]
 
 
-def test_the_launch_libraries_are_known_where_their_sources_are_in_the_workspace_too() -> None:
+def test_launch_libraries_are_modelled_even_if_the_workspace_has_their_sources() -> None:
     library = {
         "launch/__init__.py": "from .launch_description import LaunchDescription\n",
         "launch/launch_description.py": "class LaunchDescription:\n    def __init__(self, entities=None):\n        pass\n",
@@ -104,14 +104,14 @@ def generate_launch_description():
     }
     package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.helpers"))
     sources = _package("launch", library, {}, ("launch", "launch_testing"))
-    alone = _completed((package, files))
-    found = _completed((package, files), (sources, library))["app/launch/a.launch.py"]
-    assert found == alone["app/launch/a.launch.py"]
-    assert _named(found) == {("driver", "camera")}
-    assert not found.opaque
+    without_sources = _completed((package, files))
+    launch_files = _completed((package, files), (sources, library))["app/launch/a.launch.py"]
+    assert launch_files == without_sources["app/launch/a.launch.py"]
+    assert _named(launch_files) == {("driver", "camera")}
+    assert not launch_files.opaque
 
 
-def test_a_released_helper_is_what_the_workspace_has_of_it() -> None:
+def test_the_source_of_a_helper_in_the_workspace_replaces_its_model() -> None:
     files = {
         "launch/a.launch.py": """
 from launch import LaunchDescription
@@ -127,15 +127,15 @@ def generate_launch_description():
     }
     package = _package("app", files, {})
     modules = ("controller_manager", "controller_manager.launch_utils")
-    alone = _completed((package, files))["app/launch/a.launch.py"]
-    assert _named(alone) == {("controller_manager", "spawner")}
-    beside = _completed((package, files), (_package("controller_manager", library, {}, modules), library))
-    (action,) = beside["app/launch/a.launch.py"].actions
+    without_sources = _completed((package, files))["app/launch/a.launch.py"]
+    assert _named(without_sources) == {("controller_manager", "spawner")}
+    neighbour = _completed((package, files), (_package("controller_manager", library, {}, modules), library))
+    (action,) = neighbour["app/launch/a.launch.py"].actions
     assert action.package is not None
     assert action.package.texts == ("driver",)
 
 
-def test_module_in_the_folder_of_another_package() -> None:
+def test_a_module_in_the_folder_of_another_package_is_interpreted() -> None:
     text = """
 import sys
 from ament_index_python.packages import get_package_share_directory
@@ -152,21 +152,21 @@ def generate_launch_description():
         "launch/agent.py": "from names import DRIVER\n"
         + HELPER.replace("start", "AgentLaunchDescription").replace('"driver"', "DRIVER"),
     }
-    alone = _completed((_package("app", files, {}), files))["app/launch/a.launch.py"]
-    assert [opaque.reason for opaque in alone.opaque] == [
+    without_sources = _completed((_package("app", files, {}), files))["app/launch/a.launch.py"]
+    assert [opaque.reason for opaque in without_sources.opaque] == [
         "the launched actions are not known: AgentLaunchDescription() cannot be followed"
     ]
     packages = [(_package("app", files, {}), files), (_package("bringup", library, {}), library)]
-    after = _completed(*packages)["app/launch/a.launch.py"]
-    assert not after.opaque
-    assert [(action.package and action.package.texts, action.target and action.target.texts) for action in after.actions] == [
-        (("driver",), ("camera",))
-    ]
-    other = (_package("other", library, {}), library)
-    assert _completed(packages[0], other)["app/launch/a.launch.py"].opaque, "nothing says that it is looked for there"
+    resolved_file = _completed(*packages)["app/launch/a.launch.py"]
+    assert not resolved_file.opaque
+    assert [
+        (action.package and action.package.texts, action.target and action.target.texts) for action in resolved_file.actions
+    ] == [(("driver",), ("camera",))]
+    other_package = (_package("other", library, {}), library)
+    assert _completed(packages[0], other_package)["app/launch/a.launch.py"].opaque, "nothing says that it is looked for there"
 
 
-def test_sibling_by_changed_path() -> None:
+def test_a_sibling_module_found_by_a_changed_path_is_interpreted() -> None:
     files = {
         "launch/common.py": HELPER,
         "launch/a.launch.py": """
@@ -182,7 +182,7 @@ def generate_launch_description():
     assert _named(_completed((_package("app", files, {}), files))["app/launch/a.launch.py"]) == {("driver", "camera")}
 
 
-def test_yaml_file_by_install_path() -> None:
+def test_a_yaml_file_is_read_by_its_install_path() -> None:
     files = {
         "config/setup.yaml": "nodes: [left, right]\n",
         "launch/a.launch.py": """
@@ -198,12 +198,12 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {"share/app/conf/setup.yaml": "config/setup.yaml"})
-    after = _completed((package, files))["app/launch/a.launch.py"]
-    assert _named(after) == {("app", "conf/setup.yaml"), ("driver", "left"), ("driver", "right")}
-    assert not after.opaque
+    resolved_file = _completed((package, files))["app/launch/a.launch.py"]
+    assert _named(resolved_file) == {("app", "conf/setup.yaml"), ("driver", "left"), ("driver", "right")}
+    assert not resolved_file.opaque
 
 
-def test_file_that_an_argument_names_is_only_the_default() -> None:
+def test_a_file_named_by_an_argument_is_read_as_its_default_only() -> None:
     files = {
         "config/setup.yaml": "executable: left\n",
         "launch/a.launch.py": """
@@ -225,12 +225,12 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {"share/app/config/setup.yaml": "config/setup.yaml"})
-    after = _completed((package, files))["app/launch/a.launch.py"]
-    nodes = [reference for reference in after.references if reference.kind == "node"]
+    resolved_file = _completed((package, files))["app/launch/a.launch.py"]
+    nodes = [reference for reference in resolved_file.references if reference.kind == "node"]
     assert [(node.name, node.conditional) for node in nodes] == [("left", True)]
 
 
-def test_list_that_an_argument_names_is_counted() -> None:
+def test_items_of_a_list_file_named_by_an_argument_are_counted() -> None:
     files = {
         "config/setup.yaml": "names: [left, right]\n",
         "launch/a.launch.py": """
@@ -252,12 +252,12 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {"share/app/config/setup.yaml": "config/setup.yaml"})
-    after = _completed((package, files))["app/launch/a.launch.py"]
-    nodes = [action for action in after.actions if action.kind == "node"]
+    resolved_file = _completed((package, files))["app/launch/a.launch.py"]
+    nodes = [action for action in resolved_file.actions if action.kind == "node"]
     assert [{"left", "right"} & set(node.target.texts) for node in nodes if node.target][:2] == [{"left"}, {"right"}]
 
 
-def test_files_that_are_clear_are_not_followed_again() -> None:
+def test_resolved_launch_files_are_not_interpreted_again() -> None:
     files = {
         "launch/a.launch.py": """
 import rclpy
@@ -269,10 +269,10 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {})
-    assert launch_around.resolve_modules(MemoryTree({}), [package], "jazzy") == [package.launch]
+    assert launch_modules.resolve_modules(MemoryTree({}), [package], "jazzy") == [package.launch]
 
 
-def test_files_of_parameters_that_a_module_names() -> None:
+def test_parameter_files_named_by_a_module_are_found() -> None:
     files = {
         "app/places.py": "import os\nfrom ament_index_python import get_package_share_directory\n"
         "CONFIG = os.path.join(get_package_share_directory('app'), 'config')\n",
@@ -287,6 +287,6 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.places"))
-    done = _completed((package, files))
-    (node,) = [action for action in done["app/launch/a.launch.py"].actions if action.kind == "node"]
+    resolved = _completed((package, files))
+    (node,) = [action for action in resolved["app/launch/a.launch.py"].actions if action.kind == "node"]
     assert [(name, value.texts) for name, value in node.parameters] == [("", (share("app") + "/config/a.yaml",))]

@@ -1,4 +1,4 @@
-"""A report that is kept is the one that a run would make: whatever changes that a run looks at, there is a run."""
+"""A cached report equals that of a run, and each change that affects the report causes a run."""
 
 from __future__ import annotations
 
@@ -114,7 +114,9 @@ CHANGES: dict[str, Callable[[Path], object]] = {
 
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
-def test_what_changes_is_seen(workspace: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], object]) -> None:
+def test_each_change_of_the_workspace_causes_a_run(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], object]
+) -> None:
     runs = Runs(monkeypatch)
     before = said(workspace)
     assert (said(workspace), runs.count) == (before, 1)
@@ -134,7 +136,7 @@ AROUND: dict[str, Callable[[Path], object]] = {
 
 
 @pytest.mark.parametrize("change", AROUND.values(), ids=AROUND)
-def test_what_scripts_name_around_a_package_is_watched(
+def test_files_outside_a_package_that_its_scripts_name_are_watched(
     workspace: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], object]
 ) -> None:
     includes = "include(../shared/x.cmake)\ninclude(../shared/y.cmake OPTIONAL)\n"
@@ -142,21 +144,23 @@ def test_what_scripts_name_around_a_package_is_watched(
     _write("src/shared/COLCON_IGNORE", "")(workspace)  # so that nobody else looks into it
     _write("src/shared/x.cmake", "find_package(std_srvs REQUIRED)\n")(workspace)
     _write("src/shared/launch/a.launch.py", "")(workspace)
-    test_what_changes_is_seen(workspace, monkeypatch, change)
+    test_each_change_of_the_workspace_causes_a_run(workspace, monkeypatch, change)
 
 
 ASKED = [["--pedantic"], ["--ignore", "ROS2"], ["--exclude", "rover_driver"], ["--distro", "humble"], ["--select", "all"]]
 
 
 @pytest.mark.parametrize("arguments", ASKED)
-def test_what_is_asked_is_heard(workspace: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str]) -> None:
+def test_each_option_that_affects_the_report_causes_a_run(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
+) -> None:
     runs = Runs(monkeypatch)
     said(workspace)
     assert said(workspace, *arguments) == said(workspace, "--no-cache", *arguments)
     assert runs.count == 3
 
 
-def test_how_it_is_written_needs_no_run(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_options_of_the_output_cause_no_run(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     runs = Runs(monkeypatch)
     for form in FORMATS:
         kept = said(workspace, "--format", form, "--fail-on", "never", "--jobs", "2")
@@ -186,7 +190,9 @@ def test_underlays_are_watched(workspace: Path, monkeypatch: pytest.MonkeyPatch,
     assert said(workspace, *arguments) == said(workspace, "--no-cache", *arguments)
 
 
-def test_warnings_are_said_again(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_warnings_are_printed_for_a_cached_report(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(workspace.parent / "nowhere"))
     said(workspace)
     first = capsys.readouterr().err
@@ -226,12 +232,12 @@ PLANTED = {
 
 @pytest.mark.parametrize("suffix", [".report", ".facts"])
 @pytest.mark.parametrize("pickled", PLANTED.values(), ids=PLANTED)
-def test_what_is_planted_costs_a_run_and_is_overwritten(
+def test_a_manipulated_cache_file_causes_a_run_and_is_overwritten(
     workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pickled: bytes, suffix: str
 ) -> None:
     monkeypatch.setenv("PLANTED", str(tmp_path / "planted"))
     runs = Runs(monkeypatch)
-    want = said(workspace)
+    expected = said(workspace)
     files = list((tmp_path / "cache" / "ros-lint").iterdir())
     for kept in files:
         state = kept.read_bytes().partition(b"\n")[0].rpartition(b" ")[0].decode()
@@ -240,26 +246,28 @@ def test_what_is_planted_costs_a_run_and_is_overwritten(
         elif kept.suffix == ".report":
             kept.unlink()  # so that the facts are read
     planted = {kept: kept.read_bytes() for kept in files if kept.suffix == suffix}
-    assert (said(workspace), runs.count) == (want, 2)
+    assert (said(workspace), runs.count) == (expected, 2)
     assert not (tmp_path / "planted").exists()
     assert all(kept.read_bytes() != data for kept, data in planted.items())
-    assert (said(workspace), runs.count) == (want, 2)
+    assert (said(workspace), runs.count) == (expected, 2)
 
 
-def test_a_folder_that_others_can_write_is_left_alone(workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cache_folder_that_others_can_write_is_not_used(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     runs = Runs(monkeypatch)
-    want = said(workspace)
+    expected = said(workspace)
     folder = tmp_path / "cache" / "ros-lint"
     before = {path: path.read_bytes() for path in folder.iterdir()}
     folder.chmod(0o777)
-    assert [said(workspace), said(workspace)] == [want, want]
+    assert [said(workspace), said(workspace)] == [expected, expected]
     assert runs.count == 3
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
     folder.chmod(0o700)
-    assert (said(workspace), runs.count) == (want, 3)
+    assert (said(workspace), runs.count) == (expected, 3)
 
 
-def test_what_has_gone_is_forgotten(workspace: Path, tmp_path: Path) -> None:
+def test_the_oldest_reports_are_removed(workspace: Path, tmp_path: Path) -> None:
     for number in range(12):
         said(workspace, "--exclude", f"nothing{number}")
     kept = list((tmp_path / "cache" / "ros-lint").iterdir())
@@ -280,38 +288,38 @@ def again(tree: RecordedTree) -> RecordedTree:
     return RecordedTree(tree.disk)
 
 
-def test_a_tree_that_changes_while_it_is_read_is_not_trusted(tmp_path: Path) -> None:
+def test_a_report_is_not_cached_if_a_file_changes_during_the_run(tmp_path: Path) -> None:
     recorded = RecordedTree(DiskTree(str(tmp_path)))
     with pytest.raises(FileNotFoundError):
         recorded.read("a")
     assert recorded.list("") == []
-    assert again(recorded).still_says(recorded.said.items())
+    assert again(recorded).is_unchanged(recorded.answers.items())
     (tmp_path / "a").write_text("x")
-    assert not again(recorded).still_says(recorded.said.items())
+    assert not again(recorded).is_unchanged(recorded.answers.items())
     assert recorded.steady
     recorded.list("")
     assert not recorded.steady
     file = again(recorded)
     assert file.read("a") == b"x"
     os.utime(tmp_path / "a", ns=(1, 1))
-    assert not again(file).still_says(file.said.items())
+    assert not again(file).is_unchanged(file.answers.items())
 
 
-def test_what_was_said_just_now_is_not_asked_for_again(tmp_path: Path) -> None:
+def test_answers_of_the_comparison_are_reused_in_the_run(tmp_path: Path) -> None:
     (tmp_path / "a").write_text("x")
     (tmp_path / "gone").mkdir()
     first = RecordedTree(DiskTree(str(tmp_path)))
-    said = first.identity(""), first.list(""), first.list("gone"), first.stamp("a")
+    output = first.identity(""), first.list(""), first.list("gone"), first.stamp("a")
     (tmp_path / "gone").rmdir()
     second = again(first)
-    assert second.identity("") == said[0]
-    assert not second.still_says(first.said.items())
-    assert second.list("") != said[1]
+    assert second.identity("") == output[0]
+    assert not second.is_unchanged(first.answers.items())
+    assert second.list("") != output[1]
     with pytest.raises(FileNotFoundError) as raised:
         second.list("gone")
     with pytest.raises(FileNotFoundError) as real:
         second.disk.list("gone")
     assert (raised.value.errno, raised.value.strerror) == (real.value.errno, real.value.strerror)
-    assert second.stamp("a") == said[3]
+    assert second.stamp("a") == output[3]
     assert second.steady
-    assert set(second.said) == {("identity", ""), ("list", ""), ("list", "gone"), ("stamp", "a")}
+    assert set(second.answers) == {("identity", ""), ("list", ""), ("list", "gone"), ("stamp", "a")}

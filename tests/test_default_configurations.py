@@ -1,4 +1,4 @@
-"""What launch configurations hold: what a file sets itself is not changed by those who launch it."""
+"""Values of launch configurations under default arguments, and which of them a caller cannot change."""
 
 import pytest
 
@@ -29,28 +29,31 @@ from ros_lint.collectors.launch.markup import xml as launch_xml
         ('<timer period="1"><let name="x" value="a"/></timer>', {"x": ("a",)}, set()),
     ],
 )
-def test_values_and_whose_they_are(body: str, values: dict[str, tuple[str, ...]], own: set[str]) -> None:
-    found = default_configurations(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
-    assert (dict(found.values), set(found.own)) == (values, own)
+def test_values_and_own_configurations_of_a_file(body: str, values: dict[str, tuple[str, ...]], own: set[str]) -> None:
+    configurations = default_configurations(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
+    assert (dict(configurations.values), set(configurations.own)) == (values, own)
 
 
-def test_what_depends_on_an_argument_is_not_the_files_own() -> None:
+def test_a_configuration_that_depends_on_an_argument_is_not_own() -> None:
     body = (
         '<arg name="a" default="1"/><let name="b" value="$(var a)"/><let name="c" value="2"/><let name="d" value="$(var c)/x"/>'
     )
-    found = default_configurations(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
-    assert found.own == {"c", "d"}
+    configurations = default_configurations(launch_xml.collect(Text("a.launch.xml", f"<launch>{body}</launch>")).actions)
+    assert configurations.own == {"c", "d"}
 
 
 @pytest.mark.parametrize(("let", "by_default"), [('<let name="p" value="a"/>', False), ('<arg name="p" default="a"/>', True)])
-def test_a_package_that_the_file_sets_is_no_default(let: str, by_default: bool) -> None:
+def test_a_package_name_set_by_the_file_is_not_a_default(let: str, by_default: bool) -> None:
     body = f'<launch>{let}<node pkg="$(var p)" exec="b"/></launch>'
     (reference,) = launch_xml.collect(Text("a.launch.xml", body)).references
     assert (reference.package, reference.name, reference.from_default) == ("a", "b", by_default)
 
 
-def test_either_of_two_values_may_be_meant() -> None:
+def test_two_alternative_values_give_two_conditional_references() -> None:
     lets = '<let name="e" value="one" if="$(var c)"/><let name="e" value="two" unless="$(var c)"/>'
     body = f'<launch><arg name="c" default="true"/>{lets}<node pkg="a" exec="$(var e)"/></launch>'
-    found = launch_xml.collect(Text("a.launch.xml", body)).references
-    assert [(one.name, one.conditional, one.from_default) for one in found] == [("one", True, False), ("two", True, False)]
+    configurations = launch_xml.collect(Text("a.launch.xml", body)).references
+    assert [(reference.name, reference.conditional, reference.from_default) for reference in configurations] == [
+        ("one", True, False),
+        ("two", True, False),
+    ]
