@@ -42,6 +42,7 @@ Not reported:
 - Packages that come with a dependency which needs another tag itself: see `wrong-dependency-kind`.
 - Packages that come with a dependency with the right tag in another distribution, if the distribution is not set.
 - Packages for tests, if a dependency with any tag provides what they use, because all of it serves tests.
+- Parts of launch that only launch files import, if a dependency with any tag provides them, because `ros2 launch` does so, too.
 - Names that only launch files start, include or look up, except in tests: see `launch-outside-closure`.
 - Templates for other packages, scripts that build the documentation, and copies made by editors.
 - Names of the system, and names that are neither a known package nor a rosdep key. Exceptions are listed below.
@@ -103,9 +104,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
     undeclared_needs = dependencies.undeclared(package, workspace)
-    misplaced = dependencies.misplaced(package, workspace)
-    every = [*(need for need, _ in undeclared_needs), *(need.need._replace(uses=need.uses) for need in misplaced)]
-    with_launch = {need.name for need in every if dependencies.is_part_of_launch(package, need.uses)}
+    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, need.uses)}
     for need, sure in undeclared_needs:
         certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # launch_ros provides launch
         problem = "is used here, but package.xml does not declare it"
@@ -115,12 +114,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
             finding = finding._replace(message=message, fix=None)
         yield finding._replace(severity=severity)
-    for lack in misplaced:
+    for lack in dependencies.misplaced(package, workspace):
         tag = lack.depend.tag
         problem = f"is used here, but comes only with <{tag}>{lack.depend.name}</{tag}>, which is not installed {lack.purpose}"
         uses = (*lack.uses, *(use for use in lack.need.uses if use not in lack.uses))
-        finding = _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
-        yield finding._replace(severity=Severity.INFO if lack.need.name in with_launch else None)
+        yield _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
     for wish in dependencies.optional_needs(package, workspace):
         if not wish.brought:
             problem = "is used here if it is available, but package.xml does not declare it"

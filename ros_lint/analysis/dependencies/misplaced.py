@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.analysis.build.commands import unguarded_tests
 from ros_lint.analysis.dependencies.declared_closure import declared_closure
 from ros_lint.analysis.dependencies.needs import Need, needs
+from ros_lint.analysis.dependencies.undeclared import is_part_of_launch
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.memo import cached_by_package
 from ros_lint.base.auxiliary_files import is_for_tests
@@ -68,6 +69,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
     Left out are:
     - packages for tests, because their dependencies serve tests anyway,
     - needs of unguarded tests, because they have to move to the tests,
+    - parts of launch that only launch files import, because ``ros2 launch`` provides them,
     - needs that come with a declared name which itself needs another tag, because that tag is reported,
     - needs that a dependency with the right tag may provide: its dependencies are unknown, or it does so in another
       distribution and none was chosen.
@@ -86,7 +88,12 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
         closure = declared_closure(package, workspace, phase.tags, repaired)
         for need in waiting:
             uses = _outside(closure, _of_phase(phase, need.uses))
-            if not uses or need.name in unguarded or any(need is other.need for other in result):
+            if (
+                not uses
+                or need.name in unguarded
+                or is_part_of_launch(package, uses)
+                or any(need is other.need for other in result)
+            ):
                 continue
             if any(_may_provide(closure, name, workspace) for use in uses for name in use.providers):
                 continue
