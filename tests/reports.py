@@ -37,7 +37,7 @@ CYCLE = rule("dependency-cycle", "ROS102", Severity.ERROR, "packages do not depe
 UNDECLARED = rule("undeclared-dependency", "ROS201", Severity.ERROR, "a package that is used must be declared")
 TRANSITIVE = rule("transitive-dependency", "ROS203", Severity.WARNING, "what is used is declared itself", default=False)
 UNUSED = rule("unused-dependency", "ROS204", Severity.WARNING, "a declared package must be used")
-ARGUMENT = rule("launch-argument", "ROS507", Severity.INFO, "an argument that is declared must be used")
+ARGUMENT = rule("launch-unused-argument", "ROS519", Severity.INFO, "an argument that is declared must be used")
 RULES = (CYCLE, UNDECLARED, TRANSITIVE, UNUSED, ARGUMENT)
 
 SOURCES = {

@@ -13,6 +13,11 @@ from typing import Final
 
 import pytest
 
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.expand import expand
+from ros_lint.collectors.launch.expressions import evaluate
+from ros_lint.collectors.launch.python.collect import collect
+from ros_lint.collectors.symbolic_text import UNKNOWN
 from tests.cmake_runs import run
 from tests.setup_scripts import script
 
@@ -97,8 +102,17 @@ SETUP: Final = {
     "sums": "x = [(0,) * 100] * 1000\n" + _rounds(900, "z = sum(x, ())"),
     "long lists that are compared": "x = [[0] * 90000]\ny = [[0] * 90000]\n" + _rounds(9000, "z = x == y"),
     "words": "x = 'a ' * 50000\ny = []\n" + _rounds(9000, "y.append(x.split())"),
+    "a wide field": "z = '%(a)99999999s' % {'a': 1}\n" + _rounds(900, "z = '%s%99999999s' % (z, z)"),
     "a path": "from pathlib import Path\nx = Path('a')\n" + _rounds(40, "x = x / x"),
     "a path of parts": "from pathlib import Path\nx = Path('a')\n" + _rounds(40, "x = x.joinpath(x, x, x)"),
+}
+
+_WIDE: Final = "'%(a)999999999s' % {'a': 'x'}"
+LAUNCH: Final = {
+    "a wide field": f"def generate_launch_description():\n    return [Node(package='a', executable={_WIDE})]\n",
+    "a wide field of an expression": f'def generate_launch_description():\n    return [PythonExpression("{_WIDE}")]\n',
+    "a wide field of an argument": "def generate_launch_description():\n"
+    f'    return [Node(package="a", executable=PythonExpression(["{_WIDE[:-2]}", LaunchConfiguration("a"), "\'}}"]))]\n',
 }
 
 
@@ -119,10 +133,23 @@ def test_setup_scripts_that_grow_end(name: str) -> None:
     _check("setup", name)
 
 
+@pytest.mark.parametrize("name", LAUNCH)
+def test_launch_files_that_grow_end(name: str) -> None:
+    _check("launch", name)
+
+
+@pytest.mark.parametrize("text", [_WIDE, "'%*d' % (999999999, 1)", "'%.999999999f' % 1"])
+def test_an_expression_with_a_wide_field_has_no_value(text: str) -> None:
+    assert evaluate(text) == UNKNOWN
+
+
 if __name__ == "__main__":
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     signal.setitimer(signal.ITIMER_PROF, _SECONDS)
     if sys.argv[1] == "cmake":
         run(CMAKE[sys.argv[2]], ("a" * 200 + "/c", *(f"src/{number}.cpp" for number in range(1000))))
+    elif sys.argv[1] == "launch":
+        head = "from launch.substitutions import LaunchConfiguration, PythonExpression\nfrom launch_ros.actions import Node\n"
+        expand(collect(Text("a.launch.py", head + LAUNCH[sys.argv[2]])), {"a": "x"})
     else:
         script(SETUP[sys.argv[2]])

@@ -117,6 +117,7 @@ def test_slow_modules_are_imported_only_if_needed(clean: Path, arguments: list[s
             ["--select", "undeclared-dependancy"],
             r"unknown rule 'undeclared-dependancy'; did you mean '?undeclared-dependency'?\?",
         ),
+        (["--ignore", "ROS507"], "rule 'ROS507' was divided into 'launch-missing-argument', "),
         (["--distro", "jazy"], r"--distro: unknown distribution 'jazy'; did you mean '?jazzy'?\? \(available: humble, "),
         (["--distro", "foxy"], r"--distro: end-of-life distribution 'foxy' \(available: humble, "),
         (["chek"], r"chek: no such file or directory; did you mean the command 'check'\?"),

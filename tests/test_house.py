@@ -7,6 +7,7 @@ import pytest
 
 from ros_lint.analysis.rule import Rule
 from ros_lint.engine import registry
+from ros_lint.engine.former_rules import FORMER, FormerRule
 from ros_lint.testing import FENCE, read_cases
 
 ROOT = Path(__file__).parent.parent
@@ -21,6 +22,12 @@ def by_name(rule: Rule) -> str:
 
 def test_names_and_codes_are_unique() -> None:
     assert len({rule.name for rule in RULES}) == len({rule.code for rule in RULES}) == len(RULES)
+
+
+@pytest.mark.parametrize("former", FORMER, ids=lambda former: former.name)
+def test_former_rules_are_gone_and_their_successors_exist(former: FormerRule) -> None:
+    assert not any(former.name == rule.name or former.code == rule.code for rule in RULES)
+    assert set(former.successors) <= {rule.name for rule in RULES}
 
 
 @pytest.mark.parametrize("rule", RULES, ids=by_name)

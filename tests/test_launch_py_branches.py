@@ -240,6 +240,52 @@ while i < 3:
     i += 1
     if flag: continue
     values.append(i)
+
+values = ['a', 'b', 'c']
+if flag: values.pop()
+
+values = ['a', 'b', 'c']
+if flag: values.append(values.pop(0))
+else: values.clear()
+
+values = ['a', 'b']
+if flag: values.remove('a')
+else: del values[-1]
+values.append('c')
+
+values = ['a', 'b', 'c']
+if flag: values[:2] = ['x']
+else: values[0] = 'y'
+
+queue, values = ['a', 'b', 'c'], []
+if flag:
+    while queue: values.append(queue.pop())
+values += queue
+
+d = {'a': 'x', 'b': 'y'}
+if flag: d.pop('a')
+values = [d['b']]
+
+names, values = ['a'], ['b']
+if flag: names.append('b')
+if 'b' in names: values.append('c')
+if len(names) > 1: values.append('d')
+
+some, last = ['a'], 'x'
+if flag: some.append('b')
+for x in some: last = x
+values = [last]
+
+some, last = [], 'x'
+if flag: some.append('b')
+for x in some: last = x
+values = [last, 'y' if some else 'z']
+
+some = ['a']
+if flag: some.insert(0, 'b')
+values = [some[0], some[-1], *some[:1]]
+
+values = sorted({'a', 'b'} - {'b'} | ({'c'} if flag else {'d'}))
 """
 
 

@@ -115,7 +115,7 @@ def test_infos_of_one_rule_and_package_are_one_block() -> None:
 
 def test_only_infos_of_one_rule_and_package_are_one_block() -> None:
     end = next(issue for issue in ISSUES if issue.finding.subject == "end")
-    argument = next(issue for issue in ISSUES if issue.rule.name == "launch-argument")
+    argument = next(issue for issue in ISSUES if issue.finding.subject == "x")
     warning = end._replace(finding=end.finding._replace(severity=Severity.WARNING))
     assert "findings of" not in render_issues([end, argument, end._replace(package="arm"), warning, warning], texts)
 

@@ -1,5 +1,6 @@
 """Build scripts: what a package builds, installs and does not install."""
 
+from ros_lint.analysis.build.build_types import build_types
 from ros_lint.analysis.build.commands import (
     ENDS,
     EXPORTING_PLUGINS,
@@ -12,8 +13,12 @@ from ros_lint.analysis.build.commands import (
     installed_targets,
     opaque_except_undefined_targets,
     stops_early,
+    unconditional_calls,
     unguarded_tests,
 )
+from ros_lint.analysis.build.entry_points import entry_point_target
+from ros_lint.analysis.build.interfaces import GENERATING, interface_generation
+from ros_lint.analysis.build.plugins import Plugins, plugin_loaders, plugins
 from ros_lint.analysis.build.targets import (
     files_using_client_library,
     has_header,
@@ -33,16 +38,24 @@ from ros_lint.analysis.build.targets import (
     stem,
 )
 from ros_lint.analysis.build.xmllint import runs_xmllint
+from ros_lint.analysis.headers import EXPORTING_LIBRARIES, Includes, OwnHeaders, own_headers, related_includes
 from ros_lint.workspace.build_scripts.resources import uninstalled_resources
 from ros_lint.workspace.usage.unused_find_package import generated_from
 
 __all__ = [
     "ENDS",
+    "EXPORTING_LIBRARIES",
     "EXPORTING_PLUGINS",
     "FINDS_TESTS",
+    "GENERATING",
     "LINTERS",
     "REGISTERING",
+    "Includes",
+    "OwnHeaders",
+    "Plugins",
+    "build_types",
     "config_names",
+    "entry_point_target",
     "evaluated_name",
     "files_using_client_library",
     "generated_from",
@@ -52,6 +65,7 @@ __all__ = [
     "installed_targets",
     "installed_to_bin_only",
     "installs_built",
+    "interface_generation",
     "is_declared_shared",
     "is_optional_target",
     "libraries_in_libexec",
@@ -61,11 +75,16 @@ __all__ = [
     "never_installed_nodes",
     "node_targets",
     "opaque_except_undefined_targets",
+    "own_headers",
     "partly_installed_nodes",
+    "plugin_loaders",
+    "plugins",
     "programs_built",
+    "related_includes",
     "runs_xmllint",
     "stem",
     "stops_early",
+    "unconditional_calls",
     "unguarded_tests",
     "uninstalled_resources",
 ]

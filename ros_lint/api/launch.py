@@ -2,7 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.launch.configurations import IncludeTree, read_sites, required_configurations
+from ros_lint.analysis.launch.arguments import ArgumentUse, SimilarRead, argument_use
+from ros_lint.analysis.launch.configurations import IncludeTree, include_tree
 from ros_lint.analysis.launch.files import (
     InstalledPrograms,
     PackageLaunchFile,
@@ -21,7 +22,7 @@ from ros_lint.analysis.launch.files import (
 from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
 from ros_lint.analysis.launch.parameter_files import NodeParameterFile, ParameterFiles
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
-from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes
+from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
 from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
 from ros_lint.facts.launch import LAUNCH_RUNTIME, values_of_action, walk_actions
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 __all__ = [
     "LAUNCH_FILE_NAMES",
     "LAUNCH_RUNTIME",
+    "ArgumentUse",
     "FailingExpression",
     "IncludeResolver",
     "IncludeTree",
@@ -42,13 +44,16 @@ __all__ = [
     "PassedFile",
     "PlacedInclude",
     "ScopeLeaks",
+    "SimilarRead",
     "are_consistent",
+    "argument_use",
     "assigned_configurations",
     "configurations",
     "expand_defaults",
     "failing_expressions",
     "files_looked_up",
     "include_resolver",
+    "include_tree",
     "includes",
     "installed_programs",
     "is_excluded_from_install",
@@ -60,10 +65,9 @@ __all__ = [
     "nodes_started",
     "package_launch_files",
     "passed_files",
-    "read_sites",
     "references_by_name",
     "rename_fix",
-    "required_configurations",
+    "scope_leaks",
     "substitute",
     "used_files",
     "values_of_action",

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from ros_lint.analysis.rule import Rule
 from ros_lint.cli.options import CliOption
 from ros_lint.cli.settings import toml
+from ros_lint.engine.former_rules import FORMER, FormerRule
 
 GROUPS = {
     "1": "Workspace and manifest",
@@ -66,7 +67,14 @@ def overview(rules: Sequence[Rule]) -> str:
             f"| {'yes' if rule.fixable else ''} | {rule.summary} |\n"
             for rule in in_group
         ]
+    parts.append("\n## Former rules\n\n| code | rule | status |\n|---|---|---|\n")
+    parts += [f"| {former.code} | {former.name} | {_fate(former)} |\n" for former in FORMER]
     return "".join(parts)
+
+
+def _fate(former: FormerRule) -> str:
+    links = ", ".join(f"[{name}]({name}.md)" for name in former.successors)
+    return f"divided into {links}" if links else "removed"
 
 
 def settings(options: Iterable[CliOption]) -> str:

@@ -160,9 +160,7 @@ def report_cache(request: Request) -> ReportCache:
     return ReportCache(request.cache, request.base, request_key, data)
 
 
-def _underlays(
-    settings: Settings, distro: str, base: str, machine: Tree | None
-) -> tuple[tuple[Underlay, ...], tuple[str, ...]]:
+def _underlays(settings: Settings, distro: str, base: str, machine: Tree | None) -> tuple[tuple[Underlay, ...], tuple[str, ...]]:
     """Return the underlays and warnings. An invalid prefix from the environment causes a warning only.
 
     Raises UsageError for an invalid prefix from the command line or the configuration file.

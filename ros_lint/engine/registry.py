@@ -15,6 +15,7 @@ from types import ModuleType
 
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.engine.former_rules import former_rule
 from ros_lint.errors import UserError
 
 GROUP = "ros_lint.rules"
@@ -81,5 +82,7 @@ def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
 
 def unknown_rule_message(rules: Sequence[Rule], selector: str) -> str:
     """Return the message for a selector that matches no rule."""
+    if former := former_rule(selector):
+        return f"rule '{selector}' {former.fate}"
     words = [word for rule in rules for word in (rule.name, rule.code)]
     return f"unknown rule '{selector}'{did_you_mean(similar_names(selector, [*words, 'all', 'default']))}"

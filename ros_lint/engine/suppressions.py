@@ -13,6 +13,7 @@ from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.suggestions import similar_names
+from ros_lint.engine.former_rules import former_rule
 from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, Unknown, Unused, lines_of
 
 if TYPE_CHECKING:
@@ -68,9 +69,7 @@ def apply_suppressions(
         (comment, tuple([name for name, rule in rules if rule in judged and (comment, name) not in used]))
         for comment, rules in resolved
     ]
-    unknown = [
-        Unknown(comment, name, _nearest(name.text, names)) for comment, rules in resolved for name, rule in rules if rule is None
-    ]
+    unknown = [_unknown(comment, name, names) for comment, rules in resolved for name, rule in rules if rule is None]
     return Outcome(
         tuple(kept),
         tuple(suppressed),
@@ -101,6 +100,11 @@ class _LineIndex:
 def _first_line(entry: tuple[Suppression, Name]) -> int:
     lines = entry[0].lines
     return lines[0] if lines else 0
+
+
+def _unknown(comment: Suppression, name: Name, names: Iterable[str]) -> Unknown:
+    former = former_rule(name.text)
+    return Unknown(comment, name, "" if former else _nearest(name.text, names), former.fate if former else "")
 
 
 def _nearest(word: str, names: Iterable[str]) -> str:

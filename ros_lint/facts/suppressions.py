@@ -77,6 +77,8 @@ class Unknown(NamedTuple):
     """The name that no rule has."""
     suggestion: str
     """The nearest name or code, or ""."""
+    fate: str = ""
+    """What became of a former rule of this name, or ""."""
 
 
 def lines_of(span: Span) -> tuple[int, int]:

@@ -117,7 +117,7 @@ class Reach:
         return ()
 
     def expand(self, bits: int) -> Iterator[str]:
-        """Yield the names of the set bits."""
+        """Yield the names whose bits are set in ``bits``."""
         while bits:
             lowest = bits & -bits
             yield self._names[lowest.bit_length() - 1]

@@ -148,7 +148,7 @@ VENDOR = "_vendor"
 def is_vendor(package: str, library: str) -> bool:
     """Return whether a package is named as the vendor package of ``library``, a name or a rosdep key.
 
-    Before the library, its name may have a prefix: rviz_assimp_vendor, google_benchmark_vendor.
+    The name of the package may have a prefix: rviz_assimp_vendor and google_benchmark_vendor.
     """
     if not package.endswith(VENDOR):
         return False

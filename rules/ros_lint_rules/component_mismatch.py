@@ -1,35 +1,28 @@
 """
 ## What it finds
 
-Components that cannot be loaded:
+Components whose name differs between CMake and the sources:
 
 - CMake registers a class, but no source has `RCLCPP_COMPONENTS_REGISTER_NODE` for this name.
 - A source has the macro, but CMake does not register the class.
-- CMake registers the class in a function or in the `CMakeLists.txt` of a subfolder.
-- The library of a component is not installed, or not installed to `lib`.
-- `rclcpp_components_register_nodes(library PLUGIN "robot::Talker" EXECUTABLE talker)`: this command takes only class names, so
-  `PLUGIN`, `EXECUTABLE` and `talker` become components, and no executable is built.
+
+Both are one rule because a misspelt name causes both.
 
 ## Why it matters
 
 `ros2 component load` and `ComposableNode` look up the exact name, first in the ament index, then in the library. They fail with
 "Could not find requested resource in ament index" or "Failed to find class with the requested plugin name". So does the
-executable that `rclcpp_components_register_node(... EXECUTABLE x)` builds. The registration is a CMake variable, which
-`ament_package()` writes to the index: a variable set in a function or subfolder is lost at its end.
+executable that `rclcpp_components_register_node(... EXECUTABLE x)` builds.
 
 ## How to fix it
 
-- Write the same name, with its namespaces, in both places.
-- Remove the words that belong to `rclcpp_components_register_node()`, or call that command. Its `EXECUTABLE` must not have the
-  name of the library.
-- Install the library to `lib`.
-- Register components in the `CMakeLists.txt` of the package, or in a macro instead of a function.
+Write the same name, with its namespaces, in both places.
 
 ## Limitations
 
 Not reported:
 
-- Packages whose components or libraries cannot be fully analysed.
+- Packages whose components cannot be fully analysed.
 - Components of tests.
 - Registered classes without the macro, if no source of the package has the macro or includes its header.
 
@@ -39,11 +32,9 @@ the workspace loads the component.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from ros_lint.api import (
-    BuildScript,
-    Call,
     Component,
     Confidence,
     Edit,
@@ -69,8 +60,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
         return
-    calls = package.calls("rclcpp_components_register_nodes")
-    yield from (_confused(call, strays) for call in calls if (strays := _strays(call)))
     macros = [macro for macro in package.registrations if macro.kind == "component"]
     macros = [macro for macro in macros if not files.is_auxiliary(package.relative(macro.span.path))]
     all_names = {macro.name for macro in macros}
@@ -85,57 +74,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         alike = only or _alike(component, unregistered)
         unregistered = [macro for macro in unregistered if macro not in alike]
         yield _without_macro(component, alike)
-    yield from _lost(script)
     for macro in unregistered:
         yield _unregistered(package, macro, loaded=macro.name in workspace.loaded.get(package.name, ()))
-    if not package.hidden(Facet.LIBRARIES):
-        yield from _libraries(package)
 
 
 def _forgets_macro(package: Package) -> bool:
     """Return whether a source includes the header of the macro, but no source has the macro, tests included."""
     included = any(use.via == "include" and "register_node_macro" in use.what for use in package.uses)
     return included and all(macro.kind != "component" for macro in package.registrations)
-
-
-_WORDS = {"PLUGIN": 0, "NO_UNDEFINED_SYMBOLS": 0, "EXECUTABLE": 1, "EXECUTOR": 1}
-"""Keywords of rclcpp_components_register_node() that no class name follows, with the number of their values."""
-
-
-def _strays(call: Call) -> list[tuple[int, int]]:
-    """Return the ranges of arguments that CMake takes for class names but that belong to rclcpp_components_register_node()."""
-    words = ((at, _WORDS[text]) for at, text in enumerate(call.texts) if at and text in _WORDS)
-    return [(at, min(at + more, len(call.args) - 1)) for at, more in words]
-
-
-def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
-    words = " and ".join([call.texts[first] for first, _ in strays])
-    return Finding(
-        f"rclcpp_components_register_nodes() accepts only class names, not {words}; remove that or call "
-        "rclcpp_components_register_node()",
-        call.span(strays[0][0]),
-        call.texts[0],
-        fix=Fix(f"remove {words}", tuple([edits.cmake.drop(call, *stray) for stray in strays])),
-        severity=Severity.WARNING,
-    )
-
-
-def _lost(script: BuildScript) -> Iterator[Finding]:
-    """Yield one finding for all components that are registered in a scope which ends before ament_package()."""
-    seen = {component.name for component in script.products.components if not component.unregistered}
-    lost = {component.name: component for component in script.products.components if component.name not in seen}
-    if not lost:
-        return
-    first, *others = lost.values()
-    more = f" and {len(others)} more" if others else ""
-    yield Finding(
-        f"'{first.name}'{more}: registered in the scope of a function or subfolder, so ament_package() does not write it to the "
-        "index; register it in the top CMakeLists.txt",
-        first.span,
-        first.name,
-        first_related(Related("also registered in a function or subfolder", other.span) for other in others),
-        confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
-    )
 
 
 def _alike(component: Component, macros: list[Registration]) -> list[Registration]:
@@ -179,39 +125,10 @@ def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Fin
     )
 
 
-def _libraries(package: Package) -> Iterator[Finding]:
-    """Yield the libraries with components that are not installed to lib."""
-    script = package.script
-    assert script is not None
-    paths = {provided.path.rpartition("/")[2] for provided in script.products.installs}
-    listed = build.install_arguments(package).union(provided.target for provided in script.products.installs)
-    elsewhere = build.libraries_in_libexec(package, (".so",))
-    targets = {target.name: target for target in reversed(script.products.targets)}
-    reported: set[str] = set()
-    for call in package.calls(*build.REGISTERING):
-        name = build.evaluated_name(package, call.texts[0]) if call.args else None
-        if name not in targets or name in reported or call.blocks:
-            continue
-        if place := elsewhere.get(name):
-            reported.add(name)
-            yield Finding(
-                f"the library '{name}' has components but is installed to {place.path.rpartition('/')[0]}; install it to lib, "
-                "where the ament index expects it",
-                place.span,
-                name,
-                (Related("its components are registered here", call.span(0)),),
-            )
-        elif name not in listed and not any(file.startswith(f"lib{name}.") for file in paths):
-            reported.add(name)
-            fix = Fix.of(f"install '{name}'", edits.cmake.install_library(script, name))
-            message = f"the library '{name}' has components but is not installed; install it to lib"
-            yield Finding(message, call.span(0), name, (Related("the library is built here", targets[name].span),), fix)
-
-
 RULE = Rule(
     name="component-mismatch",
     code="ROS413",
-    summary="components have the same name in CMake and in the source, and their libraries are installed",
+    summary="components have the same name in CMake and in the sources",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -1,23 +1,20 @@
 """
 ## What it finds
 
-Entry points that cannot work:
+Entry points whose target does not exist:
 
-- The module does not exist in the package, or does not define the function.
-- The target ends with `()`, or lacks `:function`.
-- Two entries are joined to one, because the comma between them is missing.
-- Two programs have the same name.
+- The module does not exist in the package.
+- The module does not define the function.
+- The target names only a module, without `:function`.
 
 ## Why it matters
 
-The build succeeds, but the installed program stops with ModuleNotFoundError or ImportError when it is started. Joined entries
-install neither program. At two programs of one name the build fails: "Duplicate entry point".
+The build succeeds, but the installed program stops with ModuleNotFoundError or ImportError when it is started.
 
 ## How to fix it
 
 Write `name = package.module:function` with names that exist. The message suggests a module or function with a similar name, and
-names a file that Python cannot import because of its name (`my-node.py`). The fix removes the `()`, adds the missing comma, or
-writes the suggested module.
+names a file that Python cannot import because of its name (`my-node.py`). The fix writes the suggested module.
 
 ## Limitations
 
@@ -34,53 +31,28 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from ros_lint.api import BuildScript, Edit, EntryPoint, Facet, Finding, Fix, Package, Related, Rule, Severity, Workspace, names
-
-_GLUED = re.compile(r"[:=].*=")
-_TARGET = re.compile(r"\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\])?\s*\Z")
+from ros_lint.api import (
+    BuildScript,
+    Edit,
+    EntryPoint,
+    Facet,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    build,
+    names,
+)
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    script = package.script
-    if script is None:
-        return
+    script = package.built
     for entry in script.products.entry_points:
-        target = _TARGET.match(entry.target)
-        if target is None:
-            yield _malformed(script, entry)
-        else:
-            yield from _lacking(package, script, entry, target[1], target[2], workspace)
-    yield from _doubled(script)
-    for problem in script.problems:
-        if problem.kind == "entry-point-form":
-            yield Finding(problem.message, problem.span, problem.subject)
-
-
-def _doubled(script: BuildScript) -> Iterator[Finding]:
-    """Yield the second of two programs with one name, if every build installs both."""
-    always = {(p.path.rpartition("/")[2], p.span) for p in script.products.installs if p.program and not p.conditional}
-    first: dict[tuple[str, str], EntryPoint] = {}
-    for entry in script.products.entry_points:
-        if (entry.name, entry.span) not in always:
-            continue
-        earlier = first.setdefault((entry.group, entry.name), entry)
-        if earlier.span != entry.span:
-            remedy = "remove one" if earlier.target == entry.target else "rename one"
-            message = f"'{entry.name}' is already defined as {earlier.target}; setuptools stops at a second definition: {remedy}"
-            yield Finding(message, entry.span, entry.name, (Related("the first definition", earlier.span),))
-
-
-def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
-    if _GLUED.search(entry.target):
-        message = f"'{entry.name} = {entry.target}' looks like two entries; is a comma missing between them?"
-        gaps = [
-            Edit(text.span, ",") for text in script.python.editable_texts if text.kind == "gap" and entry.span.covers(text.span)
-        ]
-        return Finding(message, entry.span, entry.name, fix=Fix.of("add the missing comma", *gaps))
-    if entry.target.rstrip().endswith("()"):
-        message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"
-        return Finding(message, entry.span, entry.name, fix=_without_call(entry))
-    return Finding(f"'{entry.name} = {entry.target}' is not of the form 'name = module:function'", entry.span, entry.name)
+        if target := build.entry_point_target(entry):
+            yield from _lacking(package, script, entry, *target, workspace)
 
 
 def _lacking(
@@ -173,16 +145,6 @@ def _lacks(workspace: Workspace, top: str, name: str) -> bool:
         or any(f"/{file}".endswith((f"/{path}.py", f"/{path}/__init__.py")) for file in owner.files)
         for owner in owners
     )
-
-
-def _without_call(entry: EntryPoint) -> Fix | None:
-    """Return the fix that removes the final (), if the entry is one string on one line."""
-    span = entry.span
-    blanks = span.end_column - span.column - len(entry.name) - len(entry.target) - len("'='")
-    if span.line != span.end_line or not 0 <= blanks <= 2:  # around the equals sign
-        return None
-    place = span._replace(column=span.end_column - 3, end_column=span.end_column - 1)
-    return Fix("remove the ()", (Edit(place, ""),))
 
 
 def _fix(entry: EntryPoint, wrong: str, right: str) -> Fix | None:

@@ -11,28 +11,17 @@ A launch file that the launch front end rejects:
 - It passes a file in XML to `PythonLaunchDescriptionSource`.
 - It uses something that was added to the launch format, or to Python, after the chosen distribution.
 
-A wrong path:
-
-- There is no slash after the share folder of a package: `[FindPackageShare('robot'), 'config', 'a.yaml']` is
-  `.../share/robotconfiga.yaml` if nothing joins the parts.
-- It is joined with an absolute path: `os.path.join(share, '/config/a.yaml')` is `/config/a.yaml`, without the share folder.
-
-A Python launch file that uses a substitution or condition wrongly:
-
-- It treats a substitution as the string that it becomes at launch: adds it to a string, formats, compares or tests it.
-- It joins conditions with `and` or `or`, or passes a function, a substitution or a boolean as a condition: `condition=lambda
-  context: ...`.
+- A Python launch file adds a substitution to a string, or passes it where Python requires a string.
+- It passes a function, a substitution or a boolean as a condition: `condition=lambda context: ...`.
 - It passes numbers, booleans or actions where strings are required: `default_value=True`, `LaunchConfiguration(argument)`.
 - It passes `launch_arguments` without `.items()`.
+
+This rule reports all of them because one of them is enough for `ros2 launch` to stop before it starts anything.
 
 ## Why it matters
 
 `ros2 launch` stops at the first of these, also for launch files that include the file. A file half ported from ROS 1 fails this
 way: `$(find p)` is `$(find-pkg-share p)`, `$(arg x)` is `$(var x)`, `type=` of a node is `exec=`.
-
-`'robot_' + LaunchConfiguration('name')` is an error as well. An f-string contains `<launch.substitutions... object at 0x7f...>`
-instead, and `LaunchConfiguration('mode') == 'real'` is never true, both without an error message. These are reported as
-warnings if the file has no other problem.
 
 ## How to fix it
 
@@ -48,7 +37,6 @@ Not reported:
 - Launch files of tests, examples and templates.
 - Additions to the format, if no distribution was chosen.
 - Substitutions treated as strings, or numbers passed as strings, in code that catches errors or only prints, such as `print()`.
-- A substitution tested in a function that gets it as an argument, because the test may be whether it is given at all.
 
 The confidence is medium for removed keywords in a launch file named after a distribution that has them (`dashing_start.py`).
 """
@@ -77,6 +65,8 @@ from ros_lint.api import (
 
 _FOR_OLD = re.compile(r"(?:^|[_.-])(?:crystal|dashing|el[eo]quent|foxy)(?:[_.-]|$)")
 """In the name of a launch file: a distribution that has the keywords which were removed in Galactic."""
+_OTHER_RULES = frozenset({"forgotten-path", "no-slash", "substitution-as-text"})
+"""Problems that `launch-misjoined-path` and `launch-substitution-as-value` report: ros2 launch accepts the file."""
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -86,7 +76,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             *_newer(launch_file.file.version_problems, workspace.target),
             *too_new(launch_file.file.syntax, workspace.target.chosen),
         )
-        problems = (*launch_file.file.problems, *newer)
+        rejected = (problem for problem in launch_file.file.problems if problem.kind not in _OTHER_RULES)
+        problems = (*rejected, *newer)
         if not problems:
             continue
         first, *others = sorted(problems, key=lambda problem: problem.span)
@@ -96,7 +87,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             launch_file.path,
             first_related(Related(_also(first, other), other.span) for other in others),
             confidence=max(_confidence(problem, launch_file.path, workspace) for problem in problems),
-            severity=Severity.WARNING if all(problem.kind == "substitution-as-text" for problem in problems) else None,
             fix=_fix(launch_file.path, problems),
         )
 

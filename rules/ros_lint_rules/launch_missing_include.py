@@ -10,6 +10,8 @@
 - A missing file that an included launch file names with an argument that it is passed, such as `$(var folder)/robot.yaml`. It
   is resolved as when the including launch file is launched, directly or through further includes.
 
+This rule reports all of them because each is a name of a file that is neither installed nor in the sources of its package.
+
 ## Why it matters
 
 The launch file stops, or the node starts without its parameters. xacro stops at a missing include. RViz and Gazebo show nothing

@@ -1,21 +1,20 @@
 """
 ## What it finds
 
-Paths that work only on one machine or from one folder:
+Paths that work only on one machine or in the root of one workspace:
 
 - A path below a home directory (`/home/jay/ros2_ws/src/robot/config/robot.yaml`), written out in a launch file, program, model,
   parameter file or build script.
 - A path to a file of a package below the source folder (`src/robot/config/robot.yaml`) or below a workspace in the home directory
   (`~/ros2_ws/src/robot/config/robot.yaml`).
-- A path relative to the folder of the package (`config/robot.yaml`) in a launch file, as a parameter file of a node, as a
-  configuration of RViz or as an include.
+
+Both are one rule because both lead to the sources or files of one machine instead of the installed file.
 
 ## Why it matters
 
 A path below a home directory exists on one machine only. On the next machine, in a container and on the robot the launch fails,
-or a node starts without its parameters. A path to the sources bypasses the installed file. Relative paths depend on the folder
-where the program is started: `src/...` works only in the root of the workspace, `config/robot.yaml` only in the folder of the
-package, because it is not relative to the launch file.
+or a node starts without its parameters. A path to the sources bypasses the installed file. `src/...` works only if the program is
+started in the root of the workspace.
 
 ## How to fix it
 
@@ -48,8 +47,7 @@ One path in several files of a package is reported once. Not reported:
 - Paths that are composed at run time, such as `'/home/' + user` and `join(root, 'src/robot')`.
 - Paths below `~`, unless they name an existing file of a workspace package.
 - Paths with `src/` or `~` in build scripts, or to files that no package of the workspace has.
-- Paths relative to the package folder, if the package has no such file, if the launch file sets the working directory (`cwd`), or
-  in arguments whose meaning only the program knows.
+- Paths relative to the package folder: see `launch-relative-path`.
 
 The confidence is high if the path leads to a file or source folder of this workspace and the file with the path is installed,
 built or launched. Reported with medium confidence:
@@ -65,21 +63,17 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterator, Mapping
-from itertools import pairwise
 from typing import NamedTuple
 
 from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
-    LaunchAction,
-    LaunchValue,
     MachinePath,
     Package,
     Related,
     Rule,
     Severity,
-    Span,
     Workspace,
     cached_by_workspace,
     files,
@@ -108,13 +102,8 @@ class _Inside(NamedTuple):
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if package.machine_paths:
-        yield from _written_out(package, workspace)
-    yield from _from_the_package(package, workspace)
-
-
-def _written_out(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the paths below a home directory and those that begin with ``src/``."""
+    if not package.machine_paths:
+        return
     used = launch.used_files(package)
     by_file: dict[tuple[str, str], list[tuple[MachinePath, _Inside | None]]] = {}
     for machine in package.machine_paths:
@@ -143,48 +132,6 @@ def _written_out(package: Package, workspace: Workspace) -> Iterator[Finding]:
             Related("also named here" if other.path == first.path else f"also '{other.path}'", other.span) for other, _ in others
         )
         yield Finding(message, first.span, first.path, related, confidence=confidence)
-
-
-def _from_the_package(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield paths relative to the package folder in launch files: they are resolved in the folder of the ros2 launch call."""
-    if not package.launch:
-        return
-    paths = frozenset(package.files)
-    named: dict[str, list[tuple[bool, Span]]] = {}
-    for launch_file in launch.package_launch_files(package):
-        defaults = launch.assigned_configurations(launch_file.file)
-        for action in launch.walk_actions(launch_file.file.actions):
-            for value in _read_by_path(action):
-                texts = launch.substitute(value, defaults)
-                path = posixpath.normpath(texts[0]) if len(texts) == 1 else ""
-                if path in paths and all(name != "cwd" for name, _ in action.arguments):
-                    named.setdefault(path, []).append((launch_file.installed, value.span))
-    for path, places in named.items():
-        inside = _Inside(package.name, path, whole=False, program="")
-        install = "install it and " if _is_left_out(inside, workspace) else ""
-        # The finding is at an installed launch file, if there is one.
-        (installed, first), *others = sorted(places, key=lambda place: not place[0])
-        yield Finding(
-            f"'{path}' is only found if launched in the folder of '{package.name}'; {install}look it up in the share directory",
-            first,
-            path,
-            tuple(Related("also named here", span) for _, span in others),
-            confidence=Confidence.HIGH if installed else Confidence.MEDIUM,
-        )
-
-
-def _read_by_path(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield the names of files that are opened relative to the working directory: parameters, displays and includes."""
-    if action.kind == "include" and action.target is not None:
-        yield action.target
-    if action.kind in ("node", "component"):
-        yield from (value for name, value in action.parameters if not name)
-    words = [value for name, value in action.arguments if not name] if action.kind == "node" else []
-    yield from (file for flag, file in pairwise(words) if _GIVES_FILE.issuperset(flag.texts))
-
-
-_GIVES_FILE = frozenset({"-d", "--display-config", "--params-file"})
-"""Options with a file name as value, of RViz and of all nodes."""
 
 
 def _is_interpreter(machine: MachinePath, file: str) -> bool:

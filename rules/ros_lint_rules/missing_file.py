@@ -10,6 +10,8 @@ Files and folders that a build script names but that do not exist:
 
 Also folders where `install(FILES)` expects a file.
 
+This rule reports all of them because each is a path in a build script at which there is no such file.
+
 ## Why it matters
 
 The build fails: CMake when it configures or installs (`file INSTALL cannot find`), setuptools with

@@ -4,46 +4,39 @@
 - A CMake script that uses a ROS package without `find_package()`: a target `package::library`, an argument of
   `ament_target_dependencies()`, or a macro of the package.
 - A declared package without `find_package()` whose headers a compiled source includes.
-- Arguments of `ament_target_dependencies()` and `ament_export_dependencies()` that are not packages: a target, a typo of a found
-  package, or two package names without a blank between them. For `ament_target_dependencies()` also the package itself.
-- An argument of `ament_export_dependencies()` that is otherwise unknown, with medium confidence.
-- A `find_package()` of the package itself.
 
 ## Why it matters
 
-CMake stops because the target, package or command is unknown. Under a condition, it stops only for users for whom the condition
-holds. A wrong export makes `find_package()` of this package fail in other packages.
+CMake stops because the target, package or command is unknown, or the compiler does not find the header. Under a condition, it
+stops only for users for whom the condition holds.
 
 ## How to fix it
 
-Add `find_package(package REQUIRED)` before the first use. The fix corrects typos of found packages.
+Add `find_package(package REQUIRED)` before the first use.
 
 ## Limitations
 
 Not reported:
 
 - Scripts that cannot be fully analysed, and uses under a condition that cannot be decided.
-- Names that are neither a known ROS package nor a target and resemble no found package, unless they are declared and listed under
-  `DEPENDENCIES` of `rosidl_generate_interfaces()`, which accepts only packages.
-- Names that differ from a found package only in upper and lower case.
-- Exported names that are declared or that a module of the package finds.
+- Names that are no known ROS package (see `invalid-ament-dependency`), unless they are declared and listed under `DEPENDENCIES`
+  of `rosidl_generate_interfaces()`, which accepts only packages.
 - Packages that a command of another workspace package uses: that package has to find them.
 - Included headers, if the script adds a folder outside of the package to its include directories.
 - Packages that provide commands, such as `ament_cmake_gtest`, if they come with a found package.
 
-If a found package provides the missing one transitively, or its dependencies are unknown, the confidence is medium.
+If a found package provides the missing one transitively, or its dependencies are unknown, the confidence is medium and the
+severity info.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from ros_lint.api import (
-    Call,
     Confidence,
     Facet,
     Finding,
-    Fix,
     Package,
     Related,
     Rule,
@@ -52,7 +45,6 @@ from ros_lint.api import (
     Workspace,
     build,
     dependencies,
-    edits,
     first_related,
     names,
 )
@@ -66,14 +58,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
-    wrong = (problem for problem in script.cmake.errors if problem.kind == "no-package")
-    yield from (Finding(problem.message, problem.span, problem.subject) for problem in wrong)
     if build.stops_early(script) or script.hides(Facet.USES):
         return
     found = dependencies.names_searched(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may differ in case: RTABMap, rtabmap::core
     along = dependencies.find_package_closure(workspace, found)
-    yield from _no_packages(package, found, workspace)
     missing: dict[str, list[tuple[str, Related]]] = {}
     probable: set[str] = set()
     for mention in script.mentions:
@@ -136,96 +125,6 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
             )
 
 
-def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield arguments that are certainly not packages: targets, and typos of found packages.
-
-    Exported packages need not be found here; declared ones and those with a find module are accepted. Another rule reports
-    misspelt names in the manifest, and once they are fixed, their packages are found.
-    """
-    script = package.script
-    assert script is not None
-    world = workspace.world
-    targets = {target.name for target in script.products.targets}
-    spelt = {name.lower() for name in found}.union(
-        name.lower() for name in dependencies.misspelled_names(package, workspace).values()
-    )
-    for call in package.calls(*_TARGET_COMMANDS, anywhere=True):
-        if _REPEATED.intersection(call.blocks):
-            continue
-        arguments = {name: index for index, name in enumerate(call.texts) if index or call.name == _EXPORTS}
-        unknown = {name: at for name, at in arguments.items() if name.lower() not in spelt and not world.is_package(name)}
-        if call.name == _EXPORTS:
-            unknown = {name: at for name, at in unknown.items() if not _is_findable(package, name, workspace)}
-        yield from _targets(call, {name: index for name, index in unknown.items() if name in targets})
-        for name, index in unknown.items():
-            if name not in targets and (all_names := _suggested(name, found)):
-                hint = (
-                    f"; did you mean '{all_names[0]}' and '{all_names[1]}'?"
-                    if len(all_names) > 1
-                    else names.ask_if_meant(all_names)
-                )
-                yield Finding(
-                    f"{call.name}() expects packages, but there is no find_package({name}){hint}",
-                    call.span(index),
-                    name,
-                    fix=Fix.of(f"write '{' '.join(all_names)}'", edits.cmake.write(call, index, " ".join(all_names)), safe=False),
-                )
-            elif name not in targets and call.name == _EXPORTS and _is_plain(name):
-                yield Finding(
-                    f"'{name}' is exported, but it is neither found here nor a known package, so find_package({package.name}) "
-                    "fails in other packages",
-                    call.span(index),
-                    name,
-                    confidence=Confidence.MEDIUM,
-                )
-
-
-def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
-    """Return whether ``find_package(name)`` may succeed for unknown reasons, or the name is reported elsewhere."""
-    if "::" in name:
-        return True  # reported when the command is evaluated
-    world = workspace.world
-    modules = (f"Find{name}.cmake", *build.config_names(name))
-    if package.declares(name) or any(file.endswith(modules) for file in package.files):
-        return True
-    return world.resolution(name) != "unknown" or world.by_cmake(name).known
-
-
-def _is_plain(name: str) -> bool:
-    """Return whether an argument is a plain name: not a variable, not text, and not a target of another package."""
-    return bool(name) and name.replace("-", "_").isidentifier()
-
-
-def _suggested(name: str, found: frozenset[str]) -> tuple[str, ...]:
-    """Return the found packages for an unknown name: two names without a blank between them, or one similar name."""
-    for end in range(1, len(name)):
-        if name[:end] in found and name[end:] in found:
-            return name[:end], name[end:]
-    return tuple(names.similar_names(name, sorted(found), 1, 0.9))
-
-
-def _targets(call: Call, all_names: Mapping[str, int]) -> Iterator[Finding]:
-    """Yield one finding for all arguments of a call that are targets of this package."""
-    if all_names:
-        (name, at), *others = all_names.items()
-        are, it = ("are targets", "them") if others else ("is a target", "it")
-        verb = "export" if call.name == _EXPORTS else "link"
-        yield Finding(
-            f"{call.name}() expects packages, but {names.shorten_list(all_names)} {are} of this package; {verb} {it} with "
-            f"{_TARGET_COMMANDS[call.name]}()",
-            call.span(at),
-            name,
-            first_related(Related(f"also '{other}'", call.span(index)) for other, index in others),
-        )
-
-
-_EXPORTS = "ament_export_dependencies"
-_TARGET_COMMANDS = {"ament_target_dependencies": "target_link_libraries", _EXPORTS: "ament_export_targets"}
-"""Commands that take packages, with the commands that do the same for targets."""
-_REPEATED = frozenset({"foreach", "while", "function", "macro"})
-"""Blocks in which an argument may have several values."""
-
-
 RULE = Rule(
     name="missing-find-package",
     code="ROS206",
@@ -233,6 +132,5 @@ RULE = Rule(
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
-    fixable=True,
     package=check,
 )

@@ -20,6 +20,9 @@ In an `ament_cmake` package:
 - A Python package with the name of the package, if nothing of it is installed. The confidence is high if it has a `setup.cfg` for
   `ament_python_install_package()` or another workspace package imports it, otherwise medium.
 
+This rule reports all of them because the same import fails, for the same reason: the module is not installed where Python looks
+for it.
+
 ## Why it matters
 
 The import works in the source folder and after `colcon build --symlink-install`, but fails everywhere else with

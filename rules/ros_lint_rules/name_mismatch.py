@@ -9,6 +9,8 @@ A package whose build script uses another name than `package.xml` in one of thes
 - the folder `share/<package>`, to which `package.xml` is installed;
 - the folder `lib/<package>`, to which programs are installed, as set in `setup.cfg`.
 
+This rule reports all places because a package that is renamed or copied has to be changed in each of them.
+
 ## Why it matters
 
 If `project()` differs, `ament_package()` stops CMake. If the marker or `package.xml` has another name, `ros2 pkg` does not find

@@ -14,6 +14,8 @@ Everything for which `catkin_pkg` rejects a `package.xml`:
 
 Every problem is reported with its place; `catkin_pkg` stops at the first one.
 
+This rule reports all of them because one of them is enough for colcon to ignore the whole file.
+
 ## Why it matters
 
 colcon does not fail on such a file. It prints a warning or nothing, and treats the folder as a plain CMake or Python package,

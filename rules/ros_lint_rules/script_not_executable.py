@@ -10,6 +10,8 @@ Scripts that are installed to `lib/<package>` but cannot be run:
 - Scripts installed by `install(PROGRAMS ...)` from a file without the bit, because `colcon build --symlink-install` runs that
   file. The confidence is medium if none of the installed scripts of the package has the bit.
 
+This rule reports all of them because the effect is the same: the script is installed as a program but does not start.
+
 ## Why it matters
 
 `ros2 run` and launch find only executable files: "No executable found". Many tutorials contain the first of these mistakes. It

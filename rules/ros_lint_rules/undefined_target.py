@@ -7,6 +7,8 @@
 - Libraries in `ament_export_libraries()` that are not built, if they have the name of the project or nearly the name of a built
   library.
 
+This rule reports all of them because each is a name that no command of the workspace defines, usually a typo.
+
 ## Why it matters
 
 CMake stops with one of these messages:

@@ -9,6 +9,8 @@ Dependencies that `ament_export_dependencies()` lacks:
 
 Also `Qt5` and `Qt6` in `ament_export_dependencies()`, which cannot pass components.
 
+This rule reports both because a package that finds this one lacks the dependency in either case.
+
 ## Why it matters
 
 Packages that find this package get neither the include directories nor the targets of the dependency. Its headers do not

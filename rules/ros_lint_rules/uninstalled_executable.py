@@ -9,6 +9,8 @@ Executables that are built but not installed, or installed where `ros2 run` and 
   is an executable whose sources, or the headers that belong to it, include rclcpp;
 - any other executable that is installed to `lib/` or `bin/<package>/`, where the shell does not find it either.
 
+This rule reports both because `ros2 run` finds the executable in neither case, and the remedy is the same `install()`.
+
 ## Why it matters
 
 `ros2 run` and launch only look in `lib/<package>`: "No executable found". In `install(TARGETS ... RUNTIME DESTINATION bin)` the

@@ -9,6 +9,8 @@ A library that is built but not installed, although
 
 Also a library that is exported with `ament_export_libraries()` and installed to `lib/<package>` instead of `lib`.
 
+This rule reports both because other packages and programs find the library in neither case.
+
 ## Why it matters
 
 Programs run in the build folder, but not from the install space: "error while loading shared libraries: libx.so: cannot open

@@ -11,6 +11,8 @@ A dependency in `package.xml` that is neither a package (of the workspace, an un
 - `ament_python`, which is a build type, not a package;
 - a tag without a name.
 
+This rule reports all of them because the tag is the same mistake for rosdep and colcon; only the correct name differs.
+
 ## Why it matters
 
 colcon ignores unknown names, so a workspace that is already built keeps working. `rosdep install` stops with "Cannot locate

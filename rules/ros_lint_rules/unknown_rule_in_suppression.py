@@ -3,7 +3,7 @@
 
 A comment that looks like a suppression but has no effect, because it
 
-- names a rule that does not exist, or no rule at all;
+- names a rule that does not exist, was divided or was removed, or no rule at all;
 - uses a word other than `ignore` and `ignore-file`;
 - is an `ignore-file` below the first comments of its file.
 
@@ -13,8 +13,9 @@ The comment seems to work, but the finding is still reported, or the rule no lon
 
 ## How to fix it
 
-Write `ros-lint: ignore[rule-name] reason`, with names or codes from `ros-lint rules`, separated by commas. Move `ros-lint:
-ignore-file[rule-name] reason` above the first line that is not a comment.
+Write `ros-lint: ignore[rule-name] reason`, with names or codes from `ros-lint rules`, separated by commas. For a rule that was
+divided, the message names the new rules. Move `ros-lint: ignore-file[rule-name] reason` above the first line that is not a
+comment.
 
 ## Limitations
 
@@ -36,9 +37,10 @@ if TYPE_CHECKING:
 def check(use: SuppressionUse) -> Iterator[Finding]:
     for suppression in use.malformed:
         yield Finding(suppression.problem, suppression.span, ", ".join(name.text for name in suppression.names))
-    for _, name, suggestion in use.unknown:
+    for _, name, suggestion, fate in use.unknown:
         hint = names.did_you_mean([suggestion] if suggestion else []) or "; `ros-lint rules` lists all rules"
-        yield Finding(f"there is no rule '{name.text}'{hint}", name.span, name.text)
+        message = f"rule '{name.text}' {fate}" if fate else f"there is no rule '{name.text}'{hint}"
+        yield Finding(message, name.span, name.text)
 
 
 RULE = Rule(

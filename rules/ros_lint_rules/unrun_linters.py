@@ -8,6 +8,8 @@ Linters that are declared but never run:
 - `ament_lint_auto_find_test_dependencies()` is called, but `ament_lint_auto` is the only `<test_depend>`. The call runs the
   linters among the test dependencies, and there are none.
 
+This rule reports all of them because the declared linters check nothing in each case.
+
 ## Why it matters
 
 The linters are installed, and everyone believes that they check the code, but nothing is checked.

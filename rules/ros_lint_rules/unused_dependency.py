@@ -5,13 +5,11 @@
   or launch file refers to it, and no other file contains its name.
 - A `<test_depend>` in a package without a test that could use it, unless something else uses it, such as `find_package` or a
   launch file.
-- `<member_of_group>rosidl_interface_packages</member_of_group>` in a package that contains and generates no interfaces.
 
 ## Why it matters
 
 Every dependency is installed and built before this package, and a change of it causes a rebuild. An unused dependency costs
-time on every machine and misleads readers. Packages that depend on the group of all interface packages, such as `ros1_bridge`,
-wait for each member of the group.
+time on every machine and misleads readers.
 
 ## How to fix it
 
@@ -50,7 +48,6 @@ from ros_lint.api import (
     Confidence,
     Declared,
     Depend,
-    Facet,
     Finding,
     Fix,
     Package,
@@ -60,8 +57,6 @@ from ros_lint.api import (
     Workspace,
     build,
     dependencies,
-    files,
-    names,
 )
 
 _TAGS = ("depend", "build_depend")
@@ -70,7 +65,6 @@ _NO_TEST = build.FINDS_TESTS | {"enable_testing"}
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    yield from _no_member(package)
     unused = list(_unused(package, workspace))
     carried = dependencies.needed_transitively(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
     for declared, reason, confidence in unused:
@@ -94,29 +88,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             ),
             confidence=confidence,
         )
-
-
-def _no_member(package: Package) -> Iterator[Finding]:
-    """Yield the membership in the group of interface packages, if the package has no interfaces."""
-    manifest, script = package.manifest, package.script
-    if manifest is None or script is None or script.problems or names.interfaces.GROUP not in package.groups:
-        return
-    if package.builds_with not in ("ament_cmake", "ament_python") or script.hides(Facet.INTERFACES | Facet.USES):
-        return
-    generated = script.products.interfaces or any(True for _ in package.calls("rosidl_generate_interfaces", anywhere=True))
-    if generated or any(file.endswith(files.INTERFACES) for file in package.files):
-        return
-    for depend in manifest.depends:
-        if (
-            depend.tag == "member_of_group"
-            and depend.name == names.interfaces.GROUP
-            and dependencies.conditions.always(depend.condition)
-        ):
-            written = f"<{depend.tag}>{names.interfaces.GROUP}</{depend.tag}>"
-            fix = Fix(f"remove {written}", tuple(dependencies.remove_dependency(package, depend)))
-            yield Finding(
-                f"'{package.name}' generates no interfaces; remove {written}", depend.span, names.interfaces.GROUP, fix=fix
-            )
 
 
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:

@@ -29,6 +29,16 @@ def stops_early(script: BuildScript) -> bool:
     return any(problem.kind in _STOPS for problem in script.problems)
 
 
+def unconditional_calls(package: Package, *names: str) -> tuple[Call, ...]:
+    """Return the calls in the CMakeLists.txt that have arguments and are in no block and not only for tests.
+
+    Return () if ament_cmake does not build the package.
+    """
+    if package.builds_with != "ament_cmake":
+        return ()
+    return tuple([call for call in package.calls(*names) if call.args and not (call.blocks or call.test)])
+
+
 _STOPS = ("cmake-syntax", "missing-folder", "missing-script")
 
 

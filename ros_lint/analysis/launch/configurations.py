@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import IncludeResolver, configurations_read
+from ros_lint.analysis.launch.includes import IncludeResolver, configurations_read, include_resolver
+from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import configurations, is_plain
 from ros_lint.facts.launch import LaunchFile, values_of_action, walk_actions
+from ros_lint.workspace.model import Workspace
 
 
 class FileConfigurations(NamedTuple):
@@ -92,6 +94,13 @@ class IncludeTree:
     def above(self, file: LaunchFile) -> list[FileConfigurations]:
         """Return the configurations of every file that includes this one, directly or indirectly."""
         return [self._names[path] for path in sorted(_reached(self._includers, file.path))]
+
+
+@cached_by_workspace
+def include_tree(workspace: Workspace) -> IncludeTree:
+    """Return the include relation between the launch files of a workspace."""
+    files = [file for package in workspace.packages for file in package.launch]
+    return IncludeTree(files, include_resolver(workspace))
 
 
 def _reached(edges: Mapping[str, set[str]], start: str) -> set[str]:

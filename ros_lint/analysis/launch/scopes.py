@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import IncludeResolver
+from ros_lint.analysis.launch.includes import IncludeResolver, include_resolver
+from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.collectors.symbolic_text import configurations
 from ros_lint.facts.launch import LaunchAction, LaunchFile, values_of_action, walk_actions
+from ros_lint.workspace.model import Workspace
 
 
 class PlacedInclude(NamedTuple):
@@ -74,3 +76,10 @@ class ScopeLeaks:
             return True
         takes = self._links.takes(target.file)
         return not takes.complete or name in takes.known
+
+
+@cached_by_workspace
+def scope_leaks(workspace: Workspace) -> ScopeLeaks:
+    """Return the scopes of the launch files of a workspace."""
+    files = [file for package in workspace.packages for file in package.launch]
+    return ScopeLeaks(files, include_resolver(workspace))

@@ -47,3 +47,15 @@ def snake(name: str) -> str:
 def camel(name: str) -> str:
     """Return a name in CamelCase, which rosidl requires for interfaces."""
     return "".join(word[:1].upper() + word[1:] for word in _BETWEEN_WORDS.split(name))
+
+
+def defined_in(file: str) -> str:
+    """Return the interface that a file defines, as ``msg/Name``; "" if it defines none."""
+    folder, _, name = file.rpartition("/")
+    stem, _, suffix = name.rpartition(".")
+    kind = folder.rpartition("/")[2]
+    return f"{kind}/{stem}" if kind in KINDS and suffix in (kind, "idl") else ""
+
+
+KINDS = ("msg", "srv", "action")
+"""Kinds of interfaces, which are also the names of their folders and the suffixes of their files."""

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
 from ros_lint.collectors.python.methods import LENGTH_PRESERVING
-from ros_lint.collectors.python.operators import ARITHMETIC, COMPARISONS
+from ros_lint.collectors.python.operators import ARITHMETIC, COMPARISONS, is_wide
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import read_expression
 from ros_lint.collectors.python.versions import BUILTINS, MATH
@@ -18,8 +17,6 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 _MAX_LENGTH = 2_000
 _MAX_SIZE = 10_000
 """The maximum number of characters and items of a value, those of nested items included."""
-_WIDE = re.compile(r"%[^%a-zA-Z]*(?:\*|\d{4})")
-"""A format conversion that can produce a text of any length."""
 
 
 class _Unknown(Exception):  # noqa: N818
@@ -161,7 +158,7 @@ def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
         for sequence, times in ((left, right), (right, left)):
             if isinstance(sequence, (str, list, tuple)) and isinstance(times, int) and _size(sequence) * times > _MAX_SIZE:
                 raise _Unknown
-    if isinstance(op, ast.Mod) and isinstance(left, str) and _WIDE.search(left):
+    if isinstance(op, ast.Mod) and isinstance(left, str) and is_wide(left):
         raise _Unknown
     return _small(ARITHMETIC[type(op)](left, right))
 

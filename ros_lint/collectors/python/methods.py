@@ -1,13 +1,12 @@
-"""Methods of texts, functions on paths and constants of Python that every evaluator treats alike.
+"""Methods of texts and constants of Python that every evaluator treats alike.
 
-Their results are no longer than their arguments. Each evaluator decides by itself about unknown values and about
+The results are no longer than the arguments. Each evaluator decides by itself about unknown values and about
 further methods.
 """
 
 from __future__ import annotations
 
-import posixpath
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Final
 
 TRUTHS: Final = frozenset(
@@ -32,17 +31,6 @@ LENGTH_PRESERVING: Final = frozenset({"capitalize", "casefold", "endswith", "low
 TEXT_METHODS: Final = (
     TRUTHS | NUMBERS | SPLITS | STRIPS | {"capitalize", "casefold", "lower", "swapcase", "title", "upper"}
 )  # fmt: skip
-
-ON_PATHS: Final[Mapping[str, Callable[[str], str]]] = {
-    "os.path.basename": posixpath.basename,
-    "os.path.dirname": posixpath.dirname,
-    "os.path.normpath": posixpath.normpath,
-}
-
-PATH_SPLITS: Final[Mapping[str, Callable[[str], tuple[str, str]]]] = {
-    "os.path.split": posixpath.split,
-    "os.path.splitext": posixpath.splitext,
-}
 
 CONSTANTS: Final[Mapping[str, str]] = {
     "os.curdir": ".",

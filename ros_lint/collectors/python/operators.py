@@ -1,9 +1,10 @@
-"""Operators of Python that every evaluator applies alike to known values."""
+"""Operators of Python that every evaluator applies alike to known values, and their limits."""
 
 from __future__ import annotations
 
 import ast
 import operator
+import re
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
@@ -32,3 +33,10 @@ COMPARISONS: Final[Mapping[type[ast.cmpop], Callable[[Any, Any], Any]]] = {
     ast.GtE: operator.ge,
 }
 """Comparisons by value. Identity and membership are implemented by each evaluator."""
+
+_WIDE = re.compile(r"\d{4,}|%[-#0 +]*(?:\d*\.)?\*")
+
+
+def is_wide(template: str) -> bool:
+    """Return whether a conversion of a ``%`` template may be wider than 999 characters, or as wide as a value says."""
+    return bool(_WIDE.search(template))

@@ -9,8 +9,9 @@ from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from ros_lint.base.text import Span
+from ros_lint.collectors.python.interpreter.values import Class, Globbed, Guarded, Unknown, Value, plain
 from ros_lint.collectors.setup_py.interpreter.files import Files
-from ros_lint.collectors.setup_py.interpreter.values import REST, Class, Globbed, Maybe, Unknown, Value
+from ros_lint.collectors.setup_py.interpreter.values import REST
 from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.setup_py import EntryPoint
 from ros_lint.facts.visibility import Facet, Opaque, Problem
@@ -86,15 +87,15 @@ class Distribution:
         """Yield the known elements of a list, each with whether it depends on something unknown."""
         if value is None:
             return
-        if not isinstance(value, (list, tuple, set)):
+        if not isinstance(value, (list, tuple)):
             self._hide(facet, value)
             return
         for item in value:
-            inner = item.value if isinstance(item, Maybe) else item
+            inner = plain(item)
             if isinstance(inner, Unknown):
                 self._hide(facet, inner)
             else:
-                yield inner, isinstance(item, Maybe)
+                yield inner, isinstance(item, Guarded)
 
     # --- Python
 
@@ -158,7 +159,7 @@ class Distribution:
                 self._problem("data-files-form", "an entry of data_files is a pair of a folder and a list of files", entry)
                 continue
             folder, sources = entry
-            if isinstance(folder, (Unknown, Maybe)):
+            if isinstance(folder, Unknown):
                 self._hide(Facet.SHARE | Facet.EXECUTABLES, folder)
                 continue
             folder = posixpath.normpath(str(folder)) if str(folder) else ""

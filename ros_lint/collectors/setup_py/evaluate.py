@@ -16,15 +16,15 @@ from typing import TYPE_CHECKING
 from ros_lint.base.paths import join
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.python.import_tree import walk
+from ros_lint.collectors.python.interpreter.values import LibraryName, Value
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import is_of_others, read, refusal, span_of
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.collectors.setup_py import setup_cfg as setup_cfg_collector
 from ros_lint.collectors.setup_py.distribution import INSTALLED, Context, Distribution
-from ros_lint.collectors.setup_py.interpreter import library
 from ros_lint.collectors.setup_py.interpreter.files import Files
-from ros_lint.collectors.setup_py.interpreter.program import Program, Setup
-from ros_lint.collectors.setup_py.interpreter.values import Module, Value
+from ros_lint.collectors.setup_py.interpreter.library import Setup
+from ros_lint.collectors.setup_py.interpreter.program import Program
 from ros_lint.collectors.setup_py.options import completed
 from ros_lint.facts.build import BuildProject, BuildScript, SetupScript
 from ros_lint.facts.sources import Mention
@@ -60,26 +60,28 @@ def evaluate(
     first = setup_py or setup_cfg or pyproject
     start = file_start(first.path if first else join(path_prefix, "setup.py"))
     cfg = setup_cfg_collector.collect(setup_cfg) if setup_cfg else None
-    program = Program(name, Files(files))
+    package_files = Files(files)
+    program = Program(name, package_files)
+    library = program.setup_library
     if setup_py is None:
         script = BuildScript(start.path)
-        program.setups.append(Setup({}, None, "setuptools"))
+        library.setups.append(Setup({}, None, "setuptools"))
     else:
         script = _run(program, setup_py, start)
     place = _placer(setup_py)
     folder, unknown_folder = _scripts_folder(cfg)
     found = [unknown_folder] if unknown_folder else []
-    for setup in program.setups:
+    for setup in library.setups:
         call = place(setup, start)
-        options = completed(setup.options, program.files, cfg, pyproject)
-        context = Context(program.files, executables, folder, call, len(program.setups) > 1)
+        options = completed(setup.options, package_files, cfg, pyproject)
+        context = Context(package_files, executables, folder, call, len(library.setups) > 1)
         distribution = Distribution(context, place)
         distribution.read(options)
         if setup.module not in _PLAIN_SETUPS:
             reason = f"setup() of {setup.module} may install more than its arguments say"
             found.append(Opaque(INSTALLED | Facet.LIBRARIES, reason, call))
         script = _with(script, distribution, options, place, call)
-    modules = tuple(sorted({*script.products.python_packages, *program.generated}))
+    modules = tuple(sorted({*script.products.python_packages, *library.generated}))
     return script._replace(
         products=script.products._replace(python_packages=modules),
         opaque=tuple(dict.fromkeys([*script.opaque, *found])),
@@ -101,7 +103,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
             return script._replace(opaque=(Opaque(INSTALLED, "no Python that can be read: a template, or Python 2", start),))
         why = refusal(source, error)
         return script._replace(opaque=(why.opaque(INSTALLED),), problems=(why.problem(),) if why.known else ())
-    program.run(tree)
+    program.follow(tree, source)
     imports = [item for item in walk(source, tree) if item.module != "__future__"]
     spans = source.spans([(item.start, item.start + len(item.module)) for item in imports])
     script = script._replace(
@@ -114,7 +116,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
         problems=tuple(_failing(program, tree, source)),
         python=SetupScript(newer_syntax=() if newer and is_of_others(source) else newer),
     )
-    if program.end or not program.setups:
+    if program.end or not program.setup_library.setups:
         reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
         return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
     return script
@@ -122,7 +124,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
 
 def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Problem]:
     """Yield the errors at which Python stops, unless a try statement catches them."""
-    for name in unbound(tree, program.strange):
+    for name in unbound(tree, (name for name, _ in program.unbound)):
         yield Problem("undefined-name", f"'{name.id}' is not defined", span_of(source, name))
     if not program.no_functions:
         return
@@ -133,9 +135,9 @@ def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Probl
 
 
 def _no_function(value: Value) -> str:
-    if isinstance(value, Module):
-        inside = f"{value.name}.{value.name}"
-        return f"'{value.name}' is a module and cannot be called" + (f"; write {inside}()" if library.member(inside) else "")
+    if isinstance(value, LibraryName):
+        inside = f"; write {value.name}.{value.name}()" if value.name == "glob" else ""
+        return f"'{value.name}' is a module and cannot be called{inside}"
     kind = "text" if isinstance(value, str) else type(value).__name__
     return f"this {kind} cannot be called; is a comma missing after it?"
 

@@ -8,8 +8,9 @@ from typing import Any
 
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.pyproject import table, tables
+from ros_lint.collectors.python.interpreter.values import Unknown, Value
 from ros_lint.collectors.setup_py.interpreter.files import Files
-from ros_lint.collectors.setup_py.interpreter.values import Unknown, Value, Word, followed
+from ros_lint.collectors.setup_py.interpreter.values import Word
 from ros_lint.collectors.setup_py.setup_cfg import Line, Option, SetupCfg
 
 _LISTS = frozenset({"packages", "py_modules", "scripts"})
@@ -18,7 +19,7 @@ _FINDS = {"find:": False, "find_namespace:": True}
 
 def completed(given: Mapping[str, Value], files: Files, setup_cfg: SetupCfg | None, pyproject: Text | None) -> dict[str, Value]:
     """Return the options that hold: setup() before setup.cfg, and pyproject.toml before both."""
-    options = {name: followed(value) for name, value in given.items()}
+    options = dict(given)
     if setup_cfg is not None:
         options.update({key: value for key, value in _from_cfg(setup_cfg, files).items() if not options.get(key)})
     if pyproject is not None:
@@ -63,7 +64,7 @@ def _single(option: Option) -> Value:
         return ""
     line = option.lines[0]
     if line.text.startswith(("attr:", "file:")):
-        return Unknown(f"{option.key} = {line.text} is not followed", line.span)
+        return Unknown(f"{option.key} = {line.text} is not followed", None, line.span)
     return _word(line)
 
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.python.substitutions import conditions_of
-from ros_lint.collectors.python.interpreter import path_functions
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import INSTALLED, text_of
+from ros_lint.collectors.python.interpreter.path_calls import PATH_FUNCTIONS, new_path, on_path
 from ros_lint.collectors.python.interpreter.values import (
     FilePath,
     Guarded,
@@ -27,15 +27,16 @@ from ros_lint.collectors.python.interpreter.values import (
     alternatives,
     argument_of,
     environment,
-    guarded_text,
     union,
+    written,
 )
+from ros_lint.collectors.python.methods import CONSTANTS
 from ros_lint.collectors.symbolic_text import UNKNOWN, joined, presence
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
-    from ros_lint.collectors.python.interpreter.values import Frame
+    from ros_lint.collectors.python.interpreter.values import Frame, Source
 
 
 def call_library(
@@ -48,7 +49,8 @@ def call_library(
 ) -> Value:
     """Return the result of a library function, or of a method of a library object."""
     if isinstance(callee, Method):
-        return _method(Call(machine, callee.name, arguments, keywords, node, frame), callee.owner)
+        call = Call(machine, callee.name, arguments, keywords, node, frame)
+        return _of_path(call, callee.owner) if isinstance(callee.owner, FilePath) else _method(call, callee.owner)
     call = Call(machine, callee, arguments, keywords, node, frame)
     last = callee.rpartition(".")[2]
     model = _MODELS_BY_NAME.get(callee) or (
@@ -114,6 +116,27 @@ def package_of_builder(builder: LaunchObject) -> str:
     if package is None and of_robots and isinstance(robot, str):
         package = f"{robot}_moveit_config"
     return package if isinstance(package, str) and symbolic_text.is_plain(package) else ""
+
+
+def _of_path(call: Call, owner: FilePath) -> Value:
+    """Return the result of a method of a path that needs the file."""
+    match call.name:
+        case "resolve" | "absolute" | "expanduser":
+            return owner
+        case "open" | "read_text" | "read_bytes":
+            return call.machine.open_file(owner.text, call.node, call.frame.source)
+        case "exists" | "is_file":
+            return call.machine.ask((owner.text,))
+        case "write_text" | "write_bytes":
+            call.machine.ask((owner.text,))  # the file need not exist before
+    return Unknown(f"{call.name}() of a path")
+
+
+def member_of_library(name: str, node: ast.AST, source: Source) -> Value:
+    """Return the value of a dotted name of a library."""
+    if name == "sys.executable" and isinstance(node, ast.expr):
+        return written(UNKNOWN, node, source)
+    return CONSTANTS.get(name) or LibraryName(name)
 
 
 def attribute_of_library(owner: LaunchObject, name: str) -> Value:
@@ -216,27 +239,6 @@ def _prefix(call: Call) -> Value:
     return call.result(joined([call.texts(0, "package_name", "package")], lambda row: symbolic_text.prefix(row[0])))
 
 
-def _join(call: Call) -> Value:
-    for argument in call.arguments:
-        call.machine.record_misuse(argument, "joined", call.node, call.frame)
-    rows = [call.texts(position) for position in range(len(call.arguments))]
-    return call.result(joined(rows, lambda row: posixpath.join("", *row)))
-
-
-def _path_function(function: Callable[[str], str]) -> Rule:
-    return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
-
-
-def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
-    return lambda call: union(guarded_text(text, function(text)) for text in call.texts(0))
-
-
-def _path(call: Call) -> Value:
-    rows = [call.texts(position) for position in range(len(call.arguments))]
-    paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
-    return union(guarded_text(text, FilePath(text)) for text in paths)
-
-
 def _variable(call: Call) -> Value:
     default = call.get(1, "default")
     names = call.texts(0, "key")
@@ -332,27 +334,14 @@ _STANDARD = frozenset(
 
 _MODELS_BY_NAME: Mapping[str, Rule] = {
     **FUNCTIONS,
-    "os.path.join": _join,
-    "os.path.basename": _path_function(lambda path: path_functions.split(path)[1]),
-    "os.path.dirname": _path_function(lambda path: path_functions.split(path)[0]),
-    "os.path.normpath": _path_function(posixpath.normpath),
-    "os.path.split": _split(path_functions.split),
-    "os.path.splitext": _split(path_functions.split_suffix),
-    "os.path.abspath": _path_function(str),
-    "os.path.realpath": _path_function(str),
-    "os.path.expanduser": _path_function(str),
-    "os.path.expandvars": _path_function(str),
+    **PATH_FUNCTIONS,
+    **dict.fromkeys(("os.path.abspath", "os.path.realpath", "os.path.expanduser", "os.path.expandvars"), on_path(str)),
     "os.path.exists": _exists,
     "os.path.isfile": _exists,
-    "os.fspath": _path_function(str),
     "os.getenv": _variable,
     "os.environ.get": _variable,
     "os.getcwd": unknown_text,
     "os.makedirs": nothing,
-    "pathlib.Path": _path,
-    "pathlib.PurePath": _path,
-    "pathlib.PosixPath": _path,
-    "pathlib.PurePosixPath": _path,
     "pathlib.Path.cwd": lambda call: FilePath(UNKNOWN),
     "pathlib.Path.home": lambda call: FilePath(UNKNOWN),
     "context.launch_configurations.get": _configuration,
@@ -377,5 +366,5 @@ _MODELS_BY_LAST_PART: Mapping[str, Rule] = {
     "has_resource": _has_resource,
     "perform_substitutions": _perform(1),
     "normalize_to_list_of_substitutions": _first_argument,
-    "Path": _path,
+    "Path": new_path,
 }

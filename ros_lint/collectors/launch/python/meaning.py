@@ -6,12 +6,12 @@ import ast
 from collections.abc import Callable
 
 from ros_lint.collectors.launch.expressions import evaluate
-from ros_lint.collectors.launch.python.library import attribute_of_library, call_library, subscript_library
+from ros_lint.collectors.launch.python.library import attribute_of_library, call_library, member_of_library, subscript_library
 from ros_lint.collectors.launch.python.released_helpers import HELPERS, helper
 from ros_lint.collectors.launch.python.substitutions import CONDITIONS, SUBSTITUTIONS, TextEvaluation, is_text, texts
 from ros_lint.collectors.python.interpreter.protocol import Interpreter
 from ros_lint.collectors.python.interpreter.recorder import How
-from ros_lint.collectors.python.interpreter.values import Frame, LaunchObject, Method, Value
+from ros_lint.collectors.python.interpreter.values import Frame, LaunchObject, Method, Source, Value
 from ros_lint.collectors.symbolic_text import fill
 from ros_lint.facts.launch import LAUNCH_RUNTIME
 
@@ -38,6 +38,9 @@ class LaunchLibraries:
 
     def model(self, module: str, at: ast.stmt) -> ast.Module | None:
         return helper(module, at) if module in HELPERS else None
+
+    def member(self, name: str, node: ast.AST, source: Source) -> Value:
+        return member_of_library(name, node, source)
 
     def is_substitution(self, name: str) -> bool:
         return name in SUBSTITUTIONS

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.methods import items, more, replace
 from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
 from ros_lint.collectors.python.interpreter.values import (
-    PERHAPS,
     Frame,
     Guarded,
     Instance,
@@ -20,10 +19,11 @@ from ros_lint.collectors.python.interpreter.values import (
     Value,
     Written,
     alternatives,
+    cause,
     plain,
     union,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
+from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent, is_plain
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
@@ -49,7 +49,7 @@ def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
         elements = items(machine, value)
         if elements is None:
             machine.escape(value)
-            elements = [Unknown("elements that are not known")]
+            elements = [more(value)]
         machine.spend(len(elements))
         target_value += [machine.guard(element) for element in elements]
         return
@@ -87,7 +87,7 @@ def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, fra
     if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
         machine.escape(value)
         for target in targets:
-            bind(machine, target, Unknown("part of what is not known"), frame)
+            bind(machine, target, cause(value, "part of what is not known"), frame)
         return
     if star >= 0:
         after = len(targets) - star - 1
@@ -98,9 +98,8 @@ def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, fra
 
 def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Frame) -> None:
     key = _key(machine, target.slice, frame)
-    for alternative in alternatives(machine.evaluate(target.value, frame)):
-        owner = alternative.value
-        if isinstance(owner, list) and isinstance(key, slice) and not machine.conditions:
+    for owner in _choices(machine, machine.evaluate(target.value, frame)):
+        if isinstance(owner, list) and isinstance(key, slice):
             _store_slice(machine, owner, key, value)
         elif isinstance(owner, dict):
             name = hashable(machine, key)
@@ -108,12 +107,20 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
                 owner[name] = union([owner[name], machine.guard(value)])
             else:
                 owner[name] = value
-        elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(owner):
-            owner[key] = value
+        elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(machine.present(owner)):
+            replace(machine, owner, key, [value])
         elif isinstance(owner, LibraryName) and owner.name == "os.environ":
             _set_variable(machine, target, key, value, frame)
         else:
             machine.escape(value)
+
+
+def _choices(machine: Interpreter, value: Value) -> Iterator[Value]:
+    """Yield each possible value of an expression, under its conditions."""
+    for alternative in alternatives(value):
+        if are_consistent((*machine.conditions, *alternative.conditions)):
+            with machine.under(*alternative.conditions):
+                yield alternative.value
 
 
 def _key(machine: Interpreter, node: ast.expr, frame: Frame) -> Value:
@@ -128,9 +135,9 @@ def _store_slice(machine: Interpreter, owner: list[Value], key: slice, value: Va
     elements = items(machine, value)
     if elements is None:
         machine.escape(value)
-        elements = [Unknown("elements that are not known")]
+        elements = [more(value)]
     try:
-        owner[key] = elements
+        replace(machine, owner, key, elements)
     except ValueError:
         raise ProgramRaised("ValueError") from None
 
@@ -159,13 +166,15 @@ def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> No
             frame.names.update(module.names if module is not None else {})
             continue
         if machine.library.is_substitution(alias.name):
-            frame.names[alias.asname or alias.name] = LibraryName(f"{name}.{alias.name}")
+            frame.names[alias.asname or alias.name] = machine.library.member(f"{name}.{alias.name}", node, frame.source)
             continue
         inner = module.names.get(alias.name) if module is not None else None
         if inner is None:
             full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
             inner = machine.module(full, frame.source, node)
-        frame.names[alias.asname or alias.name] = inner if inner is not None else LibraryName(f"{name}.{alias.name}")
+        if inner is None:
+            inner = machine.library.member(f"{name}.{alias.name}", node, frame.source)
+        frame.names[alias.asname or alias.name] = inner
 
 
 def _global(_machine: Interpreter, node: ast.Global, frame: Frame) -> None:
@@ -198,8 +207,8 @@ def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
                 owner.attributes.pop(target.attr, None)
         elif isinstance(target, ast.Subscript):
             key = _key(machine, target.slice, frame)
-            for alternative in alternatives(machine.evaluate(target.value, frame)):
-                _delete_element(machine, alternative.value, key)
+            for owner in _choices(machine, machine.evaluate(target.value, frame)):
+                _delete_element(machine, owner, key)
 
 
 def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
@@ -212,12 +221,12 @@ def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
     else:
         return
     try:
-        if not machine.conditions:
-            del owner[key]
-        elif isinstance(key, slice):
-            owner[key] = [Guarded(element, (PERHAPS,)) for element in owner[key]]
+        if isinstance(owner, list):
+            replace(machine, owner, key, [])
+        elif machine.conditions:
+            owner[key] = machine.removed(owner[key])
         else:
-            owner[key] = Guarded(owner[key], (PERHAPS,))
+            del owner[key]
     except (LookupError, TypeError) as error:
         if known:
             raise ProgramRaised(type(error).__name__) from None

@@ -8,7 +8,7 @@ opposite condition.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.python.interpreter.assignments import bind
@@ -22,9 +22,9 @@ from ros_lint.collectors.python.interpreter.values import (
     Frame,
     Guarded,
     ProgramRaised,
-    Unknown,
     Value,
     alternatives,
+    cause,
     plain,
 )
 from ros_lint.collectors.python.string_values import callee
@@ -34,7 +34,6 @@ from ros_lint.facts.launch import LaunchCondition
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
-_MOST_TURNS = 2_000
 _MOST_EXITS = 100
 """The number of conditional exits after which an endless loop counts as left."""
 
@@ -64,12 +63,14 @@ def either(
     frame: Frame,
     *,
     loop: bool = False,
+    test: ast.expr | None = None,
 ) -> int:
     """Interpret both sides of a branch, and join their results.
 
-    ``loop`` is True if the first side is the body of a loop that runs any number of times.
+    ``test`` is the expression that decides. ``loop`` is True if the first side is the body of a loop that runs any
+    number of times.
     """
-    condition = machine.fresh(condition)
+    condition = machine.fresh(condition, test)
     before, start = machine.conditions, frame.names
     first = _follow(machine, body, condition, before, start, frame, loop=loop)
     second = _follow(machine, other, opposite_of(condition), before, start, frame)
@@ -214,6 +215,7 @@ class _Loop:
         """Interpret an iteration, which runs under the conditions ``guards``."""
         machine, frame = self._machine, self._frame
         around = machine.conditions = (*self._before, *self._bars, *guards)
+        before = dict(frame.names) if guards else {}
         signal = machine.execute(body, frame)
         exits = frame.exits[self._known :]
         del frame.exits[self._known :]
@@ -227,6 +229,8 @@ class _Loop:
             self.exits.append(way_out)
             self.ended = self.ended or not taken
             self._bars.append(_complement(machine, taken))
+        if guards:
+            _join(machine, frame, guards, before, (_complement(machine, guards),))
         machine.conditions = (*self._before, *self._bars)
 
     def end(self, orelse: Sequence[ast.stmt]) -> int:
@@ -252,15 +256,20 @@ class _Loop:
 
 def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
     """Interpret a for loop. Raises ProgramRaised and BudgetExceeded."""
-    values = items(machine, machine.evaluate(node.iter, frame))
+    of = machine.evaluate(node.iter, frame)
+    values: Iterable[Value] | None = plain(of)
+    if type(values) is not list and not isinstance(values, Iterator):  # these may change in the body
+        values = items(machine, of)
     if values is None:
-        bind(machine, node.target, Unknown("element of what is not known"), frame)
-        return _perhaps(machine, node.body, frame)
+        bind(machine, node.target, cause(of, "element of what is not known"), frame)
+        return _perhaps(machine, node.body, frame, node.iter)
     loop = _Loop(machine, frame)
     for turn, value in enumerate(values):
-        if turn > _MOST_TURNS:
+        if turn > machine.most_turns:
             raise BudgetExceeded
         machine.spend(1)
+        if not machine.is_here(value):
+            continue
         guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
         bind(machine, node.target, plain(value), frame)
         loop.turn(node.body, guards)
@@ -272,11 +281,11 @@ def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame)
 def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
     """Interpret a while loop. Raises ProgramRaised and BudgetExceeded."""
     loop = _Loop(machine, frame)
-    for _ in range(_MOST_TURNS):
+    for _ in range(machine.most_turns):
         machine.spend(1)
         answer, _condition = truth(machine, machine.evaluate(node.test, frame))
         if answer is None:
-            signal = _perhaps(machine, node.body, frame)
+            signal = _perhaps(machine, node.body, frame, node.test)
             return loop.end(()) if signal == NEXT else signal
         if answer:
             loop.turn(node.body)
@@ -286,6 +295,6 @@ def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
     raise BudgetExceeded
 
 
-def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
+def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame, test: ast.expr) -> int:
     """Interpret a block that may run any number of times."""
-    return either(machine, body, (), PERHAPS, frame, loop=True)
+    return either(machine, body, (), PERHAPS, frame, loop=True, test=test)

@@ -24,6 +24,7 @@ from ros_lint.collectors.python.interpreter.values import (
     LibraryName,
     Method,
     ProgramRaised,
+    SetOf,
     Union,
     Unknown,
     Value,
@@ -41,6 +42,13 @@ def _str(call: Call) -> Value:
         call.machine.record_misuse(value, "formatted", call.node, call.frame)
         return unknown_text(call)
     return call.result(text_of(value)) if value is not None or call.arguments else ""
+
+
+def _repr(call: Call) -> Value:
+    value = plain(call.get(0))
+    if isinstance(value, (int, float, type(None))) or (isinstance(value, str) and launch_text.is_plain(value)):
+        return call.result((repr(str(value) if isinstance(value, str) else value),))
+    return call.result(text_of(value)) if isinstance(value, (list, tuple, dict)) else unknown_text(call)
 
 
 def _number(kind: type) -> Rule:
@@ -69,7 +77,7 @@ def _list(call: Call) -> Value:
     if not call.arguments:
         return []
     elements = call.items(0)
-    return elements if elements is not None else unknown(call)
+    return call.like(0, elements) if elements is not None else unknown(call)
 
 
 def _tuple(call: Call) -> Value:
@@ -84,12 +92,15 @@ def _dict(call: Call) -> Value:
 
 
 def _length(call: Call) -> Value:
-    return each(call.get(0), _length_of)
+    return each(call.get(0), partial(_length_of, call.machine))
 
 
-def _length_of(value: Value) -> Value:
+def _length_of(machine: Interpreter, value: Value) -> Value:
     value = plain(value)
-    if isinstance(value, (list, tuple, dict, set, range)) or (isinstance(value, str) and launch_text.is_plain(value)):
+    if isinstance(value, list):
+        elements = machine.present(value)
+        return Unknown("a length") if machine.any_perhaps(elements) else len(elements)
+    if isinstance(value, (tuple, dict, range)) or (isinstance(value, str) and launch_text.is_plain(value)):
         return len(value)
     return Unknown("a length")
 
@@ -133,8 +144,8 @@ def _isinstance(call: Call) -> Value:
     kinds = kind if isinstance(kind, tuple) else (kind,)
     names = {class_.last for class_ in kinds if isinstance(class_, LibraryName)}
     if isinstance(value, (str, int, float, list, dict, tuple, type(None))) and len(names) == len(kinds):
-        if isinstance(value, list) and any("set" in name.lower() for name in names):
-            return Unknown("a kind")  # sets are represented by lists
+        if isinstance(value, SetOf):
+            value = set[Value]()
         return any(_is_of(value, name) for name in names)
     if isinstance(value, LaunchObject) and len(names) == len(kinds):
         return value.name in names or (Unknown("a kind") if names & {"Action", "Substitution", "Entity"} else False)
@@ -217,7 +228,7 @@ def _partial(call: Call) -> Value:
 def _copied(call: Call) -> Value:
     value = plain(call.get(0))
     if isinstance(value, list):
-        return list(value)
+        return value.copy() if type(value) is list else SetOf(value)
     return dict(value) if isinstance(value, dict) else value
 
 
@@ -237,7 +248,7 @@ def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
         return done.get(id(value), value)
     machine.spend(1 + len(value) // 8)
     if isinstance(value, list):
-        items: list[Value] = []
+        items: list[Value] = SetOf() if isinstance(value, SetOf) else []
         done[id(value)] = items
         items += [_deep(machine, element, done) for element in value]
         return items
@@ -285,6 +296,7 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.float": _number(float),
     "builtins.bool": _bool,
     "builtins.list": _list,
+    "builtins.iter": _list,
     "builtins.tuple": _tuple,
     "builtins.dict": _dict,
     "builtins.len": _length,
@@ -294,7 +306,7 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.getattr": _getattr,
     "builtins.print": nothing,
     "builtins.open": _open,
-    "builtins.repr": unknown_text,
+    "builtins.repr": _repr,
     "builtins.input": unknown_text,
     "builtins.type": unknown,
 }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import text_of, texts_made
-from ros_lint.collectors.python.interpreter.values import Union, Unknown, Value, alternatives, union, written
+from ros_lint.collectors.python.interpreter.values import Globbed, Union, Unknown, Value, alternatives, globbed, union, written
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
 if TYPE_CHECKING:
@@ -46,6 +46,11 @@ class Call:
 
     def result(self, found: tuple[str, ...]) -> Value:
         return texts_made(found, self.node, self.frame)
+
+    def like(self, position: int, elements: list[Value]) -> list[Value]:
+        """Return elements of an argument as the result of a glob, if the argument is one."""
+        value = self.get(position)
+        return globbed(value.pattern, elements) if isinstance(value, Globbed) else elements
 
     def items(self, position: int) -> list[Value] | None:
         return items(self.machine, self.get(position))

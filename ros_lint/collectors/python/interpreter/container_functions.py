@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import product
+from math import prod
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.interpreter.calls import Call, Rule, unknown
-from ros_lint.collectors.python.interpreter.methods import items
+from ros_lint.collectors.python.interpreter.methods import items, more
 from ros_lint.collectors.python.interpreter.operations import truth
 from ros_lint.collectors.python.interpreter.ordering import arranged, positions, sort_keys, unique
-from ros_lint.collectors.python.interpreter.values import Conditions, Guarded, ProgramRaised, Unknown, Value, around, plain
+from ros_lint.collectors.python.interpreter.values import Conditions, Guarded, ProgramRaised, SetOf, Unknown, Value, around, plain
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
 def _set(call: Call) -> Value:
-    if not call.arguments:
-        return []
-    elements = call.items(0)
-    return unknown(call) if elements is None else unique(elements)
+    elements = call.items(0) if call.arguments else []
+    return unknown(call) if elements is None else SetOf(unique(elements))
 
 
 def _zip(call: Call) -> Value:
@@ -65,7 +65,9 @@ def _extreme(function: Callable[..., int]) -> Rule:
 
 def _sorted(call: Call) -> Value:
     elements = call.items(0)
-    return unknown(call) if elements is None else arranged(call.machine, elements, call.keywords, call.node, call.frame)
+    if elements is None:
+        return unknown(call)
+    return call.like(0, arranged(call.machine, elements, call.keywords, call.node, call.frame))
 
 
 def _reversed(call: Call) -> Value:
@@ -120,7 +122,7 @@ def _sum(call: Call) -> Value:
     start, parts = plain(call.get(1, "start")), call.items(0)
     if parts is None:
         return unknown(call)
-    if not isinstance(start, list):
+    if not isinstance(start, (list, tuple)):
         values = [0 if start is None else start, *parts]
         known = all(isinstance(value, (int, float)) for value in values)
         return sum(values) if known else Unknown("a number")
@@ -131,21 +133,45 @@ def _sum(call: Call) -> Value:
             return unknown(call)
         call.machine.spend(len(inner))
         elements += [_under(around(part), element) for element in inner]
-    return elements
+    return elements if isinstance(start, list) else tuple(elements)
 
 
 def _chain(call: Call) -> Value:
+    return _chained(call, call.arguments)
+
+
+def _chain_of(call: Call) -> Value:
+    parts = call.items(0)
+    return unknown(call) if parts is None else _chained(call, parts)
+
+
+def _chained(call: Call, parts: list[Value]) -> Value:
     elements: list[Value] = []
-    for argument in call.arguments:
-        inner = items(call.machine, argument)
+    for part in parts:
+        inner = items(call.machine, part)
         if inner is None:
-            return unknown(call)
-        elements += inner
+            call.machine.escape(part)
+            inner = [more(part)]
+        elements += [_under(around(part), element) for element in inner]
     return elements
+
+
+def _product(call: Call) -> Value:
+    columns = [column for position in range(len(call.arguments)) if (column := call.items(position)) is not None]
+    size = prod(map(len, columns))
+    if len(columns) < len(call.arguments) or call.keywords or size * len(columns) > call.machine.most_items:
+        return unknown(call)
+    call.machine.spend(size)
+    return [
+        _under(tuple([condition for part in row for condition in around(part)]), tuple([plain(part) for part in row]))
+        for row in product(*columns)
+    ]
 
 
 FUNCTIONS: Mapping[str, Rule] = {
     "itertools.chain": _chain,
+    "itertools.chain.from_iterable": _chain_of,
+    "itertools.product": _product,
     "builtins.set": _set,
     "builtins.frozenset": _set,
     "builtins.zip": _zip,

@@ -8,7 +8,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.python.interpreter.assignments import bind
-from ros_lint.collectors.python.interpreter.methods import attribute, items
+from ros_lint.collectors.python.interpreter.methods import attribute, items, more
 from ros_lint.collectors.python.interpreter.operations import (
     INSTALLED,
     compared,
@@ -32,11 +32,13 @@ from ros_lint.collectors.python.interpreter.values import (
     Guarded,
     LibraryName,
     ProgramRaised,
+    SetOf,
     Union,
     Unknown,
     Value,
     alternatives,
     around,
+    cause,
     plain,
     union,
     written,
@@ -76,7 +78,7 @@ def _tuple(machine: Interpreter, node: ast.Tuple, frame: Frame) -> Value:
 def _set(machine: Interpreter, node: ast.Set, frame: Frame) -> Value:
     # Represented by a list, because its order does not matter and its elements need not be hashable.
     elements = _elements(machine, node.elts, frame)
-    return unique(elements) if isinstance(elements, list) else elements
+    return SetOf(unique(elements)) if isinstance(elements, list) else elements
 
 
 def _elements(machine: Interpreter, nodes: Iterable[ast.expr], frame: Frame) -> Value:
@@ -89,14 +91,14 @@ def _elements(machine: Interpreter, nodes: Iterable[ast.expr], frame: Frame) -> 
         inner = items(machine, value)
         if inner is None:
             machine.escape(value)
-            return Unknown("a list with * of what is not known")
+            inner = [more(value, "a list with * of what is not known")]
         elements += inner
     return elements
 
 
 def _dict(machine: Interpreter, node: ast.Dict, frame: Frame) -> Value:
     entries: dict[Value, Value] = {}
-    unknown = False
+    unknown: Value = None
     for key_node, value_node in zip(node.keys, node.values, strict=True):
         value = machine.evaluate(value_node, frame)
         if key_node is None:
@@ -104,18 +106,19 @@ def _dict(machine: Interpreter, node: ast.Dict, frame: Frame) -> Value:
             if isinstance(value, dict):
                 entries.update(value)
             else:
-                unknown = True
+                unknown = value
             continue
         key = plain(machine.evaluate(key_node, frame))
         entries[hashable(machine, key)] = value
-    if unknown:
+    if unknown is not None:
         machine.escape(entries)
-        entries[UNKNOWN] = Unknown("elements that are not known")
+        entries[UNKNOWN] = cause(unknown, "elements that are not known")
     return entries
 
 
 def _formatted(machine: Interpreter, node: ast.JoinedStr, frame: Frame) -> Value:
     rows: list[tuple[str, ...]] = []
+    operands: list[Value] = []
     for part in node.values:
         if isinstance(part, ast.Constant):
             rows.append((str(part.value),))
@@ -123,12 +126,13 @@ def _formatted(machine: Interpreter, node: ast.JoinedStr, frame: Frame) -> Value
         assert isinstance(part, ast.FormattedValue)
         value = machine.evaluate(part.value, frame)
         machine.record_misuse(value, "formatted", node, frame)
+        operands.append(value)
         texts = text_of(value)
         if part.format_spec is not None or part.conversion not in (-1, 115):
             spec = machine.evaluate(part.format_spec, frame) if part.format_spec is not None else ""
             texts = tuple(with_format(plain(value), text, plain(spec), part.conversion) for text in texts)
         rows.append(texts)
-    return texts_made(joined(rows, "".join), node, frame)
+    return machine.result(texts_made(joined(rows, "".join), node, frame), operands)
 
 
 def _operation(machine: Interpreter, node: ast.BinOp, frame: Frame) -> Value:
@@ -142,10 +146,14 @@ def _unary(machine: Interpreter, node: ast.UnaryOp, frame: Frame) -> Value:
     if isinstance(node.op, ast.Not):
         machine.record_misuse(value, "tested", node, frame)
         return negated(machine, value)
-    value = plain(value)
-    if isinstance(value, _NUMBERS) and isinstance(node.op, ast.USub):
-        return -value
-    return value if isinstance(value, _NUMBERS) and isinstance(node.op, ast.UAdd) else Unknown("the result of an operator")
+    result = each(value, lambda number: _unary_of(node.op, number))
+    return machine.result(result, (value,))
+
+
+def _unary_of(op: ast.unaryop, value: Value) -> Value:
+    if isinstance(value, _NUMBERS) and isinstance(op, (ast.USub, ast.UAdd)):
+        return -value if isinstance(op, ast.USub) else +value
+    return ~value if isinstance(value, int) and isinstance(op, ast.Invert) else Unknown("the result of an operator")
 
 
 def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
@@ -165,7 +173,7 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
                 perhaps.append(Guarded(value, passed) if passed else value)
             break
         if answer is None:
-            condition = machine.fresh(condition)
+            condition = machine.fresh(condition, part)
             ends = condition if stop_at else opposite_of(condition)
             perhaps.append(Guarded(value, (*passed, ends)))
             passed = (*passed, opposite_of(ends))
@@ -198,7 +206,8 @@ def _compare(machine: Interpreter, node: ast.Compare, frame: Frame) -> Value:
             for side, opposite_side in ((left, right), (right, left)):
                 if isinstance(opposite_side, str):
                     machine.record_misuse(side, "compared", node, frame)
-        result = compared(op, left, right)
+        container = machine.present(right) if isinstance(op, (ast.In, ast.NotIn)) and isinstance(right, list) else right
+        result = machine.result(compared(op, left, container), (left, right))
         if len(node.ops) == 1:
             return result
         answer, _ = truth(machine, result)
@@ -214,7 +223,7 @@ def _choice(machine: Interpreter, node: ast.IfExp, frame: Frame) -> Value:
     answer, condition = truth(machine, test)
     if answer is not None:
         return machine.evaluate(node.body if answer else node.orelse, frame)
-    condition = machine.fresh(condition)
+    condition = machine.fresh(condition, node.test)
     with machine.under(condition):
         first = machine.evaluate(node.body, frame)
     opposite = opposite_of(condition)
@@ -226,7 +235,7 @@ def _choice(machine: Interpreter, node: ast.IfExp, frame: Frame) -> Value:
 def _attribute(machine: Interpreter, node: ast.Attribute, frame: Frame) -> Value:
     owner = machine.evaluate(node.value, frame)
     if not isinstance(owner, (Guarded, Union)):
-        return attribute(machine, owner, node, frame)
+        return machine.result(attribute(machine, owner, node, frame), (owner,))
     return each(owner, lambda alternative: attribute(machine, alternative, node, frame))
 
 
@@ -237,9 +246,10 @@ def _subscript(machine: Interpreter, node: ast.Subscript, frame: Frame) -> Value
             plain(machine.evaluate(part, frame)) if part is not None else None
             for part in (node.slice.lower, node.slice.upper, node.slice.step)
         ]
-        return each(owner, lambda alternative: sliced(alternative, parts))
+        return machine.result(each(owner, lambda alternative: sliced(machine, alternative, parts)), (owner, *parts))
     key = machine.evaluate(node.slice, frame)
-    return each(owner, lambda alternative: each(key, lambda key_alternative: subscript(machine, alternative, key_alternative)))
+    result = each(owner, lambda alternative: each(key, lambda key_alternative: subscript(machine, alternative, key_alternative)))
+    return machine.result(result, (owner, key))
 
 
 def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
@@ -251,7 +261,7 @@ def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
             continue
         value = machine.evaluate(argument.value, frame)
         inner = items(machine, value)
-        arguments += inner if inner is not None else [value]
+        arguments += inner if inner is not None else [more(value)]
     keywords: dict[str, Value] = {}
     for keyword in node.keywords:
         value = machine.evaluate(keyword.value, frame)
@@ -264,6 +274,7 @@ def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
             keywords.update({str(name): alternative for name, alternative in inner_value.items()})
         else:
             machine.escape(value)
+            keywords[UNKNOWN] = cause(inner_value, "keywords that are not known")
     if not isinstance(function, (Guarded, Union)):
         return machine.call(function, arguments, keywords, node, frame)
     # Each alternative is called only under its conditions.
@@ -296,7 +307,7 @@ def _comprehension(machine: Interpreter, node: ast.ListComp | ast.SetComp | ast.
     if isinstance(of, LibraryName) and of.name == INSTALLED:
         return of  # whatever the element is: a membership test of the result asks for installed packages
     _generate(machine, node.generators, of, inner, lambda: elements.append(machine.guard(machine.evaluate(node.elt, inner))))
-    return unique(elements) if isinstance(node, ast.SetComp) else elements
+    return SetOf(unique(elements)) if isinstance(node, ast.SetComp) else elements
 
 
 def _dict_comprehension(machine: Interpreter, node: ast.DictComp, frame: Frame) -> Value:
@@ -305,7 +316,7 @@ def _dict_comprehension(machine: Interpreter, node: ast.DictComp, frame: Frame) 
 
     def add() -> None:
         key = hashable(machine, plain(machine.evaluate(node.key, inner)))
-        entries[key] = machine.evaluate(node.value, inner)
+        entries[key] = machine.guard(machine.evaluate(node.value, inner))
 
     _generate(machine, node.generators, machine.evaluate(node.generators[0].iter, inner), inner, add)
     return entries
@@ -319,7 +330,7 @@ def _generate(
     values = items(machine, of)
     guards: list[tuple[Value, Conditions]] = []
     if values is None:
-        guards.append((Unknown("element of what is not known"), (PERHAPS,)))
+        guards.append((cause(of, "element of what is not known"), (PERHAPS,)))
     else:
         guards = [(plain(element), around(element)) for element in values]
     for value, conditions in guards:

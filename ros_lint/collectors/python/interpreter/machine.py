@@ -1,5 +1,7 @@
 """The interpreter of modules and calls: it evaluates programs symbolically and runs nothing.
 
+It interprets launch files; a subclass with another policy on unknown values interprets setup.py.
+
 If a condition is unknown, both sides of a branch are interpreted on the same objects, each under its condition. A
 name with different values afterwards has both as alternatives. Steps, depth and sizes are limited; values beyond the
 limits are unknown.
@@ -9,7 +11,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
 from ros_lint.collectors.python.interpreter.branches import LEAVE
@@ -56,7 +58,7 @@ _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
 class Machine(Interpreter):
-    """Interprets one launch file and the modules that it imports."""
+    """Interprets one program and the modules that it imports."""
 
     def __init__(self, modules: Modules, files: Callable[[str], Value], library: Library) -> None:
         """Start an interpreter.
@@ -228,7 +230,7 @@ class Machine(Interpreter):
             self.escape([arguments, keywords])
             return Unknown("calls that are nested too deeply")
         frame = Frame(source, function.frame, function.taking(arguments, keywords))
-        if not begin(self._under_way, function, frame.names, len(self.conditions)):
+        if not begin(self._under_way, function, frame.names, self):
             self.escape([arguments, keywords])
             return Unknown(f"the result of {getattr(node, 'name', 'a function')}() within itself")
         if isinstance(node, ast.Lambda):
@@ -291,6 +293,9 @@ class Machine(Interpreter):
             return unknown
         # The caller of the launch file can pass another path.
         return content if paths[0] == path else union([Guarded(content, (PERHAPS,)), Guarded(unknown, (PERHAPS,))])
+
+    def result(self, value: Value, operands: Iterable[Value]) -> Value:  # noqa: ARG002
+        return value
 
     def texts(self, value: Value) -> tuple[str, ...]:
         return self.library.texts(value, self.spend)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Iterator, Sequence
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.python.interpreter.operations import (
     chosen,
     hashable,
     may_have_more,
+    of_sets,
     text_of,
     texts_made,
     waits,
     with_format,
     without,
 )
-from ros_lint.collectors.python.interpreter.ordering import arranged, is_known, unique
+from ros_lint.collectors.python.interpreter.ordering import arranged, is_known, is_small, unique
 from ros_lint.collectors.python.interpreter.path_functions import call_of_path, of_path
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -29,17 +33,19 @@ from ros_lint.collectors.python.interpreter.values import (
     LibraryName,
     Method,
     ProgramRaised,
+    SetOf,
     Source,
     Union,
     Unknown,
     Value,
     alternatives,
+    cause,
     plain,
     same,
     union,
     written,
 )
-from ros_lint.collectors.python.methods import CONSTANTS, LENGTH_PRESERVING, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
+from ros_lint.collectors.python.methods import LENGTH_PRESERVING, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
 from ros_lint.collectors.symbolic_text import (
     LONGEST,
     UNKNOWN,
@@ -53,12 +59,8 @@ from ros_lint.collectors.symbolic_text import (
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
-    import ast
-
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
-
-_MOST_ITEMS = 5_000
 
 
 def items(machine: Interpreter, value: Value) -> list[Value] | None:
@@ -74,26 +76,27 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
                 return None
             elements += [Guarded(element, alternative.conditions or (PERHAPS,)) for element in inner]
         return elements
-    if isinstance(value, (list, tuple, set, frozenset, dict)):
+    if isinstance(value, Iterator):
+        return list(islice(value, machine.most_items))
+    if isinstance(value, (list, tuple, dict)):
         machine.spend(len(value) // 8)
-        return list(value) if len(value) <= _MOST_ITEMS else None
-    if isinstance(value, range):
-        return list(value) if len(value) <= _MOST_ITEMS else None
-    if isinstance(value, str) and is_plain(value):
-        return list(value) if len(value) <= _MOST_ITEMS else None
-    if isinstance(value, LaunchObject) and value.name == "LaunchDescription":
-        return list(value.entities)
-    return None
+    elif not isinstance(value, range) and not (isinstance(value, str) and is_plain(value)):
+        return list(value.entities) if isinstance(value, LaunchObject) and value.name == "LaunchDescription" else None
+    if len(value) > machine.most_items:
+        return None
+    return machine.present(value) if isinstance(value, (list, tuple)) else list(value)
+
+
+def more(value: Value, reason: str = "elements that are not known") -> Value:
+    """Return the element that represents all elements of an unknown value."""
+    return Guarded(cause(value, reason), (PERHAPS,))
 
 
 def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
     """Return an attribute of a value."""
     name = node.attr
     if isinstance(owner, LibraryName):
-        full = f"{owner.name}.{name}"
-        if full in CONSTANTS:
-            return CONSTANTS[full]
-        return written(UNKNOWN, node, frame.source) if full == "sys.executable" else LibraryName(full)
+        return machine.library.member(f"{owner.name}.{name}", node, frame.source)
     if isinstance(owner, Instance):
         return of_instance(owner, name)
     if isinstance(owner, Class):
@@ -107,7 +110,7 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
         return machine.library.attribute(owner, name)
     if isinstance(owner, Context):
         return LibraryName(f"context.{name}")
-    if isinstance(owner, (str, list, dict, tuple, set)):
+    if isinstance(owner, (str, list, dict, tuple)):
         return Method(owner, name)
     machine.escape(owner)
     return Unknown(f"attribute {name} of what is not known")
@@ -140,20 +143,22 @@ def call_method(
     """Return the result of a method."""
     owner, name = method.owner, method.name
     if isinstance(owner, (list, dict)):
-        machine.spend(len(owner) // 8)
+        machine.spend(1 + len(owner) // 8)
     if isinstance(owner, str):
         return _of_text(machine, owner, name, arguments, keywords, node, frame)
     if isinstance(owner, list) and name == "sort":
-        owner[:] = arranged(machine, list(owner), keywords, node, frame)
+        replace(machine, owner, slice(None), arranged(machine, machine.present(owner), keywords, node, frame))
         return None
+    if isinstance(owner, (list, tuple)) and name in ("index", "count"):
+        return _position(owner, name, arguments)
+    if isinstance(owner, SetOf) and name in _SET_METHODS:
+        return _of_set(machine, owner, name, arguments)
     if isinstance(owner, list):
         return _of_list(machine, owner, name, arguments)
     if isinstance(owner, dict):
         return _of_dict(machine, owner, name, arguments, keywords)
     if isinstance(owner, FilePath):
-        return call_of_path(machine, owner, name, arguments, node, frame)
-    if isinstance(owner, tuple) and name == "index":
-        return Unknown("index in a tuple")
+        return call_of_path(machine, owner, name, arguments, keywords, node, frame)
     machine.escape([owner, arguments, keywords])
     return Unknown(f"{name}()")
 
@@ -173,18 +178,27 @@ def _of_text(
             return written(UNKNOWN, node, frame.source)
         return texts_made(joined([text_of(value) for value in values], owner.join), node, frame)
     values = [plain(argument) for argument in arguments]
-    known = all(isinstance(value, (str, int, tuple, type(None))) for value in values) and not keywords
-    known = known and all(is_plain(value) for value in values if isinstance(value, str))
+    named = {key: plain(value) for key, value in keywords.items()}
+    known = all(isinstance(value, (str, int, tuple, type(None))) for value in (*values, *named.values()))
+    known = known and all(is_plain(value) for value in (*values, *named.values()) if isinstance(value, str))
     possible = (is_settled(owner) or name in STRIPS) and (name in _OF_MARKED or (name in _OF_PLAIN and is_plain(owner)))
     if possible and known and len(owner) <= LONGEST:
         if _grows(owner, name, values):
             return UNKNOWN
         try:
-            result = getattr(str(owner), name)(*values)
-        except (OverflowError, TypeError, ValueError):
-            raise ProgramRaised from None
+            result = getattr(str(owner), name)(*values, **named)
+        except (OverflowError, TypeError, ValueError) as error:
+            raise ProgramRaised(type(error).__name__) from None
+        machine.spend(len(result) if isinstance(result, list) else 0)
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
-    if known and name in LENGTH_PRESERVING and len(owner) <= LONGEST and waits(owner) and not may_contain_place(owner):
+    if (
+        known
+        and not named
+        and name in LENGTH_PRESERVING
+        and len(owner) <= LONGEST
+        and waits(owner)
+        and not may_contain_place(owner)
+    ):
         later = expression(f"{quoted(owner)}.{name}({', '.join(map(repr, values))})")
         return Unknown("a truth", LaunchCondition((later,), None)) if name in TRUTHS else written(later, node, frame.source)
     if name in TRUTHS or name in NUMBERS:
@@ -207,7 +221,7 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
     try:
         fields = list(string.Formatter().parse(owner))
     except ValueError:
-        raise ProgramRaised from None
+        raise ProgramRaised("ValueError") from None
     count = 0
     for literal, field, spec, conversion in fields:
         rows.append((literal,))
@@ -223,6 +237,33 @@ def _formatted(owner: str, arguments: list[Value], keywords: dict[str, Value], n
         else:
             rows.append(text_of(value))
     return texts_made(joined(rows, "".join), node, frame)
+
+
+_SET_METHODS = frozenset({"copy", "difference", "intersection", "symmetric_difference", "union"})
+_OPERATOR_OF = {"difference": ast.Sub(), "intersection": ast.BitAnd(), "symmetric_difference": ast.BitXor(), "union": ast.BitOr()}
+
+
+def _of_set(machine: Interpreter, owner: SetOf, name: str, arguments: list[Value]) -> Value:
+    """Return a new set: a copy, or a set with the elements of the arguments added or removed."""
+    result: Value = SetOf(owner)
+    for argument in arguments:
+        elements = items(machine, argument)
+        if elements is None or isinstance(result, Unknown):
+            return cause(argument, f"{name}() of a set")
+        machine.spend(len(elements))
+        result = of_sets(_OPERATOR_OF[name], result, elements)
+    return result
+
+
+def _position(owner: Sequence[Value], name: str, arguments: list[Value]) -> Value:
+    """Return the position or the number of the elements that equal an argument."""
+    wanted = plain(arguments[0]) if arguments else None
+    if len(arguments) != 1 or not is_small(owner) or not all(is_small(value) and is_known(value) for value in (owner, wanted)):
+        return Unknown(f"{name}() in what is not known")
+    try:
+        return owner.index(wanted) if name == "index" else owner.count(wanted)
+    except ValueError:
+        raise ProgramRaised("ValueError") from None
 
 
 def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: list[Value]) -> Value:
@@ -241,7 +282,7 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
             elements = items(machine, first)
             if elements is None:
                 machine.escape(first)
-                owner.append(machine.guard(Unknown("elements that are not known")))
+                owner.append(machine.guard(more(first)))
             else:
                 machine.spend(len(elements))
                 owner += [machine.guard(element) for element in elements]
@@ -253,35 +294,61 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
             owner.insert(position if isinstance(position, int) else len(owner), machine.guard(arguments[-1]))
             return None
         case "pop":
-            return _popped(owner, first)
+            return _popped(machine, owner, first)
         case "copy":
             return list(owner)
         case "reverse":
-            owner.reverse()
+            replace(machine, owner, slice(None), machine.present(owner)[::-1])
             return None
         case "clear":
-            owner.clear()
+            replace(machine, owner, slice(None), [])
             return None
         case "remove" | "discard":
-            same_ones = [index for index, element in enumerate(owner) if same(plain(element), plain(first))]
-            if same_ones:
-                del owner[same_ones[0]]
-            elif name == "remove" and all(map(is_known, (*owner, first))):
+            equal = [index for index, element in enumerate(owner) if same(plain(element), plain(first))]
+            equal = [index for index in equal if machine.is_here(owner[index])]
+            certain = bool(equal) and not machine.any_perhaps([owner[equal[0]]])
+            for index in equal[:1] if certain else equal:
+                owner[index] = machine.removed(owner[index]) if machine.conditions else Guarded(owner[index], (PERHAPS,))
+            if certain and not machine.conditions:
+                del owner[equal[0]]
+            elif not equal and name == "remove" and all(map(is_known, (*machine.present(owner), first))):
                 raise ProgramRaised("ValueError")
             return None
-        case "union":
-            return unique([*owner, *(element for argument in arguments for element in items(machine, argument) or [])])
     return Unknown(f"{name}() of a list")
 
 
-def _popped(owner: list[Value], position: Value) -> Value:
+def _popped(machine: Interpreter, owner: list[Value], position: Value) -> Value:
     index = -1 if position is None else plain(position)
-    if not isinstance(index, int) or (may_have_more(owner) and not -len(owner) <= index < len(owner)):
+    present = machine.present(owner)
+    if isinstance(index, int) and -len(present) <= index < len(present):
+        element = plain(present[index]) if machine.is_at(present, index) else union(present)
+        replace(machine, owner, index, [])
+        return element
+    if not isinstance(index, int) or may_have_more(present):
         return Unknown("pop() from a place that is not known")
-    try:
-        return plain(owner.pop(index))
-    except IndexError:
-        raise ProgramRaised("IndexError") from None
+    raise ProgramRaised("IndexError")
+
+
+def replace(machine: Interpreter, owner: list[Value], key: int | slice, values: list[Value]) -> None:
+    """Replace the elements at an index or slice under the present conditions. Raises IndexError and ValueError.
+
+    If an element may be missing, each element may be at another position.
+    """
+    present = machine.present(owner)
+    if isinstance(key, int):
+        index = range(len(present))[key]
+        part = slice(index, index + 1)
+    else:
+        part = key
+    known = part == slice(None) or machine.is_at(present, key)
+    if known and not machine.conditions:
+        owner[part] = values
+        return
+    places = [place for place, element in enumerate(owner) if machine.is_here(element)]
+    first = next(iter(places[part] or places[part.start :]), len(owner))
+    for place in places[part] if known else places:
+        owner[place] = machine.removed(owner[place]) if known else Guarded(owner[place], (PERHAPS,))
+    owner[first:first] = [machine.guard(value) for value in values]
 
 
 def _of_dict(
@@ -302,7 +369,12 @@ def _of_dict(
             if isinstance(key, str) and not is_plain(key):
                 return union([*chosen(owner, key), Guarded(default, without(owner, key))])
             if key in owner:
-                return owner.pop(key) if name == "pop" else owner[key]
+                value = owner[key]
+                if name == "pop" and machine.conditions:
+                    owner[key] = machine.removed(value)
+                elif name == "pop":
+                    del owner[key]
+                return value
             if UNKNOWN in owner:
                 return union([owner[UNKNOWN], default])
             if name == "pop" and len(arguments) == 1 and key != UNKNOWN:
@@ -311,7 +383,10 @@ def _of_dict(
                 owner[key] = default
             return default
         case "clear":
-            owner.clear()
+            if machine.conditions:
+                owner.update({key: machine.removed(value) for key, value in owner.items()})
+            else:
+                owner.clear()
             return None
         case "popitem" if UNKNOWN not in owner:
             if not owner:
@@ -334,8 +409,8 @@ def _updated(machine: Interpreter, owner: dict[Any, Value], arguments: list[Valu
                 if parts is not None and len(parts) == 2:
                     owner[hashable(machine, plain(parts[0]))] = parts[1]
                 else:
-                    owner[UNKNOWN] = Unknown("elements that are not known")
+                    owner[UNKNOWN] = cause(pair, "elements that are not known")
             if pairs is None:
-                owner[UNKNOWN] = Unknown("elements that are not known")
+                owner[UNKNOWN] = cause(alternative.value, "elements that are not known")
                 machine.escape(alternative.value)
     owner.update(keywords)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small
+from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small, unique
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -16,17 +16,19 @@ from ros_lint.collectors.python.interpreter.values import (
     LaunchObject,
     LibraryName,
     ProgramRaised,
+    SetOf,
     Union,
     Unknown,
     Value,
     alternatives,
+    around,
     guarded_text,
     plain,
     under,
     union,
     written,
 )
-from ros_lint.collectors.python.operators import ARITHMETIC, BITWISE, COMPARISONS
+from ros_lint.collectors.python.operators import ARITHMETIC, BITWISE, COMPARISONS, is_wide
 from ros_lint.collectors.symbolic_text import (
     LONGEST,
     MOST,
@@ -45,6 +47,8 @@ from ros_lint.facts.launch import LaunchCondition
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
+TOO_LARGE = "is too large"
+"""The reason of an unknown value that would exceed a limit."""
 INSTALLED = "installed packages"
 """The name of the object that represents the list of installed packages of the ament index."""
 
@@ -81,9 +85,20 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
         if is_plain(value) or certain_part(value):
             return bool(value), PERHAPS
         return None, LaunchCondition((str(value),), "", wanted=False)
-    if value is None or isinstance(value, (*_NUMBERS, list, dict, tuple, set, frozenset, range)):
+    if isinstance(value, list) and value and isinstance(value[0], Guarded):
+        return _truth_of_list(machine, value)
+    if value is None or isinstance(value, (*_NUMBERS, list, dict, tuple, range)):
         return bool(value), PERHAPS
     return (None if isinstance(value, LibraryName) else True), PERHAPS
+
+
+def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
+    """Return whether any element exists, if elements may exist only under conditions."""
+    elements = machine.present(values)
+    if not elements:
+        return False, PERHAPS
+    missing = [condition for value in elements for condition in around(value) if condition not in machine.conditions]
+    return (None if missing else True), PERHAPS
 
 
 def _truth_of_several(machine: Interpreter, value: Union) -> tuple[bool | None, LaunchCondition]:
@@ -126,7 +141,7 @@ def _shown(value: Any) -> str:
             return UNKNOWN
         if isinstance(item, dict):
             stack += [*item.keys(), *item.values()]
-        elif isinstance(item, (list, tuple, set)):
+        elif isinstance(item, (list, tuple)) and not isinstance(item, SetOf):
             stack += item
         elif not (item is None or isinstance(item, (str, *_NUMBERS))):
             return UNKNOWN
@@ -178,7 +193,8 @@ def operation(machine: Interpreter, op: ast.operator, left: Value, right: Value,
     elif isinstance(op, ast.Mod) and isinstance(left, str):
         for side in right if isinstance(right, tuple) else (right,):
             machine.record_misuse(side, "formatted", node, frame)
-    return each(left, lambda side: each(right, lambda opposite_side: _single(machine, op, side, opposite_side, node, frame)))
+    result = each(left, lambda side: each(right, lambda other: _single(machine, op, side, other, node, frame)))
+    return machine.result(result, (left, right))
 
 
 def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
@@ -191,6 +207,8 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
             return written(UNKNOWN + right, node, frame.source)
         if isinstance(left, (list, tuple)) and isinstance(right, (list, tuple)):
             machine.spend(len(left) + len(right))
+            if isinstance(left, tuple) is not isinstance(right, tuple):
+                raise ProgramRaised("TypeError")
             return [*left, *right] if isinstance(left, list) else (*left, *right)
         if isinstance(left, (list, tuple)) and isinstance(right, Unknown):
             return [*left, right]
@@ -202,6 +220,9 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
         return _percent(left, right, node, frame)
     if isinstance(op, ast.BitOr) and isinstance(left, dict) and isinstance(right, dict):
         return {**left, **right}
+    if isinstance(left, SetOf) and isinstance(right, SetOf) and type(op) in _SETS:
+        machine.spend(len(left) + len(right))
+        return of_sets(op, left, right)
     if isinstance(left, _NUMBERS) and isinstance(right, _NUMBERS) and type(op) in _OPERATORS:
         try:
             if abs(left) < 1 << 64 and abs(right) < 1 << 64:
@@ -211,11 +232,32 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
     if isinstance(op, ast.Mult):
         if isinstance(left, int):
             left, right = right, left
-        if isinstance(left, (str, list, tuple)) and isinstance(right, int) and len(left) * right <= _MOST_ITEMS:
-            return left * right
+        if isinstance(left, (str, list, tuple)) and isinstance(right, int):
+            return left * right if len(left) * right <= _MOST_ITEMS else Unknown(TOO_LARGE)
+    if all(isinstance(operand, _KNOWN) and (not isinstance(operand, str) or is_plain(operand)) for operand in (left, right)):
+        numbers = isinstance(left, _NUMBERS) and isinstance(right, _NUMBERS)
+        if type(op) in _OPERATORS and not numbers and not isinstance(left, SetOf) and not isinstance(right, SetOf):
+            raise ProgramRaised("TypeError")
+        return Unknown("the result of an operator")
     for operand in (left, right):
         machine.escape(operand)
     return Unknown("the result of an operator")
+
+
+_SETS = (ast.Sub, ast.BitAnd, ast.BitOr, ast.BitXor)
+_KNOWN = (str, *_NUMBERS, list, tuple, dict, type(None))
+
+
+def of_sets(op: ast.operator, left: Sequence[Value], right: Sequence[Value]) -> Value:
+    """Return the union, difference or intersection of sets, Unknown if their elements are unknown."""
+    if isinstance(op, ast.BitOr):
+        return SetOf(unique([*left, *right]))
+    if not all(map(is_known, (*left, *right))):
+        return Unknown("the elements of a set")
+    first, second = unique(left), unique(right)
+    if isinstance(op, ast.BitXor):
+        return SetOf([*(item for item in first if item not in second), *(item for item in second if item not in first)])
+    return SetOf([item for item in first if (item in second) is isinstance(op, ast.BitAnd)])
 
 
 def _percent(left: str, right: Value, node: ast.expr, frame: Frame) -> Value:
@@ -225,16 +267,23 @@ def _percent(left: str, right: Value, node: ast.expr, frame: Frame) -> Value:
     if len(pieces) == len(rows) + 1 and "%" not in "".join(pieces).replace("%%", ""):
         made = joined(rows, lambda row: "".join(a + b for a, b in zip(pieces, (*row, ""), strict=True)).replace("%%", "%"))
         return texts_made(made, node, frame)
-    if all(isinstance(plain(value), (str, *_NUMBERS)) for value in values) and len(left) < 500 and not _wide(left):
+    fields: Value = tuple([plain(value) for value in values])
+    if isinstance(plain(right), dict):
+        fields = {key: plain(value) for key, value in plain(right).items()}
+        values = [*fields, *fields.values()]
+    if len(left) >= 500 or is_wide(left):
+        return Unknown(TOO_LARGE)
+    if all(_is_scalar(plain(value)) for value in values):
         try:
-            return written(left % tuple(plain(value) for value in values), node, frame.source)
-        except (OverflowError, TypeError, ValueError):
-            raise ProgramRaised from None
+            text = left % fields
+        except (KeyError, OverflowError, TypeError, ValueError) as error:
+            raise ProgramRaised(type(error).__name__) from None
+        return written(text if len(text) <= LONGEST else UNKNOWN, node, frame.source)
     return Unknown("text made with %")
 
 
-def _wide(template: str) -> bool:
-    return "*" in template or any(len(run) > 3 for run in "".join(c if c.isdigit() else " " for c in template).split())
+def _is_scalar(value: Value) -> bool:
+    return value is None or isinstance(value, _NUMBERS) or (isinstance(value, str) and is_plain(value))
 
 
 def negated(machine: Interpreter, value: Value) -> Value:
@@ -272,11 +321,13 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
             return Unknown("comparison with what is not known")
     elif isinstance(left, str) and isinstance(right, str) and not (is_plain(left) and is_plain(right)):
         return _asked(f"{quoted(left)} {_ORDERS[type(op)]} {quoted(right)}")
-    if isinstance(left, (list, tuple, dict, set)) and isinstance(right, type(left)):
+    if isinstance(left, (list, tuple, dict)) and isinstance(right, (list, tuple, dict)):
         if not (is_small(left) and is_small(right)):
             return Unknown("a comparison of much")
         if not (is_known(left) and is_known(right)):
             return Unknown("comparison with what is not known")
+        if isinstance(left, SetOf) and isinstance(right, SetOf) and all(map(_is_scalar, (*left, *right))):
+            left, right = set(left), set(right)
     try:
         return bool(COMPARISONS[type(op)](left, right))
     except (TypeError, RecursionError):
@@ -294,8 +345,10 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
         return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
     elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
         inner = [plain(item) for item in right]
-        if any(isinstance(item, (str, *_NUMBERS, type(None))) and item == left for item in inner):
-            return wanted
+        equal = [isinstance(item, (str, *_NUMBERS, type(None))) and item == left for item in inner]
+        if any(equal):
+            certain = any(match and not isinstance(item, Guarded) for match, item in zip(equal, right, strict=True))
+            return wanted if certain else Unknown("membership that is not known")
         known = all(isinstance(item, (*_NUMBERS, type(None))) or (isinstance(item, str) and is_plain(item)) for item in inner)
         if known and (not isinstance(left, str) or is_plain(left)):
             return not wanted
@@ -319,9 +372,13 @@ def opposite_of(condition: LaunchCondition) -> LaunchCondition:
     return condition._replace(wanted=not condition.wanted)
 
 
-def sliced(owner: Value, parts: list[Value]) -> Value:
+def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
     """Return a slice of a value; ``parts`` are start, stop and step."""
     known = all(part is None or isinstance(part, int) for part in parts)
+    if isinstance(owner, (list, tuple)):
+        owner = machine.present(owner) if isinstance(owner, list) else owner
+        if machine.any_perhaps(owner) and any(part is not None for part in parts[:2]):
+            return [Guarded(element, (PERHAPS,)) for element in owner]
     if known and (isinstance(owner, (list, tuple)) or (isinstance(owner, str) and is_plain(owner))):
         try:
             return owner[slice(*parts)]
@@ -371,15 +428,20 @@ def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:
         name = hashable(machine, key)
         if name in owner:
             return owner[name]
-        if isinstance(key, Unknown) or UNKNOWN in owner:
+        if isinstance(key, Unknown):
             return union(owner.values()) if owner else Unknown("element of an empty dictionary")
+        if UNKNOWN in owner:
+            return union(value for other, value in owner.items() if isinstance(other, str) and not is_plain(other))
         raise ProgramRaised("KeyError")
     if isinstance(owner, (list, tuple)):
-        if isinstance(key, int) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
+        owner = machine.present(owner)
+        if isinstance(key, int) and machine.is_at(owner, key) and (-len(owner) <= key < len(owner) or not may_have_more(owner)):
             try:
                 return plain(owner[key])
             except IndexError:
                 raise ProgramRaised("IndexError") from None
+        if isinstance(key, str):
+            raise ProgramRaised("TypeError")
         return union(owner) if owner else Unknown("element of an empty list")
     if isinstance(owner, str) and is_plain(owner) and isinstance(key, int):
         try:

@@ -34,7 +34,7 @@ def sort_keys(
     """Return the sort keys of values, None if they are unknown."""
     key = keywords.get("key")
     keys = [plain(value if key is None else machine.call(key, [plain(value)], {}, node, frame)) for value in values]
-    return keys if all(map(is_known, keys)) else None
+    return keys if all(is_small(key) and is_known(key) for key in keys) else None
 
 
 def is_known(value: Value) -> bool:
@@ -66,7 +66,7 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
     try:
         return sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
     except TypeError:
-        raise ProgramRaised from None
+        raise ProgramRaised("TypeError") from None
 
 
 def unique(values: Iterable[Value]) -> list[Value]:
@@ -86,5 +86,5 @@ def unique(values: Iterable[Value]) -> list[Value]:
 
 def _has_known_equality(value: Value) -> bool:
     if isinstance(value, tuple):
-        return all(map(_has_known_equality, value))
+        return is_small(value) and all(map(_has_known_equality, value))
     return value is None or isinstance(value, (int, float)) or (isinstance(value, str) and UNKNOWN not in value)

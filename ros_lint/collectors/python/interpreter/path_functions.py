@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import posixpath
+from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.interpreter.operations import waits
-from ros_lint.collectors.python.interpreter.values import FilePath, Method, Unknown, Value, plain, written
+from ros_lint.collectors.python.interpreter.values import FilePath, Method, ProgramRaised, Unknown, Value, plain, written
 from ros_lint.collectors.symbolic_text import BRACKETS, UNKNOWN, expression, is_plain, may_contain_place, quoted
 
 if TYPE_CHECKING:
     import ast
-    from collections.abc import Sequence
 
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
     from ros_lint.collectors.python.interpreter.values import Frame
@@ -69,13 +69,15 @@ def of_path(owner: FilePath, name: str) -> Value:
             return _split_name(last)[0]
         case "suffix":
             return _split_name(last)[1]
+        case "parts" | "suffixes" if is_plain(owner.text):
+            return getattr(PurePosixPath(owner.text), name)
         case "parents":
             folders: list[FilePath] = []
             while folder and (not folders or folder != folders[-1].text):
                 folders.append(FilePath(folder))
                 folder = split(folder)[0]
             # The folders above an unknown folder are unknown.
-            return folders if is_plain(owner.text) else [*folders, *[FilePath(UNKNOWN)] * _MOST_PARENTS]
+            return tuple(folders) if is_plain(owner.text) else [*folders, *[FilePath(UNKNOWN)] * _MOST_PARENTS]
     return Method(owner, name)
 
 
@@ -86,26 +88,37 @@ def _split_name(name: str) -> tuple[str, str]:
 
 
 def call_of_path(
-    machine: Interpreter, owner: FilePath, name: str, arguments: Sequence[Value], node: ast.Call, frame: Frame
+    machine: Interpreter,
+    owner: FilePath,
+    name: str,
+    arguments: list[Value],
+    keywords: dict[str, Value],
+    node: ast.Call,
+    frame: Frame,
 ) -> Value:
     """Return the result of a method of a path of pathlib."""
     match name:
         case "joinpath":
-            return machine.join_paths(owner, list(arguments), node, frame)
+            return machine.join_paths(owner, arguments, node, frame)
         case "as_posix" | "__str__" | "__fspath__":
             return written(owner.text, node, frame.source)
-        case "resolve" | "absolute" | "expanduser":
-            return owner
         case "with_suffix" | "with_name":
             argument = plain(arguments[0]) if arguments else None
             if isinstance(argument, str):
                 if name == "with_suffix":
                     return FilePath(split_suffix(owner.text)[0] + argument)
                 return FilePath(posixpath.join(split(owner.text)[0], argument))
-        case "open" | "read_text" | "read_bytes":
-            return machine.open_file(owner.text, node, frame.source)
-        case "exists" | "is_file":
-            return machine.ask((owner.text,))
-        case "write_text" | "write_bytes":
-            machine.ask((owner.text,))  # the file need not exist before
-    return Unknown(f"{name}() of a path")
+        case "match" | "is_relative_to" | "relative_to" | "is_absolute" if is_plain(owner.text):
+            return _by_pathlib(owner, name, arguments)
+    return machine.library.call(machine, Method(owner, name), arguments, keywords, node, frame)
+
+
+def _by_pathlib(owner: FilePath, name: str, arguments: list[Value]) -> Value:
+    texts = [value.text if isinstance(value, FilePath) else value for value in map(plain, arguments)]
+    if not all(isinstance(text, str) and is_plain(text) for text in texts):
+        return Unknown(f"{name}() of a path")
+    try:
+        result = getattr(PurePosixPath(owner.text), name)(*texts)
+    except (TypeError, ValueError) as error:
+        raise ProgramRaised(type(error).__name__) from None
+    return FilePath(str(result)) if isinstance(result, PurePosixPath) else result

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import Protocol
 
@@ -24,6 +24,10 @@ class Library(Protocol):
         """Return a program with the effects of a module, located at ``at``; None for any other module."""
         ...
 
+    def member(self, name: str, node: ast.AST, source: Source) -> Value:
+        """Return the value of a dotted name of a library; ``node`` is the expression or import."""
+        ...
+
     def is_substitution(self, name: str) -> bool:
         """Return whether a name is a class of substitutions, whatever module it is imported from."""
         ...
@@ -37,7 +41,7 @@ class Library(Protocol):
         node: ast.Call,
         frame: Frame,
     ) -> Value:
-        """Return the result of a library function (by its full name) or of a method of a library object."""
+        """Return the result of a library function (by its full name), or of a method of a library object or a path."""
         ...
 
     def attribute(self, owner: LaunchObject, name: str) -> Value:
@@ -66,6 +70,11 @@ class Library(Protocol):
 
 class Interpreter(Recorder, ABC):
     """The operations of the interpreter that the handlers of statements, expressions and calls need."""
+
+    most_items = 5_000
+    """The maximum number of elements that are gone through."""
+    most_turns = 2_000
+    """The maximum number of turns of a loop."""
 
     def __init__(self, library: Library) -> None:
         super().__init__()
@@ -102,6 +111,10 @@ class Interpreter(Recorder, ABC):
     @abstractmethod
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
         """Return the result of a call. Raises ProgramRaised and BudgetExceeded."""
+
+    @abstractmethod
+    def result(self, value: Value, operands: Iterable[Value]) -> Value:
+        """Return the result of an operation; in place of an unknown one its cause, if the interpreter notes origins."""
 
     @abstractmethod
     def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:

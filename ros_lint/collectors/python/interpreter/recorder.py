@@ -16,10 +16,11 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
+    around,
     environment,
     union,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
 from ros_lint.facts.launch import LaunchCondition
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
@@ -46,7 +47,11 @@ class Recorder:
     def __init__(self) -> None:
         self._branches = 0
         self._variables: dict[str, Value] = {}
+        self._removed: dict[tuple[str, ...], frozenset[LaunchCondition]] = {}
+        """The conditions under which elements were removed, by the texts of the conditions under which they remain."""
         self.conditions: Conditions = ()
+        self.tests: dict[tuple[str, ...], ast.expr] = {}
+        """The expressions that are tested, by the texts of their conditions."""
         self.made: list[LaunchObject] = []
         """All objects of the classes of the launch libraries, in order of creation."""
         self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
@@ -69,6 +74,8 @@ class Recorder:
         """
         self.borrows = False
         """True if it calls models of released helpers, which are incomplete."""
+        self.caught = 0
+        """The number of surrounding try statements with handlers."""
         self.guarded = 0
         """The number of surrounding try statements that catch the error of a missing file."""
         self.lazily: set[str] = set()
@@ -80,9 +87,16 @@ class Recorder:
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
-    def fresh(self, condition: LaunchCondition) -> LaunchCondition:
-        """Return a condition; instead of PERHAPS a new one, so that it differs from its own opposite."""
-        return condition if condition is not PERHAPS else LaunchCondition((self.another(),), None)
+    def fresh(self, condition: LaunchCondition, test: ast.expr | None = None) -> LaunchCondition:
+        """Return a condition; instead of PERHAPS a new one, so that it differs from its own opposite.
+
+        ``test`` is the expression that is true under the condition.
+        """
+        if condition is PERHAPS:
+            condition = LaunchCondition((self.another(),), None)
+        if test is not None:
+            self.tests.setdefault(condition.texts, test)
+        return condition
 
     def another(self) -> str:
         """Return a new text that is unknown and differs from all others."""
@@ -92,6 +106,39 @@ class Recorder:
     def guard(self, value: Value) -> Value:
         """Return a value guarded by the present conditions, to be added to a collection."""
         return Guarded(value, self.conditions) if self.conditions else value
+
+    def is_here(self, value: Value) -> bool:
+        """Return whether an element of a collection may exist under the present conditions."""
+        if not isinstance(value, Guarded):
+            return True
+        conditions = around(value)
+        removals = [self._removed[condition.texts] for condition in conditions if condition.texts in self._removed]
+        return not any(removal.issubset(self.conditions) for removal in removals) and are_consistent(
+            (*self.conditions, *conditions)
+        )
+
+    def present(self, values: Sequence[Value]) -> list[Value]:
+        """Return the elements that may exist under the present conditions."""
+        return [value for value in values if self.is_here(value)] if self.conditions else list(values)
+
+    def any_perhaps(self, values: Iterable[Value]) -> bool:
+        """Return whether any element may be missing under the present conditions."""
+        return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
+
+    def is_at(self, values: Sequence[Value], key: int | slice) -> bool:
+        """Return whether it is certain which of some elements are at an index or slice."""
+        if isinstance(key, slice):
+            return not self.any_perhaps(values)
+        return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
+
+    def removed(self, value: Value) -> Value:
+        """Return an element that is removed under the present conditions. It remains if any of them does not hold."""
+        first, *others = self.conditions
+        remains = first._replace(wanted=not first.wanted)
+        if others:
+            remains = self.fresh(PERHAPS)
+            self._removed[remains.texts] = frozenset(self.conditions)
+        return Guarded(value, (remains,))
 
     def joined(self, values: Sequence[Guarded]) -> Value:
         """Return the union of values. If these are too many, they escape."""

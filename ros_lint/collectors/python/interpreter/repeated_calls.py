@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.collectors.python.interpreter.values import (
     FilePath,
@@ -25,6 +25,9 @@ from ros_lint.collectors.python.interpreter.values import (
     alternatives,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN
+
+if TYPE_CHECKING:
+    from ros_lint.collectors.python.interpreter.recorder import Recorder
 
 _MOST_VALUES = 500
 """The maximum number of values to compare. A call that reads more never counts as a repetition."""
@@ -44,19 +47,19 @@ class UnderWay(NamedTuple):
     """The outline of the values that the call reads; None if too large, or for the outermost call."""
 
 
-def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value], conditions: int) -> bool:
+def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value], recorder: Recorder) -> bool:
     """Record a call that begins, and return True; return False if it repeats a recorded one.
 
     A repeating call must not be interpreted. A call repeats a call around it if both read the same values and an
     undecided branch led from one to the other. Without such a branch the program ends the recursion by itself.
 
-    ``names`` are the values of the parameters, ``conditions`` is the number of conditions that hold. Most functions
-    are not recursive, so outlines are computed from the second call on.
+    ``names`` are the values of the parameters, ``recorder`` has the conditions that hold. Most functions are not
+    recursive, so outlines are computed from the second call on.
     """
-    outline = None
+    outline, conditions = None, len(recorder.conditions)
     outer = [call for call in under_way if call.node is function.node and call.conditions < conditions]
     if outer:
-        outline = _outline({**names, **_read_from_around(function)})
+        outline = _outline({**names, **_read_from_around(function)}, recorder)
         if outline is not None and any(call.outline == outline for call in outer):
             return False
     under_way.append(UnderWay(function.node, conditions, outline))
@@ -82,9 +85,9 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
     return values
 
 
-def _outline(names: dict[Any, Value]) -> Any:
+def _outline(names: dict[Any, Value], recorder: Recorder) -> Any:
     """Return a value that is equal for names which differ only in unknown values, None if too large."""
-    outliner = _Outliner()
+    outliner = _Outliner(recorder)
     made = outliner.of(names)
     return None if outliner.too_much else made
 
@@ -92,7 +95,8 @@ def _outline(names: dict[Any, Value]) -> Any:
 class _Outliner:
     """Creates hashable values that are equal for values which differ only in unknown parts."""
 
-    def __init__(self) -> None:
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
         self._left = _MOST_VALUES
         self.too_much = False
         self.unknown = 0
@@ -117,7 +121,7 @@ class _Outliner:
                 return Unknown, condition if known else None
             case FilePath(text=text):
                 return FilePath, self._text(text)
-            case list() | tuple() | set() | frozenset():
+            case list() | tuple():
                 return type(value), self._elements(value, depth + 1)
             case dict():
                 return dict, frozenset((key, self.of(item, depth + 1)) for key, item in value.items())
@@ -140,7 +144,7 @@ class _Outliner:
     def _elements(self, values: Iterable[Value], depth: int) -> Any:
         """Return the outlines of elements. An unknown or conditional element represents any number of them."""
         outlines: dict[Any, None] = {}
-        for value in values:
+        for value in filter(self._recorder.is_here, values):
             before = self.unknown
             outline = self.of(value, depth)
             several = self.unknown > before or isinstance(value, Guarded)

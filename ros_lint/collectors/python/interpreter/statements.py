@@ -72,7 +72,7 @@ def _if(machine: Interpreter, node: ast.If, frame: Frame) -> int:
     answer, condition = truth(machine, value)
     if answer is not None:
         return execute(machine, node.body if answer else node.orelse, frame)
-    return either(machine, node.body, node.orelse, condition, frame)
+    return either(machine, node.body, node.orelse, condition, frame, test=node.test)
 
 
 def _may_leave(body: Sequence[ast.stmt]) -> bool:
@@ -98,6 +98,7 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
         return _finally(machine, node, frame, before) or signal
     guarded = any(map(catches_missing_file, node.handlers))
     machine.guarded += guarded
+    machine.caught += bool(node.handlers)
     raised: ProgramRaised | None = None
     signal = NEXT
     try:
@@ -106,6 +107,7 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
         raised = error
     finally:
         machine.guarded -= guarded
+        machine.caught -= bool(node.handlers)
     if raised is not None:
         handler = catching(node, raised.kind)
         if handler is None:
@@ -138,7 +140,7 @@ def _return(machine: Interpreter, node: ast.Return, frame: Frame) -> int:
 
 
 def _raise(_machine: Interpreter, node: ast.Raise, _frame: Frame) -> int:
-    raise ProgramRaised(kind_raised(node))
+    raise ProgramRaised(kind_raised(node), deliberate=True)
 
 
 def _break(_machine: Interpreter, _node: ast.Break, _frame: Frame) -> int:

@@ -1,4 +1,4 @@
-"""The values of names while a Python launch file is interpreted.
+"""The values of names while a program is interpreted: a launch file, or a setup.py.
 
 Texts, numbers, lists and dictionaries are Python's own. This module has classes for the other values: objects of the
 launch libraries, functions and classes of the program, alternatives, and unknown values.
@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import PurePosixPath
 from typing import Any, Final, NamedTuple
 
-from ros_lint.base.text import Text
+from ros_lint.base.text import Span, Text
 from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, are_consistent, conditional, conditions_of, configuration, is_plain
 from ros_lint.facts.launch import LaunchCondition
 
@@ -68,13 +68,17 @@ def written(text: str, node: ast.expr, source: Source) -> Written:
 
 
 class Unknown:
-    """Any value. ``condition`` is the condition of its truth, if known."""
+    """Any value.
 
-    __slots__ = ("condition", "reason")
+    ``condition`` is the condition of its truth, if known. ``node`` is its origin, if the interpreter notes origins.
+    """
 
-    def __init__(self, reason: str, condition: LaunchCondition | None = None) -> None:
+    __slots__ = ("condition", "node", "reason")
+
+    def __init__(self, reason: str, condition: LaunchCondition | None = None, node: ast.AST | Span | None = None) -> None:
         self.reason = reason
         self.condition = condition
+        self.node = node
 
 
 class Guarded:
@@ -96,6 +100,24 @@ class Union:
         self.values = values
 
 
+class SetOf(list[Value]):
+    """A set: a list of distinct elements in the order of insertion, because unknown elements are not hashable."""
+
+
+class Globbed(list[Value]):
+    """The unchanged result of one glob."""
+
+    __slots__ = ("pattern",)
+    pattern: str
+
+
+def globbed(pattern: str, paths: Iterable[Value]) -> Globbed:
+    """Return paths as the result of a glob pattern."""
+    result = Globbed(paths)
+    result.pattern = pattern
+    return result
+
+
 class FilePath:
     """A path of pathlib. A known text is normalized as by pathlib: ``a/b`` for ``a//b/``."""
 
@@ -103,6 +125,9 @@ class FilePath:
 
     def __init__(self, text: str) -> None:
         self.text = str(PurePosixPath(text)) if is_plain(text) else text
+
+    def __str__(self) -> str:
+        return self.text
 
 
 class LibraryName:
@@ -311,11 +336,15 @@ class Frame:
 
 
 class ProgramRaised(Exception):  # noqa: N818  (it represents any exception of the program)
-    """The program raises an exception of the class ``kind``, "" if unknown."""
+    """The program raises an exception of the class ``kind``, "" if unknown.
 
-    def __init__(self, kind: str = "") -> None:
+    It is deliberate if a raise statement or a function such as sys.exit() raises it.
+    """
+
+    def __init__(self, kind: str = "", *, deliberate: bool = False) -> None:
         super().__init__(kind)
         self.kind = kind
+        self.deliberate = deliberate
 
 
 class BudgetExceeded(Exception):  # noqa: N818
@@ -368,6 +397,11 @@ def plain(value: Value) -> Value:
     while isinstance(value, Guarded):
         value = value.value
     return value
+
+
+def cause(value: Value, reason: str) -> Unknown:
+    """Return the unknown value that makes another one unknown: ``value``, if its origin is noted."""
+    return value if isinstance(value, Unknown) and value.node is not None else Unknown(reason)
 
 
 def around(value: Value) -> Conditions:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import translate
 
-ROOT = "/\ue001"
+ROOT = "/\ue020"
 """The absolute path that represents the folder of the package."""
 
 

@@ -1,4 +1,4 @@
-"""Library functions that setup.py files call, evaluated on values and the package's files."""
+"""Models of the functions that setup.py files call: setuptools, glob, os and pathlib on the files of the package."""
 
 from __future__ import annotations
 
@@ -6,246 +6,276 @@ import ast
 import fnmatch
 import posixpath
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from ros_lint.collectors.python import methods as python_methods
-from ros_lint.collectors.setup_py.interpreter import methods as setup_py_methods
-from ros_lint.collectors.setup_py.interpreter import sequences as setup_py_sequences
-from ros_lint.collectors.setup_py.interpreter.expressions import Expressions
-from ros_lint.collectors.setup_py.interpreter.files import ROOT
-from ros_lint.collectors.setup_py.interpreter.state import LeaveError, at
-from ros_lint.collectors.setup_py.interpreter.values import (
-    REST,
-    Module,
-    Native,
+from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS as PYTHON
+from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing
+from ros_lint.collectors.python.interpreter.operations import each
+from ros_lint.collectors.python.interpreter.path_calls import PATH_FUNCTIONS, on_path
+from ros_lint.collectors.python.interpreter.values import (
+    FilePath,
+    Frame,
+    Globbed,
+    LaunchObject,
+    LibraryName,
+    Method,
+    ProgramRaised,
+    Source,
     Unknown,
     Value,
     globbed,
-    is_path,
-    located,
-    path_of,
-    unknown_in,
+    plain,
 )
+from ros_lint.collectors.python.methods import CONSTANTS as PYTHON_CONSTANTS
+from ros_lint.collectors.setup_py.interpreter.files import ROOT, Files
+from ros_lint.collectors.setup_py.interpreter.values import REST, Deciding
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 from ros_lint.facts.environment import ROS_2
 
 if TYPE_CHECKING:
-    from pathlib import PurePosixPath
+    from ros_lint.collectors.python.interpreter.protocol import Interpreter
+    from ros_lint.collectors.python.interpreter.recorder import How
 
-CONSTANTS: dict[str, Value] = {
-    **python_methods.CONSTANTS,
+MODULES: Final = frozenset(
+    {"os", "os.path", "sys", "glob", "pathlib", "fnmatch", "itertools", "setuptools", "distutils", "distutils.core"}
+)
+"""The modules with models."""
+_CONSTANTS: dict[str, Value] = {
+    **PYTHON_CONSTANTS,
     "os.extsep": ".",
     "sys.platform": "linux",
     "sys.maxsize": 2**63 - 1,
     "sys.byteorder": "little",
 }
-_MODULES = frozenset(
-    {"os", "os.path", "sys", "glob", "pathlib", "fnmatch", "itertools", "setuptools", "distutils", "distutils.core"}
-)
 _SAME_AS = {
     "posixpath": "os.path",
     "distutils.core.setup": "setuptools.setup",
     "setuptools.PackageFinder.find": "setuptools.find_packages",
     "setuptools.find_packages.find": "setuptools.find_packages",
     "glob.iglob": "glob.glob",
-    "pathlib.PosixPath": "pathlib.Path",
-    "pathlib.PurePath": "pathlib.Path",
-    "pathlib.PurePosixPath": "pathlib.Path",
     "os.getcwdb": "os.getcwd",
     "os.path.realpath": "os.path.abspath",
     "os.path.lexists": "os.path.exists",
 }
+_EXTENSIONS = frozenset({"setup", "generate_parameter_module", "generate_distutils_setup"})
+"""Functions of modules that extend setuptools, by their last names."""
 
 
-def member(name: str) -> Value | None:
-    """Return the value of a dotted name of the library, None if it is unknown."""
-    name = _SAME_AS.get(name, name)
-    if name in CONSTANTS:
-        return CONSTANTS[name]
-    if name in FUNCTIONS:
-        return Native(name)
-    return Module(name) if name in _MODULES else None
+class Setup(NamedTuple):
+    """A call of setup()."""
+
+    options: dict[str, Value]
+    node: ast.Call | None
+    module: str
+    """The module of the function: setuptools, or a package that extends it."""
 
 
-def environment(node: ast.AST) -> dict[str, Value]:
-    """Return the environment variables that are the same in every build of ROS 2; all others are unknown."""
-    return {**ROS_2, REST: Unknown("os.environ is not known", node)}
+class SetupLibrary:
+    """An implementation of :class:`ros_lint.collectors.python.interpreter.protocol.Library` for a package."""
+
+    def __init__(self, package: str, files: Files) -> None:
+        self._package = package
+        self.files = files
+        self.setups: list[Setup] = []
+        self.generated: list[str] = []
+        """Dotted names of Python modules that a generator adds to the package."""
+        self._functions: dict[str, Rule] = {
+            **{name: _on_known(partial(function, files)) for name, function in _ON_FILES.items()},
+            "generate_parameter_module": self._generate_parameter_module,
+            "generate_distutils_setup": self._generate_distutils_setup,
+        }
+
+    def describes(self, module: str) -> bool:  # noqa: ARG002
+        return True
+
+    def model(self, module: str, at: ast.stmt) -> ast.Module | None:  # noqa: ARG002
+        return None
+
+    def member(self, name: str, node: ast.AST, source: Source) -> Value:  # noqa: ARG002
+        name = _SAME_AS.get(name, name)
+        if name in _CONSTANTS:
+            return _CONSTANTS[name]
+        if name == "os.environ":
+            return {**ROS_2, REST: Unknown("os.environ is not known", None, node)}
+        known = name in MODULES or name in _FUNCTIONS or name in self._functions or name.rpartition(".")[2] in _EXTENSIONS
+        return LibraryName(name) if known else Unknown(f"{name} is not known", None, node)
+
+    def is_substitution(self, name: str) -> bool:  # noqa: ARG002
+        return False
+
+    def call(
+        self,
+        interpreter: Interpreter,
+        callee: str | Method,
+        arguments: list[Value],
+        keywords: dict[str, Value],
+        node: ast.Call,
+        frame: Frame,
+    ) -> Value:
+        if isinstance(callee, Method):
+            name, arguments = f"pathlib.Path.{callee.name}", [callee.owner, *arguments]
+        else:
+            name = callee
+        module, _, last = name.rpartition(".")
+        call = Call(interpreter, name, arguments, keywords, node, frame)
+        if last == "setup":
+            self._note_setup(call, module)
+            return Unknown("what setup() returns is not followed", None, node)
+        rule = _FUNCTIONS.get(name) or self._functions.get(name) or self._functions.get(last)
+        return rule(call) if rule is not None else Unknown(f"{last}()")
+
+    def attribute(self, owner: LaunchObject, name: str) -> Value:  # noqa: ARG002
+        return Unknown(f"attribute {name}")
+
+    def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:  # noqa: ARG002
+        return Unknown("element of what is not known")
+
+    def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:  # noqa: ARG002
+        return (UNKNOWN,)
+
+    def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:  # noqa: ARG002
+        return ()
+
+    def misuse(self, made: LaunchObject, how: How) -> How | None:  # noqa: ARG002
+        return None
+
+    def _note_setup(self, call: Call, module: str) -> None:
+        deciding = Deciding(call.machine.conditions, call.machine.tests)
+        options = {name: deciding.option(value) for name, value in call.keywords.items()}
+        self.setups.append(Setup(options, call.node, module))
+
+    def _generate_parameter_module(self, call: Call) -> Value:
+        name = plain(call.get(0, "module_name"))
+        if isinstance(name, str):
+            self.generated.append(f"{self._package}.{name}")
+        return None
+
+    def _generate_distutils_setup(self, call: Call) -> Value:
+        """Return the options of generate_distutils_setup() in catkin_pkg, which adds data of package.xml."""
+        version = Unknown("the version in package.xml is not looked at", None, call.node)
+        return {"name": self._package, "version": version, **call.keywords}
 
 
-def builtin(name: str) -> Value | None:
-    """Return the value of a builtin name, None if it is unknown."""
-    return Native(name) if name in FUNCTIONS and "." not in name else None
+# --- functions of known values, with the files of the package as the first argument
 
 
-def method(owner: Value, name: str, node: ast.AST) -> Value:
-    """Return an attribute of a value that is not a module."""
-    if is_path(owner):
-        if name in _PATH_PROPERTIES:
-            found = getattr(owner, name)
-            return located(list(found) if name == "parents" else found, node)
-        return Native(f"path.{name}", owner) if f"path.{name}" in FUNCTIONS else Unknown(f"Path.{name} is not known", node)
-    known = setup_py_methods.method(owner, name)
-    return known if known is not None else Unknown(f"the attribute {name} is not known", node)
+def _on_known(function: Callable[..., Value]) -> Rule:
+    """Return the model of a function that needs known arguments; paths are passed as texts."""
+
+    def rule(call: Call) -> Value:
+        keywords = {name: _argument(plain(value)) for name, value in call.keywords.items()}
+        if not all(map(_is_known, keywords.values())):
+            return Unknown(f"{call.name}()")
+        return _spread(call.arguments, lambda known: function(*known, **keywords))
+
+    return rule
 
 
-_PATH_PROPERTIES = frozenset({"parent", "parents", "name", "stem", "suffix", "suffixes", "parts"})
-
-
-def call(program: Expressions, function: Native, arguments: list[Value], keywords: dict[str, Value], node: ast.Call) -> Value:
-    """Return the result of a known function or method."""
-    if function.name in FUNCTIONS:
-        known = FUNCTIONS[function.name]
-        owner = [] if function.owner is None else [function.owner]
-        if function.name not in _TOLERANT:
-            program.weigh(*owner, *arguments, *keywords.values())
-            unknown = unknown_in([*owner, *arguments, *keywords.values()])
-            if unknown:
-                return unknown
+def _spread(arguments: list[Value], function: Callable[[list[Value]], Value]) -> Value:
+    """Return the result of a function for each choice of alternatives of its arguments."""
+    if not arguments:
         try:
-            found = known(program, node, *owner, *arguments, **keywords)
-        except (AttributeError, TypeError) as error:  # it may take more than what is known of it
-            return Unknown(f"{at(node)} fails with {type(error).__name__}", node)
-        program.weigh(found)
-        return located(found, node)
-    return setup_py_methods.call(program, function, arguments, keywords, node)
+            return function([])
+        except (AttributeError, TypeError, ValueError) as error:
+            raise ProgramRaised(type(error).__name__) from None
+
+    def with_first(value: Value) -> Value:
+        first = _argument(value)
+        return _spread(arguments[1:], lambda rest: function([first, *rest])) if _is_known(first) else Unknown("an argument")
+
+    return each(arguments[0], with_first)
 
 
-# --- functions. The parameters of each are the program, the call and the arguments of the call
+def _argument(value: Value) -> Value:
+    return value.text if isinstance(value, FilePath) else value
 
 
-def _variable(_: Expressions, node: ast.Call, key: str, *_default: Value, **_named: Value) -> Value:
-    known = environment(node)
-    return known.get(key, known[REST])
+def _is_known(value: Value) -> bool:
+    if isinstance(value, (list, tuple)):
+        return all(isinstance(item, str) and is_plain(item) for item in value)
+    return value is None or isinstance(value, (bool, int)) or (isinstance(value, str) and is_plain(value))
 
 
-def _glob(program: Expressions, _: ast.Call, pathname: str, **options: Value) -> Value:
+def _glob(files: Files, pathname: str, **options: Value) -> Value:
     hidden, recursive = bool(options.get("include_hidden")), bool(options.get("recursive"))
     root = options.get("root_dir")
-    pattern = str(pathname)
     if root is None:
-        paths = program.files.glob(pattern, recursive=recursive, hidden=hidden)
-    else:
-        start = posixpath.join(str(root), "")
-        paths = [path.removeprefix(start) for path in program.files.glob(start + pattern, recursive=recursive, hidden=hidden)]
-    return globbed(pattern, paths)
+        return globbed(pathname, files.glob(pathname, recursive=recursive, hidden=hidden))
+    start = posixpath.join(root, "")
+    paths = files.glob(start + pathname, recursive=recursive, hidden=hidden)
+    return globbed(pathname, [path.removeprefix(start) for path in paths])
 
 
-def _path_glob(program: Expressions, _: ast.Call, owner: PurePosixPath, pattern: str) -> Value:
-    whole = str(owner / pattern)
-    paths = program.files.glob(whole, recursive=True, hidden=True)
-    folders = pattern.endswith("**")
-    return globbed(whole, [path_of(path) for path in paths if not folders or program.files.is_folder(path)])
+def _path_glob(files: Files, owner: str, pattern: str) -> Globbed:
+    whole = FilePath(posixpath.join(owner, pattern)).text
+    paths = files.glob(whole, recursive=True, hidden=True)
+    return globbed(whole, [FilePath(path) for path in paths if not pattern.endswith("**") or files.is_folder(path)])
 
 
-def _find_packages(*, namespaces: bool) -> Callable[..., Value]:
-    def find(program: Expressions, _: ast.Call, where: Value = ".", exclude: Value = (), include: Value = ("*",)) -> Value:
-        patterns = {
-            key: [texts] if isinstance(texts, str) else list(texts) for key, texts in (("include", include), ("exclude", exclude))
-        }
-        return program.files.find(str(where), namespaces=namespaces, **patterns)
-
-    return find
-
-
-def _listdir(program: Expressions, node: ast.Call, path: Value = ".") -> Value:
-    names = program.files.names(str(path))
-    return Unknown(f"the folder {path} does not exist", node) if names is None else names
-
-
-def _relative(_: Expressions, __: ast.Call, path: Value, start: Value = ".") -> str:
-    return posixpath.relpath(posixpath.join(ROOT, str(path)), posixpath.join(ROOT, str(start)))
-
-
-def _ignore(*_: Value, **__: Value) -> None:
-    return None
-
-
-def _exit(*_: Value) -> None:
-    raise LeaveError("raise", raised="SystemExit")
-
-
-def _dict(_: Expressions, __: ast.Call, *values: Value, **more: Value) -> Value:
-    found = dict(values[0]) if values else {}
-    found.update(more)
-    return found
-
-
-def _plain(function: Callable[..., Any]) -> Callable[..., Value]:
-    return lambda _program, _node, *arguments, **keywords: function(*arguments, **keywords)
-
-
-def _on_texts(function: Callable[..., Any]) -> Callable[..., Value]:
-    return lambda _program, _node, *paths: function(*(str(path) for path in paths))
-
-
-def _isinstance(_: Expressions, __: ast.Call, value: Value, kinds: Value) -> bool:
-    names = {kind.name for kind in (kinds if isinstance(kinds, tuple) and not isinstance(kinds, Native) else (kinds,))}
-    return any(kind.__name__ in names for kind in type(value).__mro__)
-
-
-FUNCTIONS: dict[str, Callable[..., Value]] = {
-    **setup_py_sequences.FUNCTIONS,
-    "os.path.join": _on_texts(posixpath.join),
-    **{name: _on_texts(function) for name, function in {**python_methods.ON_PATHS, **python_methods.PATH_SPLITS}.items()},
-    "os.path.isabs": _on_texts(posixpath.isabs),
-    "os.path.abspath": _on_texts(lambda path: posixpath.normpath(posixpath.join(ROOT, path))),
-    "os.path.relpath": _relative,
-    "os.path.exists": lambda program, _, path: program.files.exists(str(path)),
-    "os.path.isfile": lambda program, _, path: program.files.is_file(str(path)),
-    "os.path.isdir": lambda program, _, path: program.files.is_folder(str(path)),
-    "os.fspath": _on_texts(str),
-    "os.getcwd": lambda *_: ROOT,
-    "os.getenv": _variable,
-    "os.listdir": _listdir,
-    "os.walk": lambda program, _, top, **__: program.files.walk(str(top)),
-    "glob.glob": _glob,
-    "fnmatch.fnmatch": _on_texts(fnmatch.fnmatchcase),
-    "fnmatch.filter": lambda _, __, names, pattern: [name for name in names if fnmatch.fnmatchcase(name, pattern)],
-    "pathlib.Path": lambda _, __, *parts: path_of(*parts),
-    "pathlib.Path.cwd": lambda *_: path_of(ROOT),
-    "path.glob": _path_glob,
-    "path.rglob": lambda program, node, owner, pattern: _path_glob(program, node, owner / "**", pattern),
-    "path.iterdir": lambda program, _, owner: [owner / name for name in program.files.names(str(owner)) or ()],
-    "path.exists": lambda program, _, owner: program.files.exists(str(owner)),
-    "path.is_file": lambda program, _, owner: program.files.is_file(str(owner)),
-    "path.is_dir": lambda program, _, owner: program.files.is_folder(str(owner)),
-    "path.as_posix": lambda _, __, owner: str(owner),
-    "path.resolve": lambda *args: path_of(posixpath.normpath(posixpath.join(ROOT, str(args[2])))),
-    "path.absolute": lambda _, __, owner: path_of(ROOT) / owner,
-    "path.joinpath": lambda _, __, *parts: path_of(*parts),
-    "path.relative_to": lambda _, __, owner, *parts: owner.relative_to(*parts),
-    "path.with_suffix": lambda _, __, owner, suffix: owner.with_suffix(suffix),
-    "path.with_name": lambda _, __, owner, name: owner.with_name(name),
-    "path.match": lambda _, __, owner, pattern: owner.match(pattern),
-    "path.is_absolute": lambda _, __, owner: owner.is_absolute(),
-    "setuptools.find_packages": _find_packages(namespaces=False),
-    "setuptools.find_namespace_packages": _find_packages(namespaces=True),
-    "sys.exit": _exit,
-    "exit": _exit,
-    "quit": _exit,
-    "print": _ignore,
-    "os.makedirs": _ignore,
-    "os.mkdir": _ignore,
-    "dict": _dict,
-    "set": _plain(set),
-    "frozenset": _plain(set),
-    "str": _plain(str),
-    "repr": _plain(repr),
-    "int": _plain(int),
-    "float": _plain(float),
-    "bool": lambda program, _, value=False: bool(program.truth(value)),
-    "len": _plain(len),
-    "min": _plain(min),
-    "max": _plain(max),
-    "any": _plain(any),
-    "all": _plain(all),
-    "range": lambda _, __, *bounds: list(range(*bounds)) if all(abs(bound) < 10_000 for bound in bounds) else None,
-    "zip": _plain(lambda *lists, **_: list(zip(*lists, strict=False))),
-    "enumerate": _plain(lambda values, start=0: list(enumerate(values, start))),
-    "isinstance": _isinstance,
-}
-_TOLERANT = frozenset(
-    {
-        "list", "sorted", "reversed", "iter", "tuple", "dict", "map", "filter", "sum", "print", "itertools.chain",
-        "itertools.chain.from_iterable", "os.makedirs", "os.mkdir", "sys.exit", "exit", "quit",
+def _find_packages(
+    files: Files, where: str = ".", exclude: Value = (), include: Value = ("*",), *, namespaces: bool = False
+) -> Value:
+    patterns = {
+        key: [texts] if isinstance(texts, str) else list(texts) for key, texts in (("include", include), ("exclude", exclude))
     }
-)  # fmt: skip
+    return files.find(where, namespaces=namespaces, **patterns)
+
+
+def _listdir(files: Files, path: str = ".") -> Value:
+    names = files.names(path)
+    return Unknown(f"the folder {path} does not exist") if names is None else names
+
+
+def _relative(_: Files, path: str, start: str = ".") -> str:
+    return posixpath.relpath(posixpath.join(ROOT, path), posixpath.join(ROOT, start))
+
+
+def _absolute(path: str) -> str:
+    return posixpath.normpath(posixpath.join(ROOT, path))
+
+
+_ON_FILES: dict[str, Callable[..., Any]] = {
+    "fnmatch.filter": lambda _, names, pattern: [name for name in names if fnmatch.fnmatchcase(name, pattern)],
+    "fnmatch.fnmatch": lambda _, name, pattern: fnmatch.fnmatchcase(name, pattern),
+    "glob.glob": _glob,
+    "os.listdir": _listdir,
+    "os.path.exists": Files.exists,
+    "os.path.isabs": lambda _, path: posixpath.isabs(path),
+    "os.path.isdir": Files.is_folder,
+    "os.path.isfile": Files.is_file,
+    "os.path.relpath": _relative,
+    "os.walk": lambda files, top, **_: files.walk(top),
+    "pathlib.Path.absolute": lambda _, owner: FilePath(posixpath.join(ROOT, owner)),
+    "pathlib.Path.exists": Files.exists,
+    "pathlib.Path.glob": _path_glob,
+    "pathlib.Path.is_dir": Files.is_folder,
+    "pathlib.Path.is_file": Files.is_file,
+    "pathlib.Path.iterdir": lambda files, owner: [FilePath(posixpath.join(owner, name)) for name in files.names(owner) or ()],
+    "pathlib.Path.resolve": lambda _, owner: FilePath(_absolute(owner)),
+    "pathlib.Path.rglob": lambda files, owner, pattern: _path_glob(files, posixpath.join(owner, "**"), pattern),
+    "setuptools.find_namespace_packages": partial(_find_packages, namespaces=True),
+    "setuptools.find_packages": _find_packages,
+}
+
+
+def _variable(call: Call) -> Value:
+    name = plain(call.get(0, "key"))
+    known = ROS_2.get(name) if isinstance(name, str) else None
+    return Unknown("an environment variable") if known is None else known
+
+
+def _exit(_: Call) -> Value:
+    raise ProgramRaised("SystemExit", deliberate=True)
+
+
+_FUNCTIONS: dict[str, Rule] = {
+    **PYTHON,
+    **PATH_FUNCTIONS,
+    **dict.fromkeys(("builtins.exit", "builtins.quit", "sys.exit"), _exit),
+    **dict.fromkeys(("os.makedirs", "os.mkdir"), nothing),
+    "os.getcwd": lambda _: ROOT,
+    "os.getenv": _variable,
+    "os.path.abspath": on_path(_absolute),
+    "pathlib.Path.cwd": lambda _: FilePath(ROOT),
+}

@@ -1,244 +1,166 @@
-"""Values in the evaluation of a setup.py: values of Python, and classes for unknown values."""
+"""Values of the options of setup(): decided as far as possible, with the origins of texts and of unknown values."""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeGuard
+from collections.abc import Iterable, Mapping
+from functools import reduce
+from typing import Final
 
 from ros_lint.base.text import Span
-from ros_lint.base.wildcards import LONGEST
+from ros_lint.collectors.python.interpreter.values import (
+    Conditions,
+    Globbed,
+    Guarded,
+    Union,
+    Unknown,
+    Value,
+    alternatives,
+    around,
+    globbed,
+    plain,
+)
+from ros_lint.collectors.setup_py.interpreter.expression_text import at
+from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
 
-if TYPE_CHECKING:
-    from pathlib import PurePosixPath
-
-Value = Any
-"""A value of Python (str, number, None, container, PurePosixPath), or one of the classes below."""
-
-
-class Unknown:
-    """An unknown value. As an element of a list it means any number of unknown elements."""
-
-    __slots__ = ("node", "reason")
-
-    def __init__(self, reason: str, node: ast.AST | Span | None) -> None:
-        self.reason = reason
-        """A clause without subject, such as "os.environ is not known"."""
-        self.node = node
-
-
-REST = "\ue002"
+REST: Final = UNKNOWN
 """The key of a dict for all unknown keys. Its value is an Unknown."""
 
 
-class Maybe:
-    """An element of a list that may be missing, because its presence depends on something unknown."""
-
-    __slots__ = ("value",)
-
-    def __init__(self, value: Value) -> None:
-        self.value = value
-
-
 class Word(str):
-    """A text with its origin: an expression of setup.py, or a place in another file."""
+    """A text with its place in a configuration file."""
 
     __slots__ = ("node",)
-    node: ast.AST | Span
+    node: Span
 
     @classmethod
-    def at(cls, text: str, node: ast.AST | Span) -> Word:
+    def at(cls, text: str, node: Span) -> Word:
         word = cls(text)
         word.node = node
         return word
 
 
-class Globbed(list[Value]):
-    """The unchanged result of one glob."""
-
-    __slots__ = ("pattern",)
-    pattern: str
-
-
-def globbed(pattern: str, paths: list[Value]) -> Globbed:
-    """Return paths as the result of a glob pattern."""
-    found = Globbed(paths)
-    found.pattern = pattern
-    return found
-
-
-class Module(NamedTuple):
-    """An imported module, or a submodule, by its dotted name."""
-
-    name: str
-
-
-class Native(NamedTuple):
-    """A function or method with a model, by its name, such as ``os.path.join``.
-
-    The owner is the value of a method.
-    """
-
-    name: str
-    owner: Value = None
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Native) and self.name == other.name and self.owner is other.owner
-
-    def __hash__(self) -> int:
-        return hash(self.name)
-
-    def __repr__(self) -> str:
-        return f"<function {self.name}>"
-
-
-class Function(NamedTuple):
-    """A function of setup.py itself."""
-
-    node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
-    scopes: tuple[dict[str, Value], ...]
-    """The scopes in which it is defined, innermost first."""
-    defaults: tuple[Value, ...]
-    keyword_defaults: tuple[Value, ...]
-
-    def __eq__(self, other: object) -> bool:
-        return self is other
-
-    def __hash__(self) -> int:
-        return id(self)
-
-    def __repr__(self) -> str:
-        return "<function>"
-
-
-class Class(NamedTuple):
-    """A class that setup.py defines. Only its name is known."""
-
-    name: str
-
-
 LARGEST: Final = 1 << 25
-"""Characters of a value that is followed. A list that holds another one twice, and so on, is larger than the memory."""
+"""Characters of a value that is followed. A list that contains another one twice, and so on, is larger than the memory."""
 _DEEPEST: Final = 50
-"""Containers in each other of a value that is followed. Python itself cannot hash a tuple of any depth."""
+"""The maximum nesting depth of containers in a value that is followed."""
 _ELEMENT: Final = 128
 """Characters that an element of a container counts for."""
 
 
-def size_of(values: Iterable[Value]) -> int:
-    """Return how many characters values count for, a container each time that it is there.
-
-    The number is larger than LARGEST for values that are too large or too deep to be followed, which are not measured whole.
-    """
+def is_followed(values: Iterable[Value]) -> bool:
+    """Return whether values are neither too large nor too deep, if a container counts at each place that contains it."""
     size = 0
     level = [*values]
     for _ in range(_DEEPEST):
-        size += sum(map(_own_size, level))
+        size += sum(len(value) if isinstance(value, str) else _ELEMENT * len(_inner(value)) for value in level)
         if size > LARGEST:
-            return size
+            return False
         level = [item for value in level for item in _inner(value)]
         if not level:
-            return size
-    return LARGEST + 1
+            return True
+    return False
 
 
-def _own_size(value: Value) -> int:
-    return len(value) if isinstance(value, str) else _ELEMENT * len(value) if _is_container(value) else 0
-
-
-def _inner(value: Value) -> Iterable[Value]:
-    """Return what a container holds."""
+def _inner(value: Value) -> tuple[Value, ...]:
+    """Return the values in a value."""
     if isinstance(value, dict):
-        return (*value, *value.values())
-    return value if _is_container(value) else ()
+        return tuple(value.values())
+    if isinstance(value, Guarded):
+        return (value.value,)
+    return tuple(value) if isinstance(value, (list, tuple)) else value.values if isinstance(value, Union) else ()
 
 
-def _is_container(value: Value) -> bool:
-    return isinstance(value, (list, dict, set, frozenset)) or type(value) is tuple
+def unknown_in(values: Iterable[Value], tests: Mapping[tuple[str, ...], ast.expr]) -> Unknown | None:
+    """Return the first of some values that is unknown or depends on an unknown condition, None if there is none.
 
-
-def followed(value: Value) -> Value:
-    """Return a value, something unknown in place of one that is too large."""
-    return value if size_of((value,)) <= LARGEST else Unknown("it is larger than is followed", None)
-
-
-def certain(value: Value) -> bool:
-    """Return whether nothing about a value is unknown."""
-    return size_of((value,)) <= LARGEST and _certain(value)
-
-
-def _certain(value: Value) -> bool:
-    if isinstance(value, (Unknown, Maybe)):
-        return False
-    if isinstance(value, dict):
-        return all(map(_certain, value.values()))
-    return all(map(_certain, value)) if _is_container(value) else True
-
-
-def unknown_in(values: Iterable[Value]) -> Unknown | None:
-    """Return the first of some values that is unknown, or partly so."""
-    values = [*values]
-    if size_of(values) > LARGEST:
-        return Unknown("it is larger than is followed", None)
-    return _unknown_in(values)
-
-
-def _unknown_in(values: Iterable[Value]) -> Unknown | None:
-    for value in values:
+    ``tests`` are the expressions that are tested, by the texts of their conditions.
+    """
+    waiting = [*values]
+    if not is_followed(waiting):
+        return Unknown("it is larger than is followed")
+    undecided = None
+    while waiting:
+        value = waiting.pop(0)
         if isinstance(value, Unknown):
             return value
-        if isinstance(value, Maybe):
-            return Unknown("it depends on something that is not known", getattr(value.value, "node", None))
-        if _is_container(value):
-            inner = _unknown_in(value.values() if isinstance(value, dict) else value)
-            if inner:
-                return inner
-    return None
+        if isinstance(value, (Guarded, Union)) and undecided is None:
+            undecided = _undecided(value, tests)
+        waiting[:0] = _inner(value)
+    return undecided
 
 
-def located(value: Value, node: ast.AST) -> Value:
-    """Return a value with ``node`` as the origin of its text, or of the texts in its list or tuple."""
-    if type(value) is str:
-        return Word.at(value, node)
-    if isinstance(value, list):
-        value[:] = [Word.at(item, node) if type(item) is str else item for item in value]
-    elif type(value) is tuple:
-        return tuple(Word.at(item, node) if type(item) is str else item for item in value)
-    return value
+def _undecided(value: Value, tests: Mapping[tuple[str, ...], ast.expr]) -> Unknown:
+    for alternative in alternatives(value):
+        for condition in alternative.conditions:
+            test = tests.get(condition.texts)
+            if test is not None:
+                return Unknown(f"the condition {at(test)} is not known", None, test)
+    return Unknown("it depends on something that is not known")
 
 
-def same(left: Value, right: Value) -> bool:
+class Deciding:
+    """Decides which alternatives of values hold under conditions."""
+
+    def __init__(self, conditions: Conditions, tests: Mapping[tuple[str, ...], ast.expr]) -> None:
+        self._conditions = conditions
+        self._tests = tests
+
+    def option(self, value: Value) -> Value:
+        """Return a value without unions, with Guarded only around elements that may be missing."""
+        return self._of(value) if is_followed((value,)) else Unknown("it is larger than is followed")
+
+    def _of(self, value: Value) -> Value:
+        value = plain(value)
+        if isinstance(value, Union):
+            return self._of_union(value)
+        if isinstance(value, list):
+            elements = [element for element in map(self._element, value) if element is not None]
+            return globbed(value.pattern, elements) if isinstance(value, Globbed) else elements
+        if isinstance(value, tuple):
+            return tuple(map(self._of, value))
+        if isinstance(value, dict):
+            return {key: self._of(item) for key, item in value.items()}
+        return Unknown("a part of it is not known") if isinstance(value, str) and UNKNOWN in value else value
+
+    def _element(self, value: Value) -> Value:
+        """Return an element of a list, Guarded if it may be missing; None if it is missing."""
+        if not isinstance(value, Guarded):
+            return self._of(value)
+        conditions = around(value)
+        if not are_consistent((*self._conditions, *conditions)):
+            return None
+        inner = self._of(value)
+        missing = [condition for condition in conditions if condition not in self._conditions]
+        return Guarded(inner, tuple(missing)) if missing and not isinstance(inner, Unknown) else inner
+
+    def _of_union(self, value: Union) -> Value:
+        values: list[Value] = []
+        for alternative in alternatives(value):
+            conditions = (*self._conditions, *alternative.conditions)
+            if are_consistent(conditions):
+                values.append(Deciding(conditions, self._tests)._of(alternative.value))
+        if not values:
+            return Unknown("it has no value")
+        if all(_same(values[0], other) for other in values):
+            return values[0]
+        if all(isinstance(other, list) for other in values):
+            return reduce(_merged, values)
+        return unknown_in(values, {}) or _undecided(value, self._tests)
+
+
+def _same(left: Value, right: Value) -> bool:
     """Return whether two values are known to be equal."""
-    return left is right or (certain(left) and certain(right) and type(left) is type(right) and bool(left == right))
+    return left is right or (unknown_in((left, right), {}) is None and type(left) is type(right) and bool(left == right))
 
 
-def either(left: Value, right: Value, unknown: Unknown) -> Value:
-    """Return the value that represents one of two values, chosen by an unknown condition."""
-    if same(left, right):
-        return left
-    if isinstance(left, list) and isinstance(right, list):
-        return merged(left, right)
-    return unknown
-
-
-def merged(left: list[Value], right: list[Value]) -> list[Value]:
-    """Return a list that represents one of two lists: their common start, then other elements as Maybe."""
-    shared = 0
-    while shared < min(len(left), len(right)) and same(left[shared], right[shared]):
-        shared += 1
-    rest = [*left[shared:], *right[shared:]]
-    return [*left[:shared], *(item if isinstance(item, (Maybe, Unknown)) else Maybe(item) for item in rest)]
-
-
-def path_of(*parts: Value) -> PurePosixPath:
-    """Return a path as pathlib.Path() makes it. Raises TypeError as that does, and ValueError for one that is too long."""
-    if sum(len(str(part)) for part in parts) > LONGEST:
-        raise ValueError(parts)
-    from pathlib import PurePosixPath  # noqa: PLC0415  (it is slow to import, and few scripts want it)
-
-    return PurePosixPath(*parts)
-
-
-def is_path(value: Value) -> TypeGuard[PurePosixPath]:
-    """Return whether a value is a path of pathlib."""
-    return type(value).__name__ == "PurePosixPath"
+def _merged(left: list[Value], right: list[Value]) -> list[Value]:
+    """Return the list that represents two lists: their common start and end, and the other elements as conditional."""
+    start, end, shorter = 0, 0, min(len(left), len(right))
+    while start < shorter and _same(left[start], right[start]):
+        start += 1
+    while end < shorter - start and _same(left[-1 - end], right[-1 - end]):
+        end += 1
+    rest = [*left[start : len(left) - end], *right[start : len(right) - end]]
+    perhaps = [item if isinstance(item, (Guarded, Unknown)) else Guarded(item, ()) for item in rest]
+    return [*left[:start], *perhaps, *left[len(left) - end :]]

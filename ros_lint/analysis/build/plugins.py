@@ -1,0 +1,69 @@
+"""Plugins of pluginlib: registrations in the sources, descriptions, and the loaders that search for them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from ros_lint.analysis.build.commands import EXPORTING_PLUGINS, opaque_except_undefined_targets
+from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.base.auxiliary_files import is_auxiliary
+from ros_lint.facts.build import PluginFile
+from ros_lint.facts.sources import PluginLoader, Registration
+from ros_lint.facts.visibility import Facet
+from ros_lint.workspace.model import Package, Workspace
+
+
+class Plugins(NamedTuple):
+    """The plugins of a package."""
+
+    macros: Sequence[Registration]
+    """All registrations in the sources."""
+    registered: Sequence[Registration]
+    """Registrations of plugins that need a description, without tests and examples."""
+    installed: Sequence[PluginFile]
+    """Descriptions that are installed."""
+    uninstalled: Sequence[PluginFile]
+    """Other descriptions, without those of tests and examples."""
+    exports: bool
+    """True if the build script exports descriptions."""
+
+
+_NEEDED = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
+
+
+def plugins(package: Package) -> Plugins | None:
+    """Return the plugins of a package, None if its libraries or installed files cannot be fully analysed."""
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, _NEEDED):
+        return None
+    macros = [macro for macro in package.registrations if macro.kind == "plugin"]
+    registered = [
+        macro for macro in macros if not (is_auxiliary(package.relative(macro.span.path)) or _needs_no_description(macro))
+    ]
+    used = [plugin for plugin in script.files.plugin_files if not is_auxiliary(plugin.path)]
+    return Plugins(
+        macros,
+        registered,
+        [plugin for plugin in used if plugin.path in script.products.installed],
+        [plugin for plugin in used if plugin.path not in script.products.installed],
+        EXPORTING_PLUGINS in script.commands.names or any(package.calls(EXPORTING_PLUGINS, anywhere=True)),
+    )
+
+
+def _needs_no_description(macro: Registration) -> bool:
+    """Return whether a registered class needs no description: nodelets of ROS 1, and components registered as in Crystal.
+
+    A package may contain sources for ROS 1 and ROS 2; those for ROS 1 are not built here.
+    """
+    return macro.base.startswith("nodelet::") or macro.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
+
+
+@cached_by_workspace
+def plugin_loaders(workspace: Workspace) -> Mapping[str, Sequence[PluginLoader]]:
+    """Return the loaders of all packages by the base class of the plugins that they load."""
+    loaders: dict[str, list[PluginLoader]] = {}
+    for package in workspace.packages:
+        for loader in package.loaders:
+            loaders.setdefault(loader.base, []).append(loader)
+    return loaders

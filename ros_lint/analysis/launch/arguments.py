@@ -1,0 +1,63 @@
+"""Launch arguments compared with the launch configurations that are read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from ros_lint.analysis.launch.configurations import include_tree, read_sites, required_configurations
+from ros_lint.analysis.launch.includes import include_resolver
+from ros_lint.base.suggestions import similar_names
+from ros_lint.base.text import Span
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.workspace.model import Workspace
+
+_DIGITS = re.compile(r"\d+")
+
+
+class SimilarRead(NamedTuple):
+    """A configuration that is read with a default but never declared."""
+
+    span: Span
+    """The first place where it is read."""
+    declared: str
+    """The declared argument with a similar name."""
+
+
+class ArgumentUse(NamedTuple):
+    """The arguments that a launch file declares and the configurations that it reads, where they do not match."""
+
+    declared: Mapping[str, Span]
+    """All arguments that the file declares."""
+    undeclared: Mapping[str, Span]
+    """Configurations that it reads without a default, although nothing declares or sets them."""
+    similar: Mapping[str, SimilarRead]
+    """Undeclared configurations that it reads with a default, if it declares an argument with a similar name."""
+    unused: frozenset[str]
+    """Declared arguments that neither the file nor an included or including file reads."""
+
+
+def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
+    """Return how a launch file uses its arguments, None if other files may use or declare them in unknown ways."""
+    tree, resolver = include_tree(workspace), include_resolver(workspace)
+    own = tree.names(file)
+    if workspace.unread() or not own.whole or not resolver.takes(file).complete:
+        return None
+    above = tree.above(file)
+    inside = frozenset().union(*(resolver.takes(inner).known for inner in resolver.includes(file)))
+    known = {*own.declared, *own.made}.union(*([*names.declared, *names.made] for names in above))
+    unknown = own.asked - known - inside
+    undeclared = required_configurations(file, unknown) if unknown else {}
+    similar = _similar(file, unknown - undeclared.keys() - tree.made, own.declared)
+    unused = own.declared.keys() - own.asked.union(inside, *(names.asked for names in above))
+    return ArgumentUse(own.declared, undeclared, dict(similar), frozenset(unused))
+
+
+def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, SimilarRead]]:
+    """Yield the names that are read with a default and resemble a declared argument with the same digits."""
+    for (name, has_default), span in read_sites(file, names).items() if names else ():
+        digits = _DIGITS.findall(name)
+        near = similar_names(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
+        if has_default and near:
+            yield name, SimilarRead(span, near[0])

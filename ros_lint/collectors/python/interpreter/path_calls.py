@@ -1,0 +1,47 @@
+"""Models of the functions of os.path and the classes of pathlib that do not look at files."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Callable, Mapping
+
+from ros_lint.collectors.python.interpreter.calls import Call, Rule
+from ros_lint.collectors.python.interpreter.path_functions import split, split_suffix
+from ros_lint.collectors.python.interpreter.values import FilePath, Value, guarded_text, union
+from ros_lint.collectors.symbolic_text import joined
+
+
+def _join(call: Call) -> Value:
+    for argument in call.arguments:
+        call.machine.record_misuse(argument, "joined", call.node, call.frame)
+    rows = [call.texts(position) for position in range(len(call.arguments))]
+    return call.result(joined(rows, lambda row: posixpath.join("", *row)))
+
+
+def on_path(function: Callable[[str], str]) -> Rule:
+    """Return the model of a function from a path to a text."""
+    return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
+
+
+def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
+    return lambda call: union(guarded_text(text, function(text)) for text in call.texts(0))
+
+
+def new_path(call: Call) -> Value:
+    """Return a path of pathlib."""
+    rows = [call.texts(position) for position in range(len(call.arguments))]
+    paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
+    return union(guarded_text(text, FilePath(text)) for text in paths)
+
+
+PATH_FUNCTIONS: Mapping[str, Rule] = {
+    "os.path.join": _join,
+    "os.path.basename": on_path(lambda path: split(path)[1]),
+    "os.path.dirname": on_path(lambda path: split(path)[0]),
+    "os.path.normpath": on_path(posixpath.normpath),
+    "os.path.split": _split(split),
+    "os.path.splitext": _split(split_suffix),
+    "os.fspath": on_path(str),
+    **dict.fromkeys(("pathlib.Path", "pathlib.PurePath", "pathlib.PosixPath", "pathlib.PurePosixPath"), new_path),
+}
+"""The models of functions, by their full names."""

@@ -1,0 +1,47 @@
+"""Short texts of expressions, for the reasons of unknown values."""
+
+from __future__ import annotations
+
+import ast
+from typing import Any
+
+
+def at(node: ast.AST | None) -> str:
+    """Return a short text of an expression, for use in a reason."""
+    text = ast.unparse(_shown(node, _DEEPEST)) if node is not None else "it"
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+_DEEPEST = 30
+"""Greatest depth of an expression that is shown."""
+
+
+def _shown(node: ast.AST, levels: int) -> ast.AST:
+    """Return a copy of a node to unparse.
+
+    F-strings are replaced, because ast.unparse() writes them differently in each version of Python. Nodes that are nested too
+    deeply become ``...``.
+    """
+    if isinstance(node, (ast.JoinedStr, ast.FormattedValue)):
+        return ast.Name(_template(node))
+    if levels <= 0 and isinstance(node, ast.expr):
+        return ast.Name("...")
+    return type(node)(**{name: _shown_in(value, levels - 1) for name, value in ast.iter_fields(node)})
+
+
+def _shown_in(value: Any, levels: int) -> Any:
+    if isinstance(value, list):
+        return [_shown_in(item, levels) for item in value]
+    return _shown(value, levels) if isinstance(value, ast.AST) else value
+
+
+def _template(node: ast.JoinedStr | ast.FormattedValue) -> str:
+    """Return the source of an f-string, the same in each version of Python."""
+    parts = []
+    pieces: list[ast.expr] = node.values if isinstance(node, ast.JoinedStr) else [node]
+    for part in pieces:
+        if isinstance(part, ast.FormattedValue):
+            parts.append(f"{{{at(part.value)}}}")
+        else:
+            parts.append(str(getattr(part, "value", "")))
+    return f"f{''.join(parts)!r}"

@@ -1,0 +1,60 @@
+"""Rules that were divided or removed, so that messages can name what replaces them.
+
+A former name or code selects and suppresses nothing. It is an error in settings and on the command line, and a finding of
+``unknown-rule-in-suppression`` in a comment.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class FormerRule(NamedTuple):
+    """A rule that no longer exists."""
+
+    name: str
+    code: str
+    successors: tuple[str, ...] = ()
+    """The rules into which it was divided; empty if it was removed."""
+
+    @property
+    def fate(self) -> str:
+        """What became of the rule: completes "rule 'x'"."""
+        *others, last = (f"'{name}'" for name in self.successors or ("",))
+        return f"was divided into {', '.join(others)} and {last}" if others else "was removed"
+
+
+FORMER = (
+    FormerRule("dead-group", "ROS118"),
+    FormerRule("flattened-duplicates", "ROS414"),
+    FormerRule(
+        "cmake-hygiene",
+        "ROS310",
+        (
+            "old-cmake-version",
+            "find-package-without-required",
+            "duplicate-find-package",
+            "overwritten-cmake-variable",
+            "include-find-module",
+            "link-directories",
+        ),
+    ),
+    FormerRule(
+        "launch-argument",
+        "ROS507",
+        (
+            "launch-missing-argument",
+            "launch-unknown-argument",
+            "launch-undeclared-configuration",
+            "launch-used-before-declaration",
+            "launch-invalid-default",
+            "launch-invalid-expression",
+            "launch-unused-argument",
+        ),
+    ),
+)
+
+
+def former_rule(selector: str) -> FormerRule | None:
+    """Return the former rule with this name or code, in upper or lower case."""
+    return next((rule for rule in FORMER if selector.lower() in (rule.name, rule.code.lower())), None)

@@ -1,0 +1,54 @@
+"""
+## What it finds
+
+Components that CMake registers in a function or in the `CMakeLists.txt` of a subfolder.
+
+## Why it matters
+
+The registration is a CMake variable, which `ament_package()` writes to the ament index. A variable set in a function or subfolder
+is lost at its end. `ros2 component load` and `ComposableNode` fail with "Could not find requested resource in ament index".
+
+## How to fix it
+
+Register components in the `CMakeLists.txt` of the package, or in a macro instead of a function.
+
+## Limitations
+
+Packages whose components cannot be fully analysed are not reported. The confidence is medium for registrations under a condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, first_related
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    if package.builds_with != "ament_cmake" or package.hidden(Facet.COMPONENTS):
+        return
+    seen = {component.name for component in package.built.products.components if not component.unregistered}
+    outside = {component.name: component for component in package.built.products.components if component.name not in seen}
+    if not outside:
+        return
+    first, *others = outside.values()
+    more = f" and {len(others)} more" if others else ""
+    yield Finding(
+        f"'{first.name}'{more}: registered in the scope of a function or subfolder, so ament_package() does not write it to the "
+        "index; register it in the top CMakeLists.txt",
+        first.span,
+        first.name,
+        first_related(Related("also registered in a function or subfolder", other.span) for other in others),
+        confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
+    )
+
+
+RULE = Rule(
+    name="component-scope",
+    code="ROS423",
+    summary="components are registered in the scope of ament_package()",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

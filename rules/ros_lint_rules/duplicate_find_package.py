@@ -1,0 +1,45 @@
+"""
+## What it finds
+
+The same `find_package()` call twice.
+
+## Why it matters
+
+The second call has no effect. If one of them is changed or removed, the other remains.
+
+## How to fix it
+
+Remove one of the calls.
+
+## Limitations
+
+Calls with different arguments, such as other components, are not reported.
+The rule is off by default. Calls in conditions, loops and functions are not reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Call, Finding, Package, Related, Rule, Severity, Workspace, build
+
+
+def check(package: Package, _: Workspace) -> Iterator[Finding]:
+    first: dict[tuple[str, ...], Call] = {}
+    for call in build.unconditional_calls(package, "find_package"):
+        earlier = first.setdefault(call.texts, call)
+        if earlier is not call:
+            message = f"'{call.texts[0]}' is already found with the same arguments; remove one of the two calls"
+            yield Finding(message, call.name_span, call.texts[0], (Related("the first call", earlier.name_span),))
+
+
+RULE = Rule(
+    name="duplicate-find-package",
+    code="ROS317",
+    summary="each package is found once",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    default=False,
+    package=check,
+)

@@ -1,0 +1,86 @@
+"""
+## What it finds
+
+- A launch configuration that is read although nothing declares or sets it.
+- A launch configuration that is read with a default although nothing declares or sets it, while an argument of nearly the same
+  name is declared.
+
+## Why it matters
+
+The launch file stops: `launch configuration 'x' does not exist`. Only `LaunchConfigurationEquals` continues, and is never true. A
+configuration with a default that is read under another name than that of its declaration always has this default.
+
+## How to fix it
+
+Correct the name, or declare the argument.
+
+## Limitations
+
+Not reported:
+
+- Configurations of a file that computes the names of the configurations it reads.
+- Configurations of a file with more than two undeclared ones, because it is a part of other launch files.
+- Files that include a launch file from outside the workspace, and all files if a file of the workspace cannot be read, because it
+  may include them.
+- Configurations read with a default, if any launch file of the workspace sets or passes them, or if the name differs from the
+  declared one in a number.
+
+Reported with medium confidence:
+
+- One or two undeclared configurations, unless the name is nearly that of a declared argument.
+- Configurations read with a default, if the declared argument is used as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, launch, names
+
+_MOST_MISSING = 2
+"""A file that reads more undeclared configurations is assumed to be a part of a file that sets them."""
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    for launch_file in launch.package_launch_files(package):
+        if (arguments := launch.argument_use(launch_file.file, workspace)) is not None:
+            included = bool(launch.include_tree(workspace).above(launch_file.file))
+            yield from _undeclared(arguments, included=included)
+            yield from _similar(arguments)
+
+
+def _undeclared(arguments: launch.ArgumentUse, *, included: bool) -> Iterator[Finding]:
+    """Yield the findings for configurations read without a default; ``included``: another file includes this one."""
+    for name, span in arguments.undeclared.items() if len(arguments.undeclared) <= _MOST_MISSING else ():
+        near = names.similar_names(name, sorted(arguments.declared), 1, 0.85)
+        yield Finding(
+            f"launch configuration '{name}' is read, but nothing declares or sets it{names.did_you_mean(near)}",
+            span,
+            name,
+            confidence=Confidence.HIGH if near and not included else Confidence.MEDIUM,
+        )
+
+
+def _similar(arguments: launch.ArgumentUse) -> Iterator[Finding]:
+    for name, read in arguments.similar.items():
+        unused = read.declared in arguments.unused
+        yield Finding(
+            f"launch configuration '{name}' is read but never declared, so the default here always applies; "
+            f"did you mean '{read.declared}', which is declared{' but not used' if unused else ''}?",
+            read.span,
+            name,
+            (Related("declared here", arguments.declared[read.declared]),),
+            confidence=Confidence.HIGH if unused else Confidence.MEDIUM,
+            severity=Severity.WARNING,
+        )
+
+
+RULE = Rule(
+    name="launch-undeclared-configuration",
+    code="ROS515",
+    summary="launch configurations that are read are declared or set",
+    severity=Severity.ERROR,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)

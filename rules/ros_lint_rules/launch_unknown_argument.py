@@ -1,0 +1,86 @@
+"""
+## What it finds
+
+An include that passes an argument which neither the included launch file nor any file included from there declares or uses.
+
+## Why it matters
+
+The argument has no effect, without a message. It was renamed or removed in the included file, so the default applies again.
+
+## How to fix it
+
+Correct the name, or remove the argument.
+
+## Limitations
+
+Not reported:
+
+- Includes whose file or arguments cannot be determined from the launch files alone, and arguments that are passed under an
+  unknown condition, such as what a function finds out about the included file.
+- Arguments passed to a file that includes a launch file from outside the workspace, because that file may use or declare them.
+- Arguments that something later in the same scope may read, such as a launch file from outside the workspace. A passed argument
+  stays set until the end of the enclosing scoped group.
+
+The confidence is medium if the included file fills in parameters from launch configurations, or if something later in a file
+that includes this one may read the argument. It stays high in the second case if the name resembles an argument that is not
+passed.
+
+The severity is info, or warning if the name resembles an argument that is not passed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros_lint.api import Confidence, Finding, LaunchFile, Package, Rule, Severity, Span, Workspace, launch, names
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    for launch_file in launch.package_launch_files(package):
+        for include in launch.includes(launch_file.file):
+            yield from _of_include(include, launch_file.file, workspace)
+
+
+def _of_include(include: launch.PlacedInclude, source: LaunchFile, workspace: Workspace) -> Iterator[Finding]:
+    action, resolver, leaks = include.action, launch.include_resolver(workspace), launch.scope_leaks(workspace)
+    target = resolver.target(action.target, source)
+    places = action.argument_spans or [value.span for _, value in action.arguments]
+    passed = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
+    if target is None or not all(launch.is_plain(name) for name in passed):
+        return
+    takes = resolver.takes(target.file)
+    file = f"{target.package.name}/{target.path}"
+    filled = {name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read}
+    sure = not launch.include_tree(workspace).fill(target.file)
+    for name, place in passed.items() if takes.complete else ():
+        if name in takes.known or name in action.conditional_arguments or (name in filled and not sure):
+            continue
+        if not leaks.is_taken_later(name, include, source):
+            alone = not leaks.is_taken_above(name, include, source)
+            yield _useless(file, name, place, takes.known - passed.keys(), sure=sure, alone=alone)
+
+
+def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, sure: bool, alone: bool) -> Finding:
+    """Return the finding for an argument without effect. If it resembles an argument that is not passed, it was renamed.
+
+    ``alone``: no file includes the passing file and later contains something that may read the argument.
+    """
+    near = names.similar_names(name, not_passed, 1, 0.85)
+    return Finding(
+        f"'{file}' does not use the argument '{name}', so it has no effect{names.did_you_mean(near) or '; remove it'}",
+        place,
+        f"{file}:{name}",
+        confidence=Confidence.HIGH if sure and (near or alone) else Confidence.MEDIUM,
+        severity=None if near else Severity.INFO,
+    )
+
+
+RULE = Rule(
+    name="launch-unknown-argument",
+    code="ROS514",
+    summary="includes pass only arguments that the included launch files use",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    package=check,
+)
