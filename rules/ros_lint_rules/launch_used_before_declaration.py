@@ -48,7 +48,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     for launch_file in launch.package_launch_files(package):
         above = launch.include_tree(workspace).above(launch_file.file)
-        known = {name for configurations in above for name in (*configurations.made, *configurations.declared)}
+        known = {name for configurations in above for name in (*configurations.set_or_passed, *configurations.declared)}
         yield from _too_early(launch_file.file, launch.include_resolver(workspace), known)
 
 

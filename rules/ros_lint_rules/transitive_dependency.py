@@ -76,14 +76,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     misnamed = dependencies.intended_names(package, workspace)
     misplaced = {lack.need.name for lack in dependencies.misplaced(package, workspace)}
     for need in dependencies.needs(package, workspace):
-        if need.declared or not need.brought or need.name in unused or need.name in misplaced or _is_command(need):
+        if need.declared or not need.is_transitive or need.name in unused or need.name in misplaced or _is_command(need):
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
         if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
             yield _finding(package, workspace, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
-        if wish.brought and not _is_command(wish):
+        if wish.is_transitive and not _is_command(wish):
             yield _finding(package, workspace, wish, Confidence.LOW)._replace(fix=None)
 
 

@@ -120,7 +120,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         uses = (*lack.uses, *(use for use in lack.need.uses if use not in lack.uses))
         yield _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
     for wish in dependencies.optional_needs(package, workspace):
-        if not wish.brought:
+        if not wish.is_transitive:
             problem = "is used here if it is available, but package.xml does not declare it"
             yield _finding(package, workspace, wish, problem, Confidence.LOW)._replace(fix=None)
 

@@ -75,7 +75,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
       distribution and none was chosen.
     """
     every = needs(package, workspace)
-    waiting = [need for need in every if need.brought and not need.declared]
+    waiting = [need for need in every if need.is_transitive and not need.declared]
     if not waiting or is_for_tests(package.name):
         return ()
     unguarded = unguarded_tests(package)

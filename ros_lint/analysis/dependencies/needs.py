@@ -28,7 +28,7 @@ class Need(NamedTuple):
     """The places where it is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
     """Declared names that satisfy the need, in whatever tag. () if it is not declared."""
-    brought: bool
+    is_transitive: bool
     """True if a declared dependency provides the need transitively."""
 
     @property
