@@ -79,7 +79,7 @@ def collect(source: Text) -> Manifest:
 class _PackageContent:
     """The contents of ``<package>``; ``doubtful`` if an element may have invalid attributes or children."""
 
-    __slots__ = ("asides", "depends", "doubtful", "elements", "exports", "strays")
+    __slots__ = ("depends", "doubtful", "elements", "exports", "other_contents", "stray_text")
 
     def __init__(self) -> None:
         self.elements: list[Element] = []
