@@ -63,7 +63,7 @@ def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collec
             for name in action.target.texts:
                 declared.setdefault(name, (index, action.span))
     places: dict[tuple[str, bool | None], list[tuple[Span, bool]]] = {}
-    for early in _asked_early(file, resolver, {name: at for name, (at, _) in declared.items()}, above):
+    for early in _read_early(file, resolver, {name: at for name, (at, _) in declared.items()}, above):
         places.setdefault((early.name, early.holds), []).append((early.span, early.sure))
     for (name, holds), reads in places.items():
         (first, _), *others = reads
@@ -96,10 +96,13 @@ class _Early(NamedTuple):
 _OUTCOMES = {None: "the launch file stops", False: "the condition is never true", True: "the condition is always true"}
 
 
-def _asked_early(
+def _read_early(
     file: LaunchFile, resolver: launch.IncludeResolver, declared: Mapping[str, int], above: Collection[str]
 ) -> Iterator[_Early]:
-    """Yield the configurations that are read before their declaration; ``declared``: the index of the declaring action."""
+    """Yield the configurations that are read before their declaration.
+
+    ``declared`` has the index of the declaring action, by name.
+    """
     known = set(above)
     part = bool(resolver.takes(file).required)
     for index, action in enumerate(file.actions):

@@ -54,9 +54,22 @@ There is also no fix if no rosdep key resolves for the distribution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 
-from ros_lint.api import Confidence, Finding, Package, Related, Role, Rule, Severity, Workspace, dependencies, first_related
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    Package,
+    Related,
+    Role,
+    Rule,
+    Severity,
+    Workspace,
+    cached_by_package,
+    dependencies,
+    first_related,
+)
 
 _LAUNCHER = "ros2launch"
 _LINTERS = "ament_lint_common"
@@ -139,16 +152,30 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
 def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
     """Return the dependencies that lead to a need, from a declared one that serves the same purpose if possible."""
     best = need.uses[0]
-    purpose = next((roles for roles in _PURPOSES if best.role & roles), ~Role(0))
-    same = [declared.name for declared in package.declared if declared.role & purpose]
-    for starts in (dict.fromkeys(same), dict.fromkeys(declared.name for declared in package.declared)):
+    names = _declared_names(package, workspace)
+    for starts in (names[_purpose(best.role)], names[_ANY]):
         for name in sorted(best.providers, key=workspace.world.is_runtime_library):
             if path := workspace.world.path(starts, name):
                 return path
     return (need.name,)
 
 
-_PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT, Role.TEST | Role.TOOL)
+_ANY = ~Role(0)
+_PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT, Role.TEST | Role.TOOL, _ANY)
+
+
+@cache
+def _purpose(role: Role) -> Role:
+    """Return all roles that serve the purpose of a role: to build, to run or to test."""
+    return next(roles for roles in _PURPOSES if role & roles)
+
+
+@cached_by_package
+def _declared_names(package: Package, workspace: Workspace) -> Mapping[Role, Mapping[str, None]]:
+    """Return the declared names that serve each purpose, in the order of the manifest."""
+    return {
+        purpose: dict.fromkeys(declared.name for declared in package.declared if declared.role & purpose) for purpose in _PURPOSES
+    }
 
 
 RULE = Rule(

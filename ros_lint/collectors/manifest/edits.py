@@ -329,7 +329,7 @@ class _Layout:
 
 
 def _element_text(child: Element | Depend) -> str:
-    """Return an element in its usual notation."""
+    """Return the XML text of an element."""
     if isinstance(child, Depend):
         condition = (("condition", child.condition),) if child.condition else ()
         return _tagged(child.tag, (*child.versions, *condition), child.name)

@@ -68,7 +68,7 @@ class Distribution:
         self._scripts(options.get("scripts"))
         self._entry_points(options.get("entry_points"))
         if options.get("ext_modules"):
-            self.opaque.append(Opaque(Facet.PYTHON, "which modules an extension has is not followed", self._context.call))
+            self.opaque.append(Opaque(Facet.PYTHON, "the names of the modules of an extension are unknown", self._context.call))
         commands = options.get("cmdclass")
         if isinstance(commands, Unknown):
             self._hide(INSTALLED, commands)

@@ -121,7 +121,7 @@ class SetupLibrary:
         call = Call(interpreter, name, arguments, keywords, node, frame)
         if last == "setup":
             self._note_setup(call, module)
-            return Unknown("what setup() returns is not followed", None, node)
+            return Unknown("the result of setup() is not evaluated", None, node)
         rule = _FUNCTIONS.get(name) or self._functions.get(name) or self._functions.get(last)
         return rule(call) if rule is not None else Unknown(f"{last}()")
 
