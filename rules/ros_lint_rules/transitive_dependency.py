@@ -59,12 +59,14 @@ from functools import cache
 
 from ros_lint.api import (
     Confidence,
+    Facet,
     Finding,
     Package,
     Related,
     Role,
     Rule,
     Severity,
+    Use,
     Workspace,
     cached_by_package,
     dependencies,
@@ -87,6 +89,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     unused = {mention.name for mention in dependencies.unused_find_packages(package, workspace)}
     misnamed = dependencies.intended_names(package, workspace)
+    uses_are_hidden = package.hidden(Facet.USES)  # then a package that find_package() finds may be unused
     misplaced = {lack.need.name for lack in dependencies.misplaced(package, workspace)}
     for need in dependencies.needs(package, workspace):
         if need.declared or not need.is_transitive or need.name in unused or need.name in misplaced or _is_command(need):
@@ -94,10 +97,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
         if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
-            yield _finding(package, workspace, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
+            certain = need.sure and not (uses_are_hidden and all(map(_is_in_cmake, need.uses)))
+            yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
         if wish.is_transitive and not _is_command(wish):
             yield _finding(package, workspace, wish, Confidence.LOW)._replace(fix=None)
+
+
+def _is_in_cmake(use: Use) -> bool:
+    return use.span.path.endswith(("CMakeLists.txt", ".cmake"))
 
 
 def _is_command(need: dependencies.Need) -> bool:
