@@ -27,7 +27,7 @@ class UnresolvedDependency(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The name."""
+        """The declared name."""
         return self.declared.depend.name
 
     @property

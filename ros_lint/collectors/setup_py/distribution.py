@@ -31,7 +31,7 @@ _RESERVED_FOLDERS = frozenset(
 """Folders that the automatic discovery of setuptools does not treat as packages."""
 
 
-class Context(NamedTuple):
+class SetupContext(NamedTuple):
     """Data about the package that determines the installed files together with the options of setup()."""
 
     files: Files
@@ -49,7 +49,7 @@ class Distribution:
     ``place`` is a function from a value and a default to the span of the value; the default is for a value without a place.
     """
 
-    def __init__(self, context: Context, place: Callable[[Value, Span], Span]) -> None:
+    def __init__(self, context: SetupContext, place: Callable[[Value, Span], Span]) -> None:
         self._context = context
         self._place = place
         self.provides: list[InstalledFile] = []

@@ -21,7 +21,7 @@ from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import is_of_others, read, refusal, span_of
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.collectors.setup_py import setup_cfg as setup_cfg_collector
-from ros_lint.collectors.setup_py.distribution import INSTALLED, Context, Distribution
+from ros_lint.collectors.setup_py.distribution import INSTALLED, Distribution, SetupContext
 from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.library import Setup
 from ros_lint.collectors.setup_py.interpreter.program import Program
@@ -74,7 +74,7 @@ def evaluate(
     for setup in library.setups:
         call = place(setup, start)
         options = completed(setup.options, package_files, cfg, pyproject)
-        context = Context(package_files, executables, folder, call, len(library.setups) > 1)
+        context = SetupContext(package_files, executables, folder, call, len(library.setups) > 1)
         distribution = Distribution(context, place)
         distribution.read(options)
         if setup.module not in _PLAIN_SETUPS:
