@@ -125,9 +125,10 @@ def _read_early(
 
 
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
-    """Yield the texts of an action that launch evaluates, with place, whether under a condition, and outcome (see ``_Early``).
+    """Yield each text of an action that launch evaluates, its place, and whether it is under a condition.
 
-    Conditions are always evaluated. Those that compare a configuration continue if it is missing.
+    The fourth value is that of ``_Early.holds``. Conditions are always evaluated. Those that compare a configuration
+    continue if it is missing.
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]
