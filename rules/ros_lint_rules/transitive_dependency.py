@@ -49,6 +49,7 @@ Reported with low confidence, because packages rarely declare it:
 - Packages that launch files use and that a released metapackage contains.
 - Optional uses. They have no fix.
 
+The confidence is medium if a single find_package() names the package and no source does: the call may be unused.
 There is also no fix if no rosdep key resolves for the distribution.
 """
 
@@ -97,7 +98,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
         if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
-            certain = need.sure and not (uses_are_hidden and all(map(_is_in_cmake, need.uses)))
+            may_be_unused = all(map(_is_in_cmake, need.uses)) and (uses_are_hidden or len(need.uses) == 1)
+            certain = need.sure and not may_be_unused
             yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
         if wish.is_transitive and not _is_command(wish):
