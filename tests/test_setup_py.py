@@ -27,7 +27,7 @@ from tests.setup_scripts import FILES, HEAD, script
             Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON,
             "read_all() is not followed",
         ),
-        ("x = 1", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no call of setup() is seen"),
+        ("x = 1", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no call of setup() is found"),
         ("x = [1]\nfor i in x: x.append(i)\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "more steps"),
         ("def f(): return f()\nsetup(name='pkg', data_files=f())", Facet.SHARE | Facet.EXECUTABLES, "f() is not followed"),
         ("while True: pass\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "more steps"),

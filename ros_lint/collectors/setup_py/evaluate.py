@@ -117,7 +117,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
         python=SetupScript(newer_syntax=() if newer and is_of_others(source) else newer),
     )
     if program.end or not program.setup_library.setups:
-        reason = f"setup.py is not followed to its end: {program.end}" if program.end else "no call of setup() is seen"
+        reason = f"setup.py is not evaluated to its end: {program.end}" if program.end else "no call of setup() is found"
         return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
     return script
 
@@ -169,7 +169,8 @@ def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
     match = _BASE.match(option.value)
     if match and "$" not in match[1]:
         return posixpath.normpath(match[1]), None
-    return None, Opaque(Facet.EXECUTABLES, f"the folder {option.value} is not followed", option.span)
+    reason = f"the value '{option.value}' of install_scripts in setup.cfg cannot be evaluated"
+    return None, Opaque(Facet.EXECUTABLES, reason, option.span)
 
 
 _BASE = re.compile(r"\$\{?(?:base|prefix)\}?/(.*)\Z")
