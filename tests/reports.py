@@ -6,7 +6,7 @@ from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severit
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text, read
-from ros_lint.engine.report import BlindSpot, Crash, HiddenCount, Issue, Report
+from ros_lint.engine.report import OFF, UNSURE, BlindSpot, Crash, HiddenCount, Issue, Report
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 DOC = """
@@ -175,7 +175,11 @@ EVERYTHING = Report(
     target=TargetDistro("jazzy", "newest LTS"),
     data_date="2026-11-01",
     version="0.1.0",
-    hidden=(HiddenCount("of lower confidence (shown with --pedantic)", 4), HiddenCount("suppressed by comments", 1)),
+    hidden=(
+        HiddenCount(UNSURE, 4, (("transitive-dependency", 1), ("undeclared-dependency", 3))),
+        HiddenCount("suppressed by comments", 1),
+        HiddenCount(OFF, 6, (("dead-group", 1), ("transitive-dependency", 5))),
+    ),
     not_checked=(
         UnreadFile("the file", "Permission denied", Span("ws/secret/package.xml", 1, 1, 1, 1)),
         UnreadFile("unknown-dependency", "there is no index for distribution jazzy", None),

@@ -14,7 +14,7 @@ from ros_lint.base.tree import DiskTree
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Sources
-from ros_lint.collectors.cmake.evaluator.state import Frame
+from ros_lint.collectors.cmake.evaluator.state import CallFrame
 from ros_lint.collectors.cmake.evaluator.values import HOLE, TREE, is_fixed
 from ros_lint.collectors.cmake.syntax import parse
 from ros_lint.workspace.build_scripts.sources import Surroundings
@@ -97,7 +97,7 @@ def test_files_and_paths_equal_those_of_cmake(tmp_path: Path) -> None:
     for number, line in enumerate(lines):
         run = Run(Sources("p", "package", sorted(FILES), {}, outside=outside), "", {}, lambda *_: None)
         run.policy_version = (3, 20)
-        cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.absolute("CMakeLists.txt")))
+        cmake_flow.run_file(run, parse(Text("x", line)).commands, CallFrame(True, "", run.paths.absolute("CMakeLists.txt")))
         value = run.get("V") or ""
         unknown += HOLE in value
         if is_fixed(value) and value.replace(TREE, str(tree)) != real[str(number)]:
@@ -117,5 +117,5 @@ def test_files_and_paths_equal_those_of_cmake(tmp_path: Path) -> None:
 )
 def test_a_backslash_separates_folders_in_absolute_paths(line: str, expected: str) -> None:
     run = Run(Sources("p", "", (), {}), "", {}, lambda *_: None)
-    cmake_flow.run_file(run, parse(Text("x", line)).commands, Frame(True, "", run.paths.absolute("CMakeLists.txt")))
+    cmake_flow.run_file(run, parse(Text("x", line)).commands, CallFrame(True, "", run.paths.absolute("CMakeLists.txt")))
     assert run.get("V") == expected

@@ -19,7 +19,7 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Sources
-from ros_lint.collectors.cmake.evaluator.state import BudgetError, Frame, Variables
+from ros_lint.collectors.cmake.evaluator.state import BudgetError, CallFrame, Variables
 from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, strip_mark
 from ros_lint.collectors.cmake.syntax import parse
 from tests.cmake_writer import UNKNOWN, VARIABLES, Script, generate
@@ -54,7 +54,7 @@ def evaluated(script: Script) -> Outcome:
     run.scopes.append(Variables(ARGC="0", ARGN="", ARGV=""))  # the scripts run within a function
     for name in UNKNOWN:
         run.set(name, HOLE)
-    cmake_flow.run_file(run, parsed.commands, Frame(True, "", "/x"))
+    cmake_flow.run_file(run, parsed.commands, CallFrame(True, "", "/x"))
     return Outcome({name: run.get(name) for name in VARIABLES}, traces, certain)
 
 

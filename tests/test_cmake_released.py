@@ -8,7 +8,7 @@ import pytest
 
 from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.commands import ament as cmake_ros
-from ros_lint.collectors.cmake.commands.compiled_macros import Released, released, run_released
+from ros_lint.collectors.cmake.commands.compiled_macros import ReleasedMacros, released, run_released
 from ros_lint.collectors.cmake.evaluate import evaluate
 from ros_lint.collectors.cmake.evaluator.flow import call
 from ros_lint.collectors.cmake.evaluator.run import Run
@@ -26,7 +26,7 @@ WORDS = (
 )  # fmt: skip
 
 
-def _step_by_step(run: Run, macro: Released, args: list[str]) -> int:
+def _step_by_step(run: Run, macro: ReleasedMacros, args: list[str]) -> int:
     return run_released(run, macro, args) if macro.direct else call(run, macro.procedure, args)
 
 

@@ -11,7 +11,7 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Sources
-from ros_lint.collectors.cmake.evaluator.state import Frame
+from ros_lint.collectors.cmake.evaluator.state import CallFrame
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.syntax import parse
 from ros_lint.facts.build import BuildScript
@@ -503,7 +503,7 @@ def test_values_of_small_projects_equal_those_of_cmake(text: str, tmp_path: Path
     cmake_flow.run_file(
         evaluated_run,
         parsed["CMakeLists.txt"].commands,
-        Frame(True, "CMakeLists.txt", evaluated_run.paths.absolute("CMakeLists.txt")),
+        CallFrame(True, "CMakeLists.txt", evaluated_run.paths.absolute("CMakeLists.txt")),
     )
     known_values = {name: value or "" for name in "ABC" if (value := evaluated_run.get(name)) is None or is_known(value)}
     real = _configured(text, tmp_path)

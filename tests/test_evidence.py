@@ -122,7 +122,7 @@ def test_each_need_has_one_declaration() -> None:
             "find_package(nav_msgs REQUIRED)\nfind_package(shape_msgs QUIET)\nif(shape_msgs_FOUND)\nendif()",
         )
     )
-    result = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
+    result = {need.name: (need.declared, need.is_transitive) for need in needs(workspace.packages[0], workspace)}
     assert result["rclcpp"] == (("rclcpp",), True)
     assert result["std_msgs"] == ((), True)
     assert result["nav_msgs"] == ((), False)
@@ -133,7 +133,7 @@ def test_each_need_has_one_declaration() -> None:
 def test_a_key_provides_the_keys_of_its_system_dependencies() -> None:
     workspace = loaded(cmake("talker", "<depend>libpcl-all-dev</depend>", "find_package(Eigen3 REQUIRED)"))
     assert "eigen" not in [need.name for need, _ in undeclared(workspace.packages[0], workspace)]
-    assert [need.brought for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
+    assert [need.is_transitive for need in needs(workspace.packages[0], workspace) if need.name == "eigen"] == [True]
 
 
 @pytest.mark.parametrize(("declared", "used"), [("ament_auto_cmake", "ament_cmake_auto"), ("nimbus-msgs", "nimbus_msgs")])
@@ -199,7 +199,7 @@ def test_a_submodule_is_not_a_top_level_module() -> None:
 def test_a_package_that_provides_the_best_provider_is_not_a_provider() -> None:
     lines = "find_package(cv_bridge REQUIRED)\nfind_package(OpenCV REQUIRED)"
     workspace = loaded(cmake("talker", "<depend>cv_bridge</depend>", lines))
-    result = {need.name: (need.declared, need.brought) for need in needs(workspace.packages[0], workspace)}
+    result = {need.name: (need.declared, need.is_transitive) for need in needs(workspace.packages[0], workspace)}
     assert result["cv_bridge"] == (("cv_bridge",), True)
     assert result["libopencv-dev"] == ((), True)
 

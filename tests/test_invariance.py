@@ -99,7 +99,14 @@ def test_an_unreadable_file_adds_no_finding(case: Case) -> None:
         if path.endswith(("package.xml", "colcon.pkg", ".gitignore", ".gitmodules")) or path == "setup.py":
             continue  # what says where packages are and what they are called, and what only git reads
         after = Counter(issue[:2] for issue in found(Locked(case.files, path, case.executable), case, default=True).elements())
-        assert not after - before, path
+        assert not _weakened(after - before, before), path
+
+
+def _weakened(added: Counter[tuple[str, ...]], before: Counter[tuple[str, ...]]) -> Counter[tuple[str, ...]]:
+    """Return findings without those of ``transitive-dependency`` where a stronger rule reported the package before."""
+    return added - Counter(
+        {("transitive-dependency", *key[1:]): count for key, count in before.items() if key[0] == "undeclared-dependency"}
+    )
 
 
 OF_COLCON = ("dependency-cycle", "duplicate-package")

@@ -324,14 +324,19 @@ def test_facts_of_a_manifest() -> None:
         ("other", "", ""),
     ]
     text = Text("package.xml", SEEDS[0])
-    assert [text.slice(aside) for aside in manifest.asides] == ["<!-- the messages -->", "<!-- why -->"]
+    assert [text.slice(aside) for aside in manifest.other_contents] == ["<!-- the messages -->", "<!-- why -->"]
 
 
 def test_comments_and_texts_between_elements_are_listed() -> None:
     text = with_("<depend>a</depend> <!-- one\n two --> stray text\nmore", "<?pi x?><depend>b</depend>").replace("\n", "\r\n")
     manifest = of(text)
     source = Text("package.xml", text)
-    assert [source.slice(aside) for aside in manifest.asides] == ["<!-- one\r\n two -->", "stray text", "more", "<?pi x?>"]
+    assert [source.slice(aside) for aside in manifest.other_contents] == [
+        "<!-- one\r\n two -->",
+        "stray text",
+        "more",
+        "<?pi x?>",
+    ]
     assert manifest.newline == "\r\n"
     assert manifest.problems == ()
 

@@ -35,8 +35,8 @@ _SECONDS: Final = 2.0
 
 _TABLE: Final = (
     # expression, how it is used, prefix, repeated part, suffix
-    ("ros_lint.base.auxiliary_files._KEPT", "search", "a-old", "1", "!"),
-    ("ros_lint.base.auxiliary_files._KEPT", "search", "a-old", " v01", "!"),
+    ("ros_lint.base.auxiliary_files._OLD_VERSION_SUFFIX", "search", "a-old", "1", "!"),
+    ("ros_lint.base.auxiliary_files._OLD_VERSION_SUFFIX", "search", "a-old", " v01", "!"),
     ("ros_lint.collectors.cmake.syntax._TOKEN", "match", "", " ", '"b)'),
     ("ros_lint.collectors.cmake.syntax._TOKEN", "match", "", "\n", "[[b)"),
     ("ros_lint.collectors.cmake.syntax._TOKEN", "match", "", "#", '\n"'),
@@ -45,16 +45,14 @@ _TABLE: Final = (
     ("ros_lint.collectors.colcon.cmake_lists._FIND_PACKAGE", "search", "find_package(a", " ", ""),
     ("ros_lint.collectors.colcon.cmake_lists._SUBDIRECTORY", "search", "add_subdirectory(a", "/", "$"),
     ("ros_lint.collectors.cpp.includes._DIRECTIVE", "search", "", "#include < ", ""),
-    ("ros_lint.collectors.cpp.includes._HIDING", "search", '"', "a\\\n", ""),
-    ("ros_lint.collectors.cpp.includes._HIDING", "search", "'", "a\\\n", ""),
+    ("ros_lint.collectors.cpp.includes._TOKENS", "search", '"', "a\\\n", ""),
+    ("ros_lint.collectors.cpp.includes._TOKENS", "search", "'", "a\\\n", ""),
     ("ros_lint.collectors.resources.parameter_files._FIRST", "search", "  .1", " ", ""),
     ("ros_lint.collectors.resources.parameter_files._KEY", "match", "a", " ", ""),
     ("ros_lint.knowledge.install_prefix._LAUNCH_CONTENT['.xml']", "search", "", "<!-- a -->\n", "<a>"),
     ("ros_lint.knowledge.install_prefix._LAUNCH_CONTENT['.xml']", "search", "", "<?a?>", "<a>"),
     ("ros_lint.collectors.cmake.evaluator.truth.NUMBER", "fullmatch", "", "9", "z"),
     ("ros_lint.collectors.cmake.evaluator.truth.NUMBER", "fullmatch", "0x", "f", "z"),
-    ("ros_lint_rules.manifest_schema._NAME", "fullmatch", "", "a", "-"),
-    ("ros_lint_rules.manifest_schema._NAME", "fullmatch", "", "a_a", "-"),
 )
 """Expressions that took exponential or quadratic time for these texts."""
 _PARTS: Final = (" ", "\t", "\n", "a", "A", "1", "_", ".", "-", "/", "#", '"', "\\\n", "()", "[]", "<a>", "<!---->", "<?a?>")

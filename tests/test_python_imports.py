@@ -325,5 +325,5 @@ def test_a_computed_import_is_opaque() -> None:
     facts = python.collect(Text("a.py", "x = importlib.import_module(name)\ny = import_module('.z', package=p)\n"))
     assert not facts.mentions
     assert [(opaque.hides, opaque.reason, str(opaque.span)) for opaque in facts.opaque] == [
-        (Facet.USES, "which module is imported here is computed", "a.py:1:29")
+        (Facet.USES, "the name of the module imported here is computed at run time", "a.py:1:29")
     ]

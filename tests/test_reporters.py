@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import ros_lint.reporters
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.text import Span, Text, read
-from ros_lint.engine.report import Report
+from ros_lint.engine.report import OFF, HiddenCount, Report
 from ros_lint.reporters import FORMATS, reporter, sarif
 from ros_lint.reporters.ansi import Style, glyph, safe
 from ros_lint.reporters.fingerprint import line_hashes
@@ -92,6 +92,41 @@ def test_issues_alone_have_no_summary() -> None:
     actual = render_issues(ISSUES, texts)
     assert actual.count("\n\n") == len(ISSUES) - 1
     assert "Found" not in actual
+
+
+def test_infos_of_one_rule_and_package_are_one_block() -> None:
+    end = next(issue for issue in ISSUES if issue.finding.subject == "end")
+    foo = next(issue for issue in ISSUES if issue.finding.subject == "foo")
+    std_msgs = next(issue for issue in ISSUES if issue.finding.subject == "std_msgs")
+    fix = std_msgs.finding.fix
+    assert fix is not None
+    info = foo._replace(finding=foo.finding._replace(severity=Severity.INFO, fix=fix))
+    unsafe = end._replace(finding=end.finding._replace(fix=fix._replace(safe=False)))
+    assert render_issues([info, std_msgs, end, unsafe], texts).split("\n\n")[0] == (
+        "info[ROS203 transitive-dependency]: 3 findings of the check that what is used is declared itself\n"
+        " --> ws/talker/src/talker.cpp:2:43: foo is declared by way of hand only (medium confidence)\n"
+        " --> ws/talker/src/talker.cpp:5:1: the end\n"
+        " --> ws/talker/src/talker.cpp:5:1: the end\n"
+        "  = fix: 1 of them (--fix)\n"
+        "  = fix: 1 of them (--fix --unsafe-fixes, may change behaviour)"
+    )
+    assert render_issues([info, info], texts, NARROW).count(fix.edits[0].text.strip()) == 1
+
+
+def test_only_infos_of_one_rule_and_package_are_one_block() -> None:
+    end = next(issue for issue in ISSUES if issue.finding.subject == "end")
+    argument = next(issue for issue in ISSUES if issue.finding.subject == "x")
+    warning = end._replace(finding=end.finding._replace(severity=Severity.WARNING))
+    assert "findings of" not in render_issues([end, argument, end._replace(package="arm"), warning, warning], texts)
+
+
+@pytest.mark.parametrize("form", ["text", "concise", "github"])
+def test_what_pedantic_adds_is_counted_by_rule(form: str) -> None:
+    got = reporter(form)(EVERYTHING, texts, Style())
+    assert "10 more with --pedantic: transitive-dependency 6, undeclared-dependency 3, dead-group 1" in got
+    many = HiddenCount(OFF, 8, tuple((f"rule-{n}", 2 if n < 2 else 1) for n in range(6)))
+    got = reporter(form)(EVERYTHING._replace(hidden=(many,)), texts, Style())
+    assert "8 more with --pedantic: rule-0 2, rule-1 2, rule-2 1, rule-3 1, rule-4 1, other rules 1" in got
 
 
 @pytest.mark.parametrize("form", ["text", "concise", "github"])

@@ -13,23 +13,23 @@ from tests.setup_scripts import FILES, HEAD, script
 @pytest.mark.parametrize(
     ("body", "hidden", "reason"),
     [
-        ("setup(name='pkg', data_files=compute())", Facet.SHARE | Facet.EXECUTABLES, "compute() is not followed"),
+        ("setup(name='pkg', data_files=compute())", Facet.SHARE | Facet.EXECUTABLES, "compute() cannot be evaluated"),
         (
             "setup(name='pkg', data_files=[('share/pkg', open('x').readlines())])",
             Facet.SHARE,
-            "open('x').readlines() is not followed",
+            "open('x').readlines() cannot be evaluated",
         ),
         ("setup(name='pkg', data_files=[('lib/pkg', os.environ['X'])])", Facet.EXECUTABLES, "os.environ is not known"),
         ("from x import packages\nsetup(name='pkg', packages=packages)", Facet.PYTHON, "x.packages is not known"),
-        ("setup(name='pkg', entry_points={'console_scripts': read()})", Facet.EXECUTABLES, "read() is not followed"),
+        ("setup(name='pkg', entry_points={'console_scripts': read()})", Facet.EXECUTABLES, "read() cannot be evaluated"),
         (
             "setup(**read_all())",
             Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON,
-            "read_all() is not followed",
+            "read_all() cannot be evaluated",
         ),
-        ("x = 1", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no call of setup() is found"),
+        ("x = 1", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "it contains no call of setup()"),
         ("x = [1]\nfor i in x: x.append(i)\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "more steps"),
-        ("def f(): return f()\nsetup(name='pkg', data_files=f())", Facet.SHARE | Facet.EXECUTABLES, "f() is not followed"),
+        ("def f(): return f()\nsetup(name='pkg', data_files=f())", Facet.SHARE | Facet.EXECUTABLES, "f() cannot be evaluated"),
         ("while True: pass\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "more steps"),
         ("setup(name='pkg'", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no Python that can be read"),
         ("print 'pkg'\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no Python that can be read"),
@@ -45,7 +45,7 @@ from tests.setup_scripts import FILES, HEAD, script
         (
             "setup(name='pkg', data_files=[('share/pkg', ['package.xml'] * 10 ** 9)])",
             Facet.SHARE,
-            "10 ** 9 is not followed",
+            "10 ** 9 cannot be evaluated",
         ),
         ("setup(name='pkg', data_files=[('share/pkg', ['package.xml'] * 1000000000)])", Facet.SHARE, "is too large"),
         ("setup(name='pkg', data_files=[('share/pkg', ['%99999d' % 1])])", Facet.SHARE, "is too large"),
@@ -76,9 +76,9 @@ def test_a_format_does_not_read_the_environment_of_the_machine(monkeypatch: pyte
 @pytest.mark.parametrize(
     ("expression", "reason"),
     [
-        ("'{0.upper}'.format('a')", "'{0.upper}'.format() is not followed"),
-        ("'{0[0]}'.format('a')", "'{0[0]}'.format() is not followed"),
-        ("'{:{}}'.format('x', 20000000)", "'{:{}}'.format() is not followed"),
+        ("'{0.upper}'.format('a')", "'{0.upper}'.format() cannot be evaluated"),
+        ("'{0[0]}'.format('a')", "'{0[0]}'.format() cannot be evaluated"),
+        ("'{:{}}'.format('x', 20000000)", "'{:{}}'.format() cannot be evaluated"),
     ],
 )
 def test_a_format_that_reads_parts_or_widths_is_unknown(expression: str, reason: str) -> None:
@@ -125,6 +125,13 @@ setup(name='pkg', version=version, packages=['pkg', *more()],
     assert [item.path for item in found.products.installs] == ["share/pkg/package.xml"]
     assert found.products.python_packages == ("pkg", "pkg.node")
     assert [opaque.hides for opaque in found.opaque] == [Facet.PYTHON, Facet.SHARE, Facet.SHARE | Facet.EXECUTABLES]
+
+
+@pytest.mark.parametrize("failing", ["'a' + 1", "['a'] + ('b',)", "1 / 0", "[][0]", "{}['a']", "int('a')", "[].index(1)"])
+def test_a_failing_expression_is_unknown_and_the_rest_stays_known(failing: str) -> None:
+    found = script(f"x = {failing}\ny = 'a'\ny += None\nsetup(name='pkg', version=x, scripts=['scripts/tool.py'])")
+    assert (found.project.name, found.project.version) == ("pkg", "")
+    assert [item.path for item in found.products.installs] == ["bin/tool.py"]
 
 
 def test_an_unknown_condition_makes_conditional() -> None:

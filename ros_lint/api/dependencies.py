@@ -9,15 +9,17 @@ from ros_lint.analysis.dependencies.find_package import (
     partial_closure,
 )
 from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
+from ros_lint.analysis.dependencies.misplaced import Misplaced, misplaced
 from ros_lint.analysis.dependencies.needs import Need, needs, optional_needs
 from ros_lint.analysis.dependencies.remedy import Remedy, availability_remark, is_unresolvable_key, naming_fix, remedy
-from ros_lint.analysis.dependencies.tags import add_dependency, change_dependency, remove_dependency, tag_for
+from ros_lint.analysis.dependencies.tags import TEST_LIBRARIES, add_dependency, change_dependency, remove_dependency, tag_for
 from ros_lint.analysis.dependencies.traceless import (
     PYTHON_LIKE,
     has_programs,
     is_library,
     is_mostly_runtime,
     may_be_used_without_trace,
+    only_brings,
     usage_is_visible,
 )
 from ros_lint.analysis.dependencies.undeclared import (
@@ -45,7 +47,9 @@ from ros_lint.workspace.usage.visibility import is_build_visible, is_fully_visib
 
 __all__ = [
     "PYTHON_LIKE",
+    "TEST_LIBRARIES",
     "LostProvision",
+    "Misplaced",
     "Need",
     "Remedy",
     "UnresolvedDependency",
@@ -73,12 +77,14 @@ __all__ = [
     "manifest_is_complete",
     "may_be_used_without_trace",
     "may_provide",
+    "misplaced",
     "misspelled_names",
     "name_suggests_no_trace",
     "names_searched",
     "naming_fix",
     "needed_transitively",
     "needs",
+    "only_brings",
     "optional_needs",
     "partial_closure",
     "provided_in_other_distros",

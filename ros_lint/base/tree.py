@@ -106,8 +106,8 @@ LEADS_OUT = "links to a place outside the workspace"
 class DiskTree:
     """The files below a directory, read-only.
 
-    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. If
-    a file is in a folder that is itself a link to elsewhere, its links may also lead into that folder's target and the
+    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. A
+    folder may itself be a link to elsewhere. Links of files in it may also lead into its target, and into the
     repository of the target.
     """
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
-from ros_lint.engine.report import BlindSpot, HiddenCount, Report
+from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
 
@@ -32,8 +32,12 @@ class ReportContext(NamedTuple):
 
 def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: ReportContext) -> Report:
     """Return the report of the selected rules, with suppressions and settings applied."""
+    suppressions = tuple(suppressions)
     checked = find_issues(workspace, selection.rules, suppressions, context.rules)
     shown, hidden = show(checked.issues, selection)
+    of_others = find_issues(workspace, selection.off, suppressions, context.rules).issues
+    if off := [issue for issue in of_others if not selection.ignores_path(issue)]:
+        hidden = (*hidden, HiddenCount.of(OFF, off))
     if checked.suppressed:
         hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
     return Report(

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from ros_lint.analysis.finding import Finding, Severity
     from ros_lint.analysis.rule import Rule
 
@@ -29,6 +32,7 @@ class Issue(NamedTuple):
 
 
 UNSURE = "of lower confidence (shown with --pedantic)"
+OFF = "of rules that are off (shown with --pedantic)"
 
 
 class HiddenCount(NamedTuple):
@@ -39,6 +43,14 @@ class HiddenCount(NamedTuple):
 
     reason: str
     count: int  # type: ignore[assignment]  # a tuple counts things as well
+    rules: tuple[tuple[str, int], ...] = ()
+    """The rules of findings that ``--pedantic`` shows, each with its number, sorted by name; () for other findings."""
+
+    @classmethod
+    def of(cls, reason: str, issues: Iterable[Issue]) -> HiddenCount:
+        """Return the number of some issues, by rule."""
+        rules = Counter(issue.rule.name for issue in issues)
+        return cls(reason, rules.total(), tuple(sorted(rules.items())))
 
 
 class BlindSpot(NamedTuple):

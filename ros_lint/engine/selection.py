@@ -29,6 +29,13 @@ class Selection(NamedTuple):
     """True if findings of any confidence are shown."""
     ignores: tuple[tuple[str, frozenset[str]], ...]
     """Path patterns, each with the names of the rules to ignore in matching files."""
+    off: tuple[Rule, ...] = ()
+    """Rules that are off by default and that the settings do not mention."""
+
+    def ignores_path(self, issue: Issue) -> bool:
+        """Return whether a path pattern ignores an issue."""
+        name, path = issue.rule.name, issue.finding.span.path
+        return any(name in names and matches(path, pattern) for pattern, names in self.ignores)
 
 
 def select(
@@ -53,40 +60,46 @@ def select(
         if selector not in ("all", "default"):
             selected_by_name.update(rule.name for rule in matching_rules)
     levels: dict[str, Severity] = {}
+    declined: set[str] = set()
     for selector, word in (severities or {}).items():
         for rule in _matching(rules, selector):
             if word == "off":
                 selected.pop(rule.name, None)
+                declined.add(rule.name)
             else:
                 selected[rule.name] = rule
                 levels[rule.name] = Severity[word.upper()]
     for selector in ignored:
         for rule in _matching(rules, selector):
             selected.pop(rule.name, None)
+            declined.add(rule.name)
     ignores = tuple(
         (pattern, frozenset(rule.name for selector in selectors for rule in _matching(rules, selector)))
         for pattern, selectors in (per_path or {}).items()
     )
     ordered = tuple(rule for rule in rules if rule.name in selected)
-    return Selection(ordered, frozenset(selected_by_name), levels, pedantic, ignores)
+    unmentioned = [rule for rule in rules if not rule.default and rule.name not in selected and rule.name not in declined]
+    off = tuple(unmentioned) if "default" in chosen else ()
+    return Selection(ordered, frozenset(selected_by_name), levels, pedantic, ignores, off)
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
     """Return the issues to show, with the severities of the settings, and counts of hidden issues."""
     shown: list[Issue] = []
-    unsure = ignored = 0
+    unsure: list[Issue] = []
+    ignored = 0
     for issue in issues:
         name = issue.rule.name
         sure = issue.finding.confidence is Confidence.HIGH
-        if any(name in names and matches(issue.finding.span.path, pattern) for pattern, names in selection.ignores):
+        if selection.ignores_path(issue):
             ignored += 1
         elif not (sure or selection.pedantic or name in selection.named):
-            unsure += 1
+            unsure.append(issue)
         elif name in selection.severities:
             shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
         else:
             shown.append(issue)
-    hidden = [HiddenCount(UNSURE, unsure), HiddenCount("ignored by per-path-ignores", ignored)]
+    hidden = [HiddenCount.of(UNSURE, unsure), HiddenCount("ignored by per-path-ignores", ignored)]
     return tuple(shown), tuple(entry for entry in hidden if entry.count)
 
 

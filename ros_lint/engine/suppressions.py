@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.suggestions import similar_names
 from ros_lint.engine.former_rules import former_rule
-from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, Unknown, Unused, lines_of
+from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, UnknownSelector, Unused, lines_of
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable
@@ -102,9 +102,9 @@ def _first_line(entry: tuple[Suppression, Name]) -> int:
     return lines[0] if lines else 0
 
 
-def _unknown(comment: Suppression, name: Name, names: Iterable[str]) -> Unknown:
+def _unknown(comment: Suppression, name: Name, names: Iterable[str]) -> UnknownSelector:
     former = former_rule(name.text)
-    return Unknown(comment, name, "" if former else _nearest(name.text, names), former.fate if former else "")
+    return UnknownSelector(comment, name, "" if former else _nearest(name.text, names), former.fate if former else "")
 
 
 def _nearest(word: str, names: Iterable[str]) -> str:

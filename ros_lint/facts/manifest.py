@@ -134,10 +134,10 @@ class Manifest(NamedTuple):
     """The empty span just after ``<package ...>``; None if there is no such element."""
     format_span: Span | None = None
     """Span of the value of the attribute ``format``; None if it is absent, which means format 1."""
-    asides: tuple[Span, ...] = ()
+    other_contents: tuple[Span, ...] = ()
     """Other direct contents of ``<package>``: comments, processing instructions, stray text."""
-    strays: tuple[Span, ...] = ()
-    """The members of ``asides`` that are text."""
+    stray_text: tuple[Span, ...] = ()
+    """The members of ``other_contents`` that are text."""
     indent: str = "  "
     """White space before a child of ``<package>``."""
     newline: str = "\n"

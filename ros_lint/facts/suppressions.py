@@ -68,7 +68,7 @@ class Unused(NamedTuple):
     """The names without effect."""
 
 
-class Unknown(NamedTuple):
+class UnknownSelector(NamedTuple):
     """A name in a suppression that is not the name of a rule."""
 
     suppression: Suppression
@@ -94,7 +94,7 @@ class SuppressionUse(NamedTuple):
 
     unused: tuple[Unused, ...]
     """Names of rules that reported nothing at the place."""
-    unknown: tuple[Unknown, ...]
+    unknown: tuple[UnknownSelector, ...]
     """Names that no rule has."""
     malformed: tuple[Suppression, ...]
     """Suppressions with a ``problem``."""

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import importlib
-from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
 
-from ros_lint.base.text import Text
-from ros_lint.engine.report import Report
-from ros_lint.reporters.ansi import Style
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-SourceTexts = Callable[[str], Text | None]
+    from ros_lint.base.text import Text
+    from ros_lint.engine.report import Report
+    from ros_lint.reporters.ansi import Style
+
+SourceTexts: TypeAlias = "Callable[[str], Text | None]"
 """A function from the path of a file to its text, or to None if it cannot be read."""
-Reporter = Callable[[Report, SourceTexts, Style], str]
+Reporter: TypeAlias = "Callable[[Report, SourceTexts, Style], str]"
 """A function from a report to its text in one format."""
 
 
@@ -19,6 +21,8 @@ def reporter(name: str) -> Reporter:
     """Return the reporter of a format. Raises KeyError for an unknown name."""
     if name not in FORMATS:
         raise KeyError(name)
+    import importlib  # noqa: PLC0415  (the options of the command line need only the names of formats)
+
     # The module is imported by its name, so that only this format is loaded.
     module = importlib.import_module(f"{__name__}.{'json_report' if name == 'json' else name}")
     render: Reporter = module.render

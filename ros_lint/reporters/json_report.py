@@ -30,7 +30,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "workspace": report.workspace,
         "packages": report.packages,
         "findings": [_finding(issue) for issue in report.issues],
-        "hidden": [{"reason": hidden.reason, "count": hidden.count} for hidden in report.hidden],
+        "hidden": [{"reason": hidden.reason, "count": hidden.count, "rules": dict(hidden.rules)} for hidden in report.hidden],
         "not_checked": [
             {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NO_PLACE)}
             for entry in report.not_checked

@@ -18,7 +18,7 @@ _LISTED = 10
 """Number of entries of a list to show; the json format has all."""
 
 _NAMED = 5
-"""Number of packages to name in a sentence; the others are only counted."""
+"""Number of packages or rules to name in a sentence; the others are only counted."""
 
 _FEW = 10
 """Number of findings up to which no table of rules is printed."""
@@ -46,8 +46,16 @@ def name_or_count(packages: Sequence[str]) -> str:
 
 def limits(report: Report) -> Iterator[str]:
     """Yield a sentence, without its full stop, about hidden findings and one about what was not fully analysed."""
-    if report.hidden:
-        yield f"Hidden: {'; '.join(map(hidden_findings, report.hidden))}"
+    more: Counter[str] = Counter()
+    for hidden in report.hidden:
+        more.update(dict(hidden.rules))
+    if more:
+        by_rule = [f"{name} {number}" for name, number in more.most_common(_NAMED)]
+        if others := sum(number for _, number in more.most_common()[_NAMED:]):
+            by_rule.append(f"other rules {others}")
+        yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
+    if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
+        yield f"Hidden: {'; '.join(kinds)}"
     if report.blind_spots:
         facets: dict[tuple[str, ...], list[str]] = {}
         for spot in report.blind_spots:

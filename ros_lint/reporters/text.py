@@ -5,13 +5,13 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.finding import Confidence
+from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.reporters.ansi import Style, paint, safe
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.summary import count, summary
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from ros_lint.analysis.finding import Fix
     from ros_lint.engine.report import Issue, Report
@@ -38,13 +38,49 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:
 
 
 def render_issues(issues: Iterable[Issue], texts: SourceTexts, style: Style = _PLAIN) -> str:
-    """Return issues as text, separated by empty lines."""
-    return "\n".join("".join(f"{row}\n" for row in _issue(issue, texts, style)) for issue in issues)
+    """Return issues as text, separated by empty lines. Infos of one rule and package are one block."""
+    blocks = (_infos(block, texts, style) if len(block) > 1 else _issue(block[0], texts, style) for block in _blocks(issues))
+    return "\n".join("".join(f"{row}\n" for row in block) for block in blocks)
+
+
+def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
+    """Return the issues in blocks: infos of one rule and package together, where the first of them is."""
+    blocks: dict[object, list[Issue]] = {}
+    for issue in issues:
+        is_info = issue.severity is Severity.INFO
+        blocks.setdefault((issue.rule.code, issue.package) if is_info else (issue, len(blocks)), []).append(issue)
+    return blocks.values()
+
+
+def _infos(issues: Sequence[Issue], texts: SourceTexts, style: Style) -> Iterator[str]:
+    """Yield the rows of a block of infos: the rule, a line for each of them, and what fixes them."""
+    rule = issues[0].rule
+    title = f"{len(issues)} findings of the check that {rule.summary}"
+    yield f"{_head(issues[0], style)}: {paint(style, 'bold', title)}"
+    for issue in issues:
+        finding = issue.finding
+        doubt = "" if finding.confidence is Confidence.HIGH else f" ({finding.confidence} confidence)"
+        yield f" {paint(style, 'gutter', '-->')} {safe(f'{finding.span}: {finding.message}{doubt}', style)}"
+    fixes = [issue.finding.fix for issue in issues if issue.finding.fix]
+    for is_safe, how in _HOW_TO_FIX.items():
+        if number := sum(fix.safe is is_safe for fix in fixes):
+            which = "all of them" if number == len(issues) else f"{number} of them"
+            yield f"{paint(style, 'gutter', '  =')} {paint(style, 'good', 'fix')}: {which} ({how})"
+    if style.fixes:
+        yield from _preview(fixes, texts, style, " ")
+
+
+_HOW_TO_FIX = {True: "--fix", False: "--fix --unsafe-fixes, may change behaviour"}
+"""The options that apply a fix, by whether it is safe."""
+
+
+def _head(issue: Issue, style: Style) -> str:
+    level = str(issue.severity)
+    return paint(style, level, f"{level}[{issue.rule.code} {issue.rule.name}]")
 
 
 def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
     finding, level = issue.finding, str(issue.severity)
-    head = paint(style, level, f"{level}[{issue.rule.code} {issue.rule.name}]")
     marks = [Mark(finding.span, "", level, "^")]
     for number, related in enumerate(finding.related[:_RELATED], 1):
         label = f"{number}: {related.message}" if finding.steps else related.message
@@ -56,13 +92,13 @@ def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
     if finding.confidence is not Confidence.HIGH:
         notes.append(f"note: {finding.confidence} confidence")
     if finding.fix:
-        how = "--fix" if finding.fix.safe else "--fix --unsafe-fixes, may change behaviour"
-        notes.append(f"{paint(style, 'good', 'fix')}: {safe(finding.fix.title, style)} ({how})")
+        title = safe(finding.fix.title, style)
+        notes.append(f"{paint(style, 'good', 'fix')}: {title} ({_HOW_TO_FIX[finding.fix.safe]})")
     equals = paint(style, "gutter", f"{gutter} =")
     bar = [paint(style, "gutter", f"{gutter} |")] if notes else []
-    preview = _preview(finding.fix, texts, style, gutter) if finding.fix and style.fixes else ()
+    preview = _preview([finding.fix], texts, style, gutter) if finding.fix and style.fixes else ()
     return [
-        f"{head}: {paint(style, 'bold', safe(finding.message, style))}",
+        f"{_head(issue, style)}: {paint(style, 'bold', safe(finding.message, style))}",
         *rows,
         *bar,
         *(f"{equals} {note}" for note in notes),
@@ -70,18 +106,18 @@ def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
     ]
 
 
-def _preview(fix: Fix, texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:
-    """Yield the changes of a fix as a diff below a frame, which has this gutter."""
+def _preview(fixes: Sequence[Fix], texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:
+    """Yield the changes of fixes as a diff below a frame, which has this gutter."""
     from ros_lint.base.diff import unified  # noqa: PLC0415
     from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (only for diffs)
 
-    sources = {edit.span.path: texts(edit.span.path) for edit in fix.edits}
+    sources = {edit.span.path: texts(edit.span.path) for fix in fixes for edit in fix.edits}
     readable = {path: source for path, source in sources.items() if source is not None}
     if len(readable) < len(sources):
         return
     bar = paint(style, "gutter", f"{gutter} |")
     try:
-        changed_texts = apply([fix], readable.__getitem__)
+        changed_texts = apply(fixes, readable.__getitem__)
     except EditError:  # the file has changed in the meantime
         return
     for path, changed in changed_texts.items():

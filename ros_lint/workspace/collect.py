@@ -16,7 +16,7 @@ from typing import NamedTuple
 from ros_lint.base.text import Text, file_start, read
 from ros_lint.base.tree import DiskTree, RecordedTree, Tree
 from ros_lint.collectors import machine_paths
-from ros_lint.collectors.cmake.syntax import Parsed
+from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.collectors.file_types import _SUFFIXES, Kind, kind_of
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.facts.launch import LaunchFile
@@ -60,7 +60,7 @@ class Collected(NamedTuple):
 
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
-    commands: Parsed | None = None
+    commands: ParsedScript | None = None
     suppressions: tuple[Suppression, ...] = ()
     machine_paths: tuple[MachinePath, ...] = ()
     unreadable: str = ""
@@ -72,7 +72,7 @@ def collect(text: Text, kind: Kind) -> Collected:
     # Collectors are imported here so that a workspace without launch files does not load theirs.
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
-    commands: Parsed | None = None
+    commands: ParsedScript | None = None
     if kind in ("python", "xml", "yaml"):
         from ros_lint.collectors.launch import collect as launch_files  # noqa: PLC0415
         from ros_lint.collectors.launch.detect import is_launch_file  # noqa: PLC0415

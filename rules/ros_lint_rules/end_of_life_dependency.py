@@ -43,7 +43,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         last = world.knowledge.names.end_of_life(name)[0]
         for unresolved_dependency in dependencies.unresolved(name, packages):
             successor = known_successor or _imported(unresolved_dependency, workspace)
-            unused = not unresolved_dependency.called_so and _is_unused(unresolved_dependency.package, name, successor)
+            unused = not unresolved_dependency.matching_uses and _is_unused(unresolved_dependency.package, name, successor)
             remedy = _remedy(unresolved_dependency.package, successor, unused=unused)
             yield Finding(
                 f"'{name}' was last released for {last} (as of {world.knowledge.date}); {remedy}",
@@ -56,7 +56,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspace: Workspace) -> str:
     """Return the rosdep key of a Python module with the declared name that the package imports, or ""."""
-    uses = [use for use in unresolved_dependency.called_so if use.package != unresolved_dependency.name]
+    uses = [use for use in unresolved_dependency.matching_uses if use.package != unresolved_dependency.name]
     if not unresolved_dependency.runs_python or not uses or any(use.via != "import" for use in uses):
         return ""
     return uses[0].package if workspace.world.is_key(uses[0].package) else ""

@@ -114,9 +114,9 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
     if not named:
         return
     closure = dependencies.declared_closure(package, workspace, _AT_RUN_TIME)
-    reported = {need.name for need, sure in dependencies.undeclared(package, workspace) if sure} | _in_wrong_tags(
-        package, workspace
-    )
+    reported = {need.name for need, sure in dependencies.undeclared(package, workspace) if sure}
+    reported.update(lack.need.name for lack in dependencies.misplaced(package, workspace))
+    reported |= _in_wrong_tags(package, workspace)
     for name, references in named.items():
         if name in closure or name in reported:
             continue

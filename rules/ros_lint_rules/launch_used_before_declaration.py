@@ -48,7 +48,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     for launch_file in launch.package_launch_files(package):
         above = launch.include_tree(workspace).above(launch_file.file)
-        known = {name for configurations in above for name in (*configurations.made, *configurations.declared)}
+        known = {name for configurations in above for name in (*configurations.set_or_passed, *configurations.declared)}
         yield from _too_early(launch_file.file, launch.include_resolver(workspace), known)
 
 
@@ -63,7 +63,7 @@ def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collec
             for name in action.target.texts:
                 declared.setdefault(name, (index, action.span))
     places: dict[tuple[str, bool | None], list[tuple[Span, bool]]] = {}
-    for early in _asked_early(file, resolver, {name: at for name, (at, _) in declared.items()}, above):
+    for early in _read_early(file, resolver, {name: at for name, (at, _) in declared.items()}, above):
         places.setdefault((early.name, early.holds), []).append((early.span, early.sure))
     for (name, holds), reads in places.items():
         (first, _), *others = reads
@@ -96,10 +96,13 @@ class _Early(NamedTuple):
 _OUTCOMES = {None: "the launch file stops", False: "the condition is never true", True: "the condition is always true"}
 
 
-def _asked_early(
+def _read_early(
     file: LaunchFile, resolver: launch.IncludeResolver, declared: Mapping[str, int], above: Collection[str]
 ) -> Iterator[_Early]:
-    """Yield the configurations that are read before their declaration; ``declared``: the index of the declaring action."""
+    """Yield the configurations that are read before their declaration.
+
+    ``declared`` has the index of the declaring action, by name.
+    """
     known = set(above)
     part = bool(resolver.takes(file).required)
     for index, action in enumerate(file.actions):
@@ -122,9 +125,10 @@ def _asked_early(
 
 
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
-    """Yield the texts of an action that launch evaluates, with place, whether under a condition, and outcome (see ``_Early``).
+    """Yield each text of an action that launch evaluates, its place, and whether it is under a condition.
 
-    Conditions are always evaluated. Those that compare a configuration continue if it is missing.
+    The fourth value is that of ``_Early.holds``. Conditions are always evaluated. Those that compare a configuration
+    continue if it is missing.
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]

@@ -122,8 +122,8 @@ def _order(manifest: Manifest, children: list[Element | Depend]) -> Finding | No
 
 
 def _of_package(manifest: Manifest, violation: manifests.Violation) -> Iterator[Finding]:
-    if violation.kind == manifests.TEXT and manifest.strays:
-        for span in manifest.strays:
+    if violation.kind == manifests.TEXT and manifest.stray_text:
+        for span in manifest.stray_text:
             yield _finding("the schema allows no text between elements; remove it", span, "text")
     elif violation.attribute == "format":
         message = f'format {manifest.format} must be written as format="{manifest.format}"'

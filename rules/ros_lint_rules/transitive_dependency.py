@@ -16,7 +16,11 @@ distributions do not have the package.
 
 ## Limitations
 
-The rule is off by default, because most ROS packages rely on transitive dependencies, such as `rclcpp` on `rcl`.
+The severity depends on the use:
+
+- a warning if CMake finds the package outside of tests, because nine of ten packages declare what they find;
+- an info for all other uses: headers, imports, interfaces, launch files, tests. It does not change the exit code, unless
+  `--fail-on info` is given. The `text` format shows all infos of a package together.
 
 Not reported:
 
@@ -26,7 +30,8 @@ Not reported:
 - Packages that CMake finds but no code uses: see `unused-find-package`.
 - Packages for which `package.xml` declares a wrong name: see `unknown-dependency`.
 - A library of a declared vendor package, or of a declared key that stands for the whole library.
-- Packages that no declared dependency provides: see `undeclared-dependency` and `launch-outside-closure`.
+- Packages that no declared dependency provides, or only one with a tag for another purpose: see `undeclared-dependency` and
+  `launch-outside-closure`.
 - Optional uses of a package that depends on this one.
 
 Reported with medium confidence:
@@ -34,49 +39,111 @@ Reported with medium confidence:
 - All files that use the package may not be built or installed, or colcon rejects `package.xml`.
 - The package depends on this one, with any tag, so declaring it would close a cycle that colcon rejects. There is no fix.
 
-Optional uses are reported with low confidence and without a fix. There is also no fix if no rosdep key resolves for the
-distribution.
+Reported with low confidence, because packages rarely declare it:
+
+- Parts of launch that launch files import.
+- Tools that run tests, such as GoogleTest, pytest and `launch_testing`, if a test dependency or build tool provides them.
+- `ament_cmake_core`, because every build tool provides it, and `ament_cmake`, if another build tool such as `ament_cmake_auto`
+  provides it.
+- Linters that `ament_lint_common` contains.
+- Packages that launch files use and that a released metapackage contains.
+- Optional uses. They have no fix.
+
+There is also no fix if no rosdep key resolves for the distribution.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, dependencies, first_related
+from ros_lint.api import (
+    Confidence,
+    Facet,
+    Finding,
+    Package,
+    Related,
+    Role,
+    Rule,
+    Severity,
+    Use,
+    Workspace,
+    cached_by_package,
+    dependencies,
+    first_related,
+)
 
 _LAUNCHER = "ros2launch"
+_LINTERS = "ament_lint_common"
+_BUILD_TOOL, _CORE = "ament_cmake", "ament_cmake_core"
+_TEST_TOOLS = dependencies.TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
+"""Packages and keys that run tests. Build tools and packages for a kind of tests provide them."""
+_TEST_MODULES = _TEST_TOOLS | {
+    "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
+}  # fmt: skip
+"""Packages and keys that tests use and that packages for a kind of tests provide."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
-    declared = tuple(dict.fromkeys(declared.name for declared in package.declared))
     unused = {mention.name for mention in dependencies.unused_find_packages(package, workspace)}
     misnamed = dependencies.intended_names(package, workspace)
+    uses_are_hidden = package.hidden(Facet.USES)  # then a package that find_package() finds may be unused
+    misplaced = {lack.need.name for lack in dependencies.misplaced(package, workspace)}
     for need in dependencies.needs(package, workspace):
-        if need.declared or not need.brought or need.name in unused or _is_command(need):
+        if need.declared or not need.is_transitive or need.name in unused or need.name in misplaced or _is_command(need):
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
-        if not (_LAUNCHER in declared and dependencies.is_part_of_launch(package, need.uses)):
-            yield _finding(package, workspace, declared, need, Confidence.HIGH if need.sure else Confidence.MEDIUM)
+        if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
+            certain = need.sure and not (uses_are_hidden and all(map(_is_in_cmake, need.uses)))
+            yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
-        if wish.brought and not _is_command(wish):
-            yield _finding(package, workspace, declared, wish, Confidence.LOW)._replace(fix=None)
+        if wish.is_transitive and not _is_command(wish):
+            yield _finding(package, workspace, wish, Confidence.LOW)._replace(fix=None)
+
+
+def _is_in_cmake(use: Use) -> bool:
+    return use.span.path.endswith(("CMakeLists.txt", ".cmake"))
 
 
 def _is_command(need: dependencies.Need) -> bool:
     return all(use.via == "macro" for use in need.uses)
 
 
-def _finding(
-    package: Package, workspace: Workspace, declared: Sequence[str], need: dependencies.Need, confidence: Confidence
-) -> Finding:
+def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
+    """Return whether packages rarely declare such a use, because the first package of ``path`` is there to provide it.
+
+    This holds for parts of build tools, tools that run tests, linters, what launch files use of a metapackage, and launch
+    in launch files.
+    """
+    carrier, is_direct = path[0], len(path) == 2
+    if need.name == _CORE or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
+        return True
+    in_tests = need.role is Role.TEST
+    if need.name in (_TEST_MODULES if in_tests else _TEST_TOOLS) and package.declares(carrier) & (Role.TEST | Role.TOOL):
+        return True
+    if is_direct and in_tests and carrier == _LINTERS:
+        return True
+    if is_direct and all(use.via in ("launch", "package") for use in need.uses):
+        return dependencies.only_brings(workspace.world, carrier)
+    outside_tests = [use for use in need.uses if use.role is not Role.TEST]
+    return dependencies.is_part_of_launch(package, outside_tests or need.uses)
+
+
+def _is_found_by_cmake(need: dependencies.Need) -> bool:
+    """Return whether find_package() needs the package outside of tests."""
+    return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
+
+
+def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:
     """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
     best, *others = need.uses
-    paths = (workspace.world.path(declared, name) for name in best.providers)
-    path = next((path for path in paths if path), (need.name,))
+    path = _path(package, workspace, need)
     name = path[-1]
+    if _comes_by_design(package, workspace, need, path):
+        confidence = Confidence.LOW
     between = " > ".join(f"'{package_between}'" for package_between in path[:-1])
     proposal = dependencies.remedy(package, workspace, name, need.role)
     return Finding(
@@ -86,7 +153,37 @@ def _finding(
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
+        None if _is_found_by_cmake(need) else Severity.INFO,
     )
+
+
+def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
+    """Return the dependencies that lead to a need, from a declared one that serves the same purpose if possible."""
+    best = need.uses[0]
+    names = _declared_names(package, workspace)
+    for starts in (names[_purpose(best.role)], names[_ANY]):
+        for name in sorted(best.providers, key=workspace.world.is_runtime_library):
+            if path := workspace.world.path(starts, name):
+                return path
+    return (need.name,)
+
+
+_ANY = ~Role(0)
+_PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT, Role.TEST | Role.TOOL, _ANY)
+
+
+@cache
+def _purpose(role: Role) -> Role:
+    """Return all roles that serve the purpose of a role: to build, to run or to test."""
+    return next(roles for roles in _PURPOSES if role & roles)
+
+
+@cached_by_package
+def _declared_names(package: Package, workspace: Workspace) -> Mapping[Role, Mapping[str, None]]:
+    """Return the declared names that serve each purpose, in the order of the manifest."""
+    return {
+        purpose: dict.fromkeys(declared.name for declared in package.declared if declared.role & purpose) for purpose in _PURPOSES
+    }
 
 
 RULE = Rule(
@@ -96,7 +193,6 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
-    default=False,
     fixable=True,
     package=check,
 )

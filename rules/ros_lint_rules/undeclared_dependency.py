@@ -1,14 +1,25 @@
 """
 ## What it finds
 
-A package that is used, although no dependency in `package.xml` provides it: an included header, an imported Python module, a
-`find_package()`, a message type, or a package whose files are looked up.
+A package that is used, although no dependency in `package.xml` provides it where it is needed: an included header, an imported
+Python module, a `find_package()`, a message type, or a package whose files are looked up.
+
+A package that another dependency provides is found as well if that dependency has a tag for another purpose:
+
+- It is needed to build, and only an `<exec_depend>`, `<build_export_depend>` or `<test_depend>` provides it.
+- It is needed to run, and only a `<build_depend>`, `<buildtool_depend>` or `<test_depend>` provides it.
 
 ## Why it matters
 
 It works only if another package happens to be installed or built first. On a clean machine, in a container or on the build farm
 it fails: colcon may build the packages in the wrong order, `rosdep install` does not install the package, and the released
 binary lacks it.
+
+The tags of a package decide what is installed: to build it, its `build_depend`, `buildtool_depend` and `depend`, because bloom
+makes them the `Build-Depends` of the source package; with it, its `exec_depend`, `build_export_depend`, `buildtool_export_depend`
+and `depend`, the `Depends` of the binary package. `rosdep install --dependency-types` distinguishes them in the same way. What
+these dependencies need at run time or export is installed with them. colcon alone makes everything available for every purpose,
+so such a mistake is not noticed in a workspace.
 
 ## How to fix it
 
@@ -27,7 +38,11 @@ the message names the distributions that have or lack the name, and the fix need
 
 Not reported:
 
-- Packages that a declared dependency provides: see `transitive-dependency`.
+- Packages that a declared dependency with a tag for the same purpose provides: see `transitive-dependency`.
+- Packages that come with a dependency which needs another tag itself: see `wrong-dependency-kind`.
+- Packages that come with a dependency with the right tag in another distribution, if the distribution is not set.
+- Packages for tests, if a dependency with any tag provides what they use, because all of it serves tests.
+- Parts of launch that only launch files import, if a dependency with any tag provides them, because `ros2 launch` does so, too.
 - Names that only launch files start, include or look up, except in tests: see `launch-outside-closure`.
 - Templates for other packages, scripts that build the documentation, and copies made by editors.
 - Names of the system, and names that are neither a known package nor a rosdep key. Exceptions are listed below.
@@ -99,8 +114,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
             finding = finding._replace(message=message, fix=None)
         yield finding._replace(severity=severity)
+    for lack in dependencies.misplaced(package, workspace):
+        tag = lack.depend.tag
+        problem = f"is used here, but comes only with <{tag}>{lack.depend.name}</{tag}>, which is not installed {lack.purpose}"
+        uses = (*lack.uses, *(use for use in lack.need.uses if use not in lack.uses))
+        yield _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
     for wish in dependencies.optional_needs(package, workspace):
-        if not wish.brought:
+        if not wish.is_transitive:
             problem = "is used here if it is available, but package.xml does not declare it"
             yield _finding(package, workspace, wish, problem, Confidence.LOW)._replace(fix=None)
 

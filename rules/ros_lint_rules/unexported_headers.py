@@ -42,7 +42,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _unexported(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield the missing export of headers that a package includes which finds this one."""
+    """Yield the missing export of headers that another package includes after finding this one."""
     includes = [
         (other, use) for other, use in wanted if other.script and package.name in dependencies.names_searched(other, other.script)
     ]

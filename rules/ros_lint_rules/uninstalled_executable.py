@@ -109,13 +109,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             )
         elif not installed and launched and not unseen:
             state = ", but not installed, so launch does not find it"
-            confidence = Confidence.MEDIUM if _kept_back(package, target.name, launched, workspace) else Confidence.HIGH
+            confidence = Confidence.MEDIUM if _only_excluded_start(package, target.name, launched, workspace) else Confidence.HIGH
             yield _uninstalled(package, script, target, state)._replace(related=related, confidence=confidence)
         elif target.name in forgotten:
             yield _uninstalled(package, script, target, ", but nothing that the package builds is installed")
         elif target.name in left_out:
             state = ", but not installed, unlike other nodes of the package"
-            confidence = Confidence.MEDIUM if _kept_back(package, target.name, (), workspace) else Confidence.HIGH
+            confidence = Confidence.MEDIUM if _only_excluded_start(package, target.name, (), workspace) else Confidence.HIGH
             yield _uninstalled(package, script, target, state)._replace(severity=Severity.WARNING, confidence=confidence)
 
 
@@ -124,9 +124,9 @@ def _is_outside_packages(folder: str) -> bool:
     return folder.partition("/")[0] == "bin" or folder == "lib"
 
 
-def _kept_back(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
+def _only_excluded_start(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
     """Return whether only launch files that are not installed start the program, one of them excluded on purpose."""
-    if name not in launch.node_references([package], kept_back=True).get(package.name, {}):
+    if name not in launch.node_references([package], excluded=True).get(package.name, {}):
         return False
     paths = {reference.span.path for reference in launched}
     files = (

@@ -234,7 +234,7 @@ def _names(interfaces: frozenset[str], kind: str, header: bool) -> frozenset[str
 
 
 def _form(header: object) -> Callable[[str], str]:
-    """Return the function that spells the name of an interface as in headers, or as elsewhere."""
+    """Return the function that converts the name of an interface: to snake_case for headers, else unchanged."""
     return names.interfaces.snake if header else str
 
 

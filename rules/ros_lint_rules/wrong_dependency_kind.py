@@ -73,11 +73,6 @@ from ros_lint.api import (
     first_related,
 )
 
-_OF_TESTS = frozenset({
-    "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest", "benchmark", "gmock_vendor", "google-mock",
-    "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
-})  # fmt: skip
-"""Packages and keys that provide test libraries for C++."""
 _BUILT = ("include", "cmake", "interface", "symbol", "macro", "target")
 _RUN = ("import", "package")
 _EXPORTED = ("include", "interface", "target")
@@ -172,7 +167,7 @@ def _exported_uses(package: Package, need: dependencies.Need, *, assume_installe
         always = installed.get(package.relative(use.span.path))
         if always is None:
             yield use if assume_installed else use._replace(role=use.role & ~Role.EXPORT)
-        elif always and not _OF_TESTS.issuperset(need.declared):
+        elif always and not dependencies.TEST_LIBRARIES.issuperset(need.declared):
             yield use
 
 

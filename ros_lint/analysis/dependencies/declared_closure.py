@@ -19,12 +19,13 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
     return declared_closure(package, workspace, _ANY)
 
 
-def declared_closure(package: Package, workspace: Workspace, role: Role) -> Closure:
-    """Return the declared dependencies with any of the roles, and all that they provide transitively.
+def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
+    """Return the declared dependencies with any of the roles, ``others``, and all that they provide transitively.
 
     Members of the groups that the package depends on are included.
     """
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
+    starts += others
     for group in package.group_depends:
         starts += workspace.world.group_members(group.name)
     return workspace.world.closure(starts)

@@ -103,7 +103,7 @@ def _lost_above(
 @cached_by_package
 def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
     """Return the uses of packages that are not declared but provided by a declared dependency."""
-    return tuple([use for need in needs(package, workspace) if need.brought and not need.declared for use in need.uses])
+    return tuple([use for need in needs(package, workspace) if need.is_transitive and not need.declared for use in need.uses])
 
 
 @cached_by_workspace

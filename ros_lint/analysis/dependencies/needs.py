@@ -28,7 +28,7 @@ class Need(NamedTuple):
     """The places where it is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
     """Declared names that satisfy the need, in whatever tag. () if it is not declared."""
-    brought: bool
+    is_transitive: bool
     """True if a declared dependency provides the need transitively."""
 
     @property
@@ -132,14 +132,15 @@ def _needs(
     }
     for names, direct in matches.items():
         direct += [provider for provider in sorted(vendors) if provider not in direct and is_vendor(provider, names[0])]
-    for names in {use.providers for use in uses if use.role & Role.BUILD}:
-        if matches[names] and all(map(is_runtime_library, matches[names])) and not is_runtime_library(name):
+    built = {use.providers for use in uses if use.role & Role.BUILD} if not is_runtime_library(name) else set()
+    for names in built:
+        if matches[names] and all(map(is_runtime_library, matches[names])):
             matches[names] = []
     unprovided = [
         names
         for names, direct in matches.items()
         if not direct
-        and not any(provider in closure and not (provider in declared and is_runtime_library(provider)) for provider in names)
+        and not any(provider in closure and not (names in built and is_runtime_library(provider)) for provider in names)
     ]
     provided = [names for names, direct in matches.items() if not direct and names not in unprovided]
     if names := tuple(dict.fromkeys([provider for direct in matches.values() for provider in direct])):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.analysis.dependencies.tags import add_dependency, tag_for, tags_for
 from ros_lint.analysis.finding import Fix
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
+from ros_lint.analysis.memo import cached_by_workspace
 
 if TYPE_CHECKING:
     from ros_lint.base.edit import Edit
@@ -73,6 +74,19 @@ def availability_remark(workspace: Workspace, name: str) -> str:
     The name has to resolve in the distribution that the user chose, or in every active one if the user chose none.
     Packages of the workspace and of underlays resolve in all of them.
     """
+    remarks = _remarks(workspace)
+    if name not in remarks:
+        remarks[name] = _availability(workspace, name)
+    return remarks[name]
+
+
+@cached_by_workspace
+def _remarks(workspace: Workspace) -> dict[str, str]:  # noqa: ARG001  (the key of the cache)
+    """Return the remarks made so far, by name: hundreds of findings are about few names."""
+    return {}
+
+
+def _availability(workspace: Workspace, name: str) -> str:
     world, target = workspace.world, workspace.target
     if world.layer(name) in ("workspace", "underlay"):
         return ""

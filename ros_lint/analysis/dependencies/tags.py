@@ -115,3 +115,10 @@ def _is_only_for_building(workspace: Workspace, name: str) -> bool:
     """Return whether released packages mostly declare a name for building only."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if set(kinds) <= {"b", "t"}) > sum(declared.values())
+
+
+TEST_LIBRARIES = frozenset({
+    "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest", "benchmark", "gmock_vendor", "google-mock",
+    "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
+})  # fmt: skip
+"""Packages and keys that provide test libraries for C++."""

@@ -47,7 +47,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     missing = [
         need
         for need in needs(package, workspace)
-        if not (need.declared or need.brought or any(otherwise.intersection(use.providers) for use in need.uses))
+        if not (need.declared or need.is_transitive or any(otherwise.intersection(use.providers) for use in need.uses))
     ]
     joined = _joined([need for need in missing if not only_launched(package, need.uses)])
     elsewhere = (

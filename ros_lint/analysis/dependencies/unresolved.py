@@ -22,12 +22,12 @@ class UnresolvedDependency(NamedTuple):
     """The first tag with the name."""
     tags: tuple[Depend, ...]
     """All tags with the name."""
-    called_so: tuple[Use, ...]
+    matching_uses: tuple[Use, ...]
     """Uses whose name is this name or a part of it."""
 
     @property
     def name(self) -> str:
-        """The name."""
+        """The declared name."""
         return self.declared.depend.name
 
     @property
@@ -35,10 +35,10 @@ class UnresolvedDependency(NamedTuple):
         """True if the name may be needed only to run Python code, as far as its tags and uses show."""
         if self.package.builds_with == "ament_python":
             return True
-        called_so = {use.via for use in self.called_so}
+        vias = {use.via for use in self.matching_uses}
         if not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
-            return not called_so or "import" in called_so
-        return called_so == {"import"}
+            return not vias or "import" in vias
+        return vias == {"import"}
 
 
 @cached_by_workspace

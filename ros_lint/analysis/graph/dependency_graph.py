@@ -220,7 +220,10 @@ def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:
 
 
 def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the first order by name in which successors come first, and the nodes that cannot be ordered."""
+    """Return the nodes in an order that puts dependencies first, and the nodes that are in or behind a cycle.
+
+    Of several orders, this is the first one by name.
+    """
     missing = {name: len(dependencies) for name, dependencies in arcs.items()}
     before = reverse(arcs)
     ready = [name for name, count in missing.items() if not count]

@@ -42,15 +42,15 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
     """Return how a launch file uses its arguments, None if other files may use or declare them in unknown ways."""
     tree, resolver = include_tree(workspace), include_resolver(workspace)
     own = tree.names(file)
-    if workspace.unread() or not own.whole or not resolver.takes(file).complete:
+    if workspace.unread() or not own.complete or not resolver.takes(file).complete:
         return None
     above = tree.above(file)
     inside = frozenset().union(*(resolver.takes(inner).known for inner in resolver.includes(file)))
-    known = {*own.declared, *own.made}.union(*([*names.declared, *names.made] for names in above))
-    unknown = own.asked - known - inside
+    known = {*own.declared, *own.set_or_passed}.union(*([*names.declared, *names.set_or_passed] for names in above))
+    unknown = own.read - known - inside
     undeclared = required_configurations(file, unknown) if unknown else {}
-    similar = _similar(file, unknown - undeclared.keys() - tree.made, own.declared)
-    unused = own.declared.keys() - own.asked.union(inside, *(names.asked for names in above))
+    similar = _similar(file, unknown - undeclared.keys() - tree.set_or_passed, own.declared)
+    unused = own.declared.keys() - own.read.union(inside, *(names.read for names in above))
     return ArgumentUse(own.declared, undeclared, dict(similar), frozenset(unused))
 
 

@@ -18,31 +18,31 @@ class FileConfigurations(NamedTuple):
 
     declared: Mapping[str, Span]
     """Its launch arguments, with the place of each declaration."""
-    made: frozenset[str]
+    set_or_passed: frozenset[str]
     """Configurations that it sets in other ways, or passes to an included file, which leaves them set."""
-    asked: frozenset[str]
+    read: frozenset[str]
     """Configurations that it reads."""
-    whole: bool
+    complete: bool
     """True if all names are known."""
-    fills: bool
+    may_read_any: bool
     """True if parameter files, which users can replace, may read any configuration."""
 
 
 def names_of(file: LaunchFile) -> FileConfigurations:
     """Return the configurations of a launch file, without those of included files."""
     declared: dict[str, Span] = {}
-    made: set[str] = set()
-    asked = configurations_read(file)
-    whole = not file.problems and not file.opaque and all(map(is_plain, asked))
+    set_or_passed: set[str] = set()
+    read = configurations_read(file)
+    complete = not file.problems and not file.opaque and all(map(is_plain, read))
     for action in walk_actions(file.actions):
         if action.kind in ("include", "group"):
-            made.update(name for name, _ in action.arguments)
+            set_or_passed.update(name for name, _ in action.arguments)
         elif action.kind == "set" and action.target is not None:
-            made.update(action.target.texts)
+            set_or_passed.update(action.target.texts)
         elif action.kind == "argument" and action.target is not None:
             declared.update((name, action.span) for name in action.target.texts if name not in declared)
-    whole = whole and all(map(is_plain, (*made, *declared)))
-    return FileConfigurations(declared, frozenset(made), frozenset(asked), whole, file.substitutes_parameters)
+    complete = complete and all(map(is_plain, (*set_or_passed, *declared)))
+    return FileConfigurations(declared, frozenset(set_or_passed), frozenset(read), complete, file.substitutes_parameters)
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
@@ -68,9 +68,9 @@ class IncludeTree:
         self._names = {file.path: names_of(file) for file in files}
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
-        self.made = frozenset().union(*(names.made for names in self._names.values()))
+        self.set_or_passed = frozenset().union(*(names.set_or_passed for names in self._names.values()))
         """Configurations that any file sets or passes to another one."""
-        self._filling = {path for path, names in self._names.items() if names.fills}
+        self._filling = {path for path, names in self._names.items() if names.may_read_any}
         self._filled: dict[str, bool] = {}
         for file in files:
             for inner in links.includes(file):

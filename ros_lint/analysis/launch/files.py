@@ -162,10 +162,10 @@ def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
     return looked_up(workspace.packages)
 
 
-def node_references(packages: Iterable[Package], *, kept_back: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
+def node_references(packages: Iterable[Package], *, excluded: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
     """Return the places where launch files start executables, by package and executable, tests included.
 
-    ``kept_back`` selects the launch files that are deliberately not installed (:func:`is_excluded_from_install`).
+    ``excluded`` selects the launch files that are deliberately not installed (:func:`is_excluded_from_install`).
     Otherwise these are left out.
     """
     result: dict[str, dict[str, list[LaunchReference]]] = {}
@@ -173,7 +173,7 @@ def node_references(packages: Iterable[Package], *, kept_back: bool = False) -> 
         installed = package.built.products.installed if package.launch else ()
         for launch in package.launch:
             path = strip_folder(package.path, launch.path)
-            if (path not in installed and is_excluded_from_install(package, path)) is not kept_back:
+            if (path not in installed and is_excluded_from_install(package, path)) is not excluded:
                 continue
             for reference in [reference for reference in launch.references if reference.kind == "node"]:
                 result.setdefault(reference.package, {}).setdefault(reference.name, []).append(reference)

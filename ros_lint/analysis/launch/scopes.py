@@ -80,6 +80,6 @@ class ScopeLeaks:
 
 @cached_by_workspace
 def scope_leaks(workspace: Workspace) -> ScopeLeaks:
-    """Return the scopes of the launch files of a workspace."""
+    """Return which launch files of the workspace read configurations that an include leaves set."""
     files = [file for package in workspace.packages for file in package.launch]
     return ScopeLeaks(files, include_resolver(workspace))

@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final
 
-from ros_lint.collectors.cmake.syntax import Command, Parsed
+from ros_lint.collectors.cmake.syntax import Command, ParsedScript
 from ros_lint.facts.cmake import Call
 
 _OPEN: Final = frozenset({"if", "foreach", "while", "function", "macro"})
 _BLOCK_WORDS: Final = frozenset({"else", "elseif", "return", "break", "continue", *(f"end{word}" for word in _OPEN)})
 
 
-def collect(path: str, parsed: Parsed) -> Iterator[Call]:
+def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
     """Yield the calls of a CMake file in order, without the commands that begin or end blocks.
 
     ``path`` is the path of the file, relative to the base of the run.

@@ -31,7 +31,7 @@ from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
 from ros_lint.collectors.cmake.evaluator.found_packages import folded
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
-from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, Frame
+from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, CallFrame
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import Command, is_template
@@ -89,7 +89,7 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     parsed = sources.scripts.get(_TOP)
     if parsed is None:
         return BuildScript(path, opaque=(Opaque(ALL_FACETS, "CMakeLists.txt cannot be read", file_start(path)),))
-    frame = Frame(True, path, run.paths.absolute(_TOP))
+    frame = CallFrame(True, path, run.paths.absolute(_TOP))
     try:
         exits = cmake_flow.run_file(run, parsed.commands, frame)
     except (BudgetError, RecursionError):

@@ -67,7 +67,7 @@ class Command(NamedTuple):
         return position(offset, self.start, self.line, self.column, self.breaks)
 
 
-class Parsed(NamedTuple):
+class ParsedScript(NamedTuple):
     """The commands and problems of a CMake file. CMake runs no command of a file that has a problem."""
 
     commands: tuple[Command, ...]
@@ -111,7 +111,7 @@ _OTHER_LANGUAGE = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|t
 """Names of templates for files of other languages, such as ``config.h.cmake``."""
 
 
-def parse(source: Text) -> Parsed:
+def parse(source: Text) -> ParsedScript:
     """Return the commands of a CMake file, and its first syntax error if it has one."""
     return _Reader(source).read()
 
@@ -129,7 +129,7 @@ class _Reader:
         self.text = source.text
         self.commands: list[Command] = []
 
-    def read(self) -> Parsed:
+    def read(self) -> ParsedScript:
         problems: tuple[Problem, ...] = ()
         try:
             self._commands()
@@ -138,7 +138,7 @@ class _Reader:
             problems = (Problem("cmake-syntax", str(error), span),)
         text = self.text
         comments = "#" in text and (".msg" in text or ".srv" in text or ".action" in text or ".idl" in text)
-        return Parsed(tuple(self.commands), problems, tuple(_SET_ASIDE.findall(text)) if comments else ())
+        return ParsedScript(tuple(self.commands), problems, tuple(_SET_ASIDE.findall(text)) if comments else ())
 
     def _commands(self) -> None:
         text = self.text

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.collectors.launch.scope import Filling, Scope, Texts
+from ros_lint.collectors.launch.scope import Filling, LaunchScope, Texts
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, joined
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ class _Delayed(NamedTuple):
     place: int
     """The number of actions that were started before."""
     actions: tuple[LaunchAction, ...]
-    scope: Scope
+    scope: LaunchScope
     open: tuple[tuple[str, dict[str, Texts]], ...]
     """The files that are being included, innermost last."""
     via: Span | None
@@ -192,7 +192,7 @@ class _Run:
         folder = file.path.rpartition("/")[0]
         self._open.append((file.path, dict(passed)))
         self._values = passed
-        self._actions(file.actions, Scope(passed, (folder or ".",)))
+        self._actions(file.actions, LaunchScope(passed, (folder or ".",)))
         self._expand_delayed()
 
     def _expand_delayed(self) -> None:
@@ -214,12 +214,12 @@ class _Run:
             del self.started[end:]
             self.started[entry.place : entry.place] = inserted
 
-    def _actions(self, actions: Iterable[LaunchAction], scope: Scope) -> Scope:
+    def _actions(self, actions: Iterable[LaunchAction], scope: LaunchScope) -> LaunchScope:
         for action in actions:
             scope = self._action(action, scope)
         return scope
 
-    def _action(self, action: LaunchAction, scope: Scope) -> Scope:
+    def _action(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
         self._remaining -= 1
         if len(self.started) > _MAX_STARTED or self._remaining < 0:
             self.complete = False
@@ -267,7 +267,7 @@ class _Run:
                 self._actions(action.children, scope)
         return outer
 
-    def _declare(self, action: LaunchAction, scope: Scope) -> None:
+    def _declare(self, action: LaunchAction, scope: LaunchScope) -> None:
         for name in self._texts(action.target, scope):
             is_given = name in scope.values
             if not is_given and action.value is None:
@@ -285,14 +285,14 @@ class _Run:
     def _is_refused(value: str, action: LaunchAction) -> bool:
         return bool(action.choices) and all(map(is_settled, action.choices)) and value not in action.choices
 
-    def _set(self, scope: Scope, name: str, texts: Texts, certain: bool) -> None:
+    def _set(self, scope: LaunchScope, name: str, texts: Texts, certain: bool) -> None:
         present = scope.values.get(name)
         if certain or present is None:
             scope.values[name] = texts
         else:
             scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
 
-    def _reset(self, action: LaunchAction, scope: Scope) -> Scope:
+    def _reset(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
         """Clear the launch configurations, and return the scope after it.
 
         Namespaces, parameters and remappings that hold for later nodes are launch configurations of launch_ros.
@@ -306,7 +306,7 @@ class _Run:
             self._set(scope, name, configurations.get(name, (UNKNOWN,)), certain=False)
         return scope._replace(namespace=(*scope.namespace, ""))
 
-    def _pushed(self, action: LaunchAction, scope: Scope) -> Scope:
+    def _pushed(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
         """Return a scope with the setting that an action makes for all later actions."""
         texts = self._texts(action.value, scope)
         if action.kind == "namespace":
@@ -328,7 +328,7 @@ class _Run:
             pairs = tuple((name, joined(row, "".join)) for name, row in zip(names, rows, strict=True))
         return scope._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
 
-    def _group(self, action: LaunchAction, scope: Scope) -> Scope:
+    def _group(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
         """Expand a group, and return the scope after it."""
         name = self._texts(action.name, scope)
         inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
@@ -339,7 +339,7 @@ class _Run:
         after = self._actions(action.children, inner)
         return scope if action.has_scope else after
 
-    def _include(self, action: LaunchAction, scope: Scope) -> Scope:
+    def _include(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
         started = self._start(action, scope)
         for name, value in action.arguments:
             if name:
@@ -367,7 +367,7 @@ class _Run:
     def _depth(self) -> int:
         return len(self._open) - 1
 
-    def _start(self, action: LaunchAction, scope: Scope) -> Started:
+    def _start(self, action: LaunchAction, scope: LaunchScope) -> Started:
         is_process = action.kind == "process"
         self._filling.unknown.clear()
         if self._brief:

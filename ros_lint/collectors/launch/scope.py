@@ -18,7 +18,7 @@ Texts = tuple[str, ...]
 """Alternative texts."""
 
 
-class Scope(NamedTuple):
+class LaunchScope(NamedTuple):
     """The state that actions read and change.
 
     ``values`` is mutable and shared by the actions of one scope; the other fields are passed from action to action.
@@ -38,7 +38,7 @@ class Scope(NamedTuple):
     include: Span | None = None
     """The include of the file that is being expanded."""
 
-    def after(self, inner: Scope) -> Scope:
+    def after(self, inner: LaunchScope) -> LaunchScope:
         """Return the scope after actions that ran in an unscoped inner one."""
         return self._replace(
             namespace=inner.namespace,
@@ -59,11 +59,11 @@ class Filling:
         self.unknown: dict[str, None] = {}
         """Reasons why parts of the texts are unknown, since the last ``clear()``."""
 
-    def texts(self, value: LaunchValue | None, scope: Scope) -> Texts:
+    def texts(self, value: LaunchValue | None, scope: LaunchScope) -> Texts:
         """Return the alternatives of a value in a scope, () for None."""
         return () if value is None else self._filled(value.texts, scope)
 
-    def _filled(self, texts: Texts, scope: Scope) -> Texts:
+    def _filled(self, texts: Texts, scope: LaunchScope) -> Texts:
         if len(texts) == 1 and is_settled(texts[0]) and OWN_FOLDER not in texts[0]:
             return texts
         results: dict[str, None] = {}
@@ -80,19 +80,19 @@ class Filling:
                     self.unknown.update(dict.fromkeys(self._reasons(text, scope)))
         return tuple(results)
 
-    def _fill(self, text: str, scope: Scope) -> Texts:
+    def _fill(self, text: str, scope: LaunchScope) -> Texts:
         names = named_in(text)
         if names is None:
             return fill(text, lambda name: self._value(name, scope), evaluate)
         return _filled_with(text, names, tuple([self._value(name, scope) for name in names]))
 
-    def _value(self, name: str, scope: Scope) -> Texts | None:
+    def _value(self, name: str, scope: LaunchScope) -> Texts | None:
         if not name.startswith("$"):
             return scope.values.get(name)
         changed = dict(scope.environment)
         return changed[name[1:]] or None if name[1:] in changed else self._environment.get(name)
 
-    def _reasons(self, text: str, scope: Scope) -> Iterator[str]:
+    def _reasons(self, text: str, scope: LaunchScope) -> Iterator[str]:
         """Yield the reasons why a text is unknown."""
         for name, has_default, _ in configurations(text):
             value = self._value(name, scope)
@@ -106,7 +106,7 @@ class Filling:
         if UNKNOWN in text:
             yield "it is computed in a way that ros-lint cannot follow"
 
-    def truth(self, conditions: Iterable[LaunchCondition], scope: Scope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
+    def truth(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
         """Return whether all conditions hold (None if unknown), and the unknown conditions."""
         unknown: list[LaunchCondition] = []
         for condition in conditions:
@@ -117,7 +117,7 @@ class Filling:
                 unknown.append(condition)
         return (None if unknown else True), tuple(unknown)
 
-    def _holds(self, condition: LaunchCondition, scope: Scope) -> bool | None:
+    def _holds(self, condition: LaunchCondition, scope: LaunchScope) -> bool | None:
         answers: set[bool | None] = set()
         for text in self._filled(condition.texts, scope):
             if package_of_presence(text):

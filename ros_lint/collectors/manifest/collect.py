@@ -67,8 +67,8 @@ def collect(source: Text) -> Manifest:
         place(end, end),
         begin,
         format_span,
-        tuple(content.asides),
-        tuple(content.strays),
+        tuple(content.other_contents),
+        tuple(content.stray_text),
         _indent(text.text, document),
         text.newline,
         source.text,
@@ -79,14 +79,14 @@ def collect(source: Text) -> Manifest:
 class _PackageContent:
     """The contents of ``<package>``; ``doubtful`` if an element may have invalid attributes or children."""
 
-    __slots__ = ("asides", "depends", "doubtful", "elements", "exports", "strays")
+    __slots__ = ("depends", "doubtful", "elements", "exports", "other_contents", "stray_text")
 
     def __init__(self) -> None:
         self.elements: list[Element] = []
         self.depends: list[Depend] = []
         self.exports: list[Element] = []
-        self.asides: list[Span] = []
-        self.strays: list[Span] = []
+        self.other_contents: list[Span] = []
+        self.stray_text: list[Span] = []
         self.doubtful = False
 
 
@@ -144,9 +144,9 @@ def _read_children(
 def _read_asides(gap: str, start: int, content: _PackageContent, place: _Place) -> None:
     for aside in _ASIDE.finditer(gap):
         span = place(start + aside.start(), start + aside.end())
-        content.asides.append(span)
+        content.other_contents.append(span)
         if not aside[0].startswith(("<!--", "<?")):
-            content.strays.append(span)
+            content.stray_text.append(span)
 
 
 def _depend(text: str, node: XmlNode, place: _Place) -> Depend:

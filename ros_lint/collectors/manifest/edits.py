@@ -1,6 +1,6 @@
 """Edits of ``package.xml``: minimal, in the style of the file, comments kept.
 
-They are computed from the places in a :class:`Manifest` alone, because rules do not have the text. ``Manifest.asides``
+They are computed from the places in a :class:`Manifest` alone, because rules do not have the text. ``Manifest.other_contents``
 lists the comments and texts between elements, so all other lines are blank. Every edit applies to the text
 that the manifest was read from. If the text is not well-formed, the edits are based on the part that could be read.
 """
@@ -210,7 +210,7 @@ class _Layout:
         self.path = manifest.path
         self.begin = manifest.begin or manifest.end
         spans = (child.span for children in (manifest.elements, manifest.depends) for child in children)
-        self.items = sorted((*spans, *manifest.asides))
+        self.items = sorted((*spans, *manifest.other_contents))
         self.covered = {self.begin.line, manifest.end.line}
         for item in self.items:
             self.covered.update(range(item.line, item.end_line + 1))
@@ -227,13 +227,13 @@ class _Layout:
     def is_alone(self, span: Span) -> bool:
         """Return whether an item shares no line with another one and has no comment directly above it."""
         at = self.items.index(span)
-        heading = at > 0 and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1
+        heading = at > 0 and self.items[at - 1] in self.manifest.other_contents and self.items[at - 1].end_line == span.line - 1
         return self.neighbours(span) == (None, None) and not heading
 
     def insert_after(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
         """Return the edit that inserts an element after an item and the comments on its line."""
         tail = span
-        while (following := self.neighbours(tail).after) is not None and following in self.manifest.asides:
+        while (following := self.neighbours(tail).after) is not None and following in self.manifest.other_contents:
             tail = following
         if following is not None:
             # Several elements of one kind on a line are a style, which is kept. Different kinds are separated, unless
@@ -293,7 +293,7 @@ class _Layout:
     def with_heading(self, span: Span) -> Span:
         """Return the first of the comments directly above an item, or the item itself."""
         at = self.items.index(span)
-        while at and self.items[at - 1] in self.manifest.asides and self.items[at - 1].end_line == span.line - 1:
+        while at and self.items[at - 1] in self.manifest.other_contents and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:
                 break
             at -= 1
@@ -302,7 +302,7 @@ class _Layout:
 
     def blank_after(self, span: Span) -> bool:
         """Return whether a blank line follows an item and the comments on its line."""
-        while (following := self.neighbours(span).after) is not None and following in self.manifest.asides:
+        while (following := self.neighbours(span).after) is not None and following in self.manifest.other_contents:
             span = following
         return self._is_blank(span.end_line + 1)
 
@@ -329,7 +329,7 @@ class _Layout:
 
 
 def _element_text(child: Element | Depend) -> str:
-    """Return an element in its usual notation."""
+    """Return the XML text of an element."""
     if isinstance(child, Depend):
         condition = (("condition", child.condition),) if child.condition else ()
         return _tagged(child.tag, (*child.versions, *condition), child.name)

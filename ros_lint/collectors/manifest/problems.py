@@ -113,7 +113,7 @@ def _is_valid(element: Element) -> bool:
 def find_problems(
     document: Document, root: XmlNode, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]
 ) -> Iterator[Fault]:
-    """Yield the errors in the content of a manifest, unordered. ``form`` is 0 if the format is unknown.
+    """Yield the errors in the content of a manifest, unordered. ``format_number`` is 0 if the format is unknown.
 
     ``elements`` and ``depends`` are the parsed closed children of the root. If a file could not be read to its end,
     nothing is reported as missing.

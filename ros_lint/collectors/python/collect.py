@@ -53,7 +53,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         for item, span in zip(named, spans, strict=True)
     ]
     opaque = [
-        Opaque(Facet.USES, "which module is imported here is computed", source.span(item.start, item.start))
+        Opaque(Facet.USES, "the name of the module imported here is computed at run time", source.span(item.start, item.start))
         for item in imports
         if not item.module
     ]

@@ -24,7 +24,7 @@ _BINDING = frozenset({ast.NamedExpr, ast.Lambda, *_COMPREHENSIONS})
 class Where(NamedTuple):
     """A point in the program."""
 
-    scope: Scope
+    scope: PythonScope
     block: Block
     line: int
     column: int
@@ -49,7 +49,7 @@ class Expression(NamedTuple):
     """The targets that the statement assigns the value, or its elements, to."""
 
 
-class Scope:
+class PythonScope:
     """The scope of a module, a function or a class.
 
     ``shared`` is True for modules and classes, whose names the functions in them may use, and False for functions.
@@ -57,7 +57,7 @@ class Scope:
 
     __slots__ = ("bindings", "parent", "shared")
 
-    def __init__(self, parent: Scope | None, *, shared: bool = True) -> None:
+    def __init__(self, parent: PythonScope | None, *, shared: bool = True) -> None:
         self.parent = parent
         self.shared = shared
         self.bindings: dict[str, list[Binding]] = {}
@@ -65,9 +65,9 @@ class Scope:
     def bind(self, name: str, value: ast.expr | None, where: Where, steps: tuple[Step, ...] = ()) -> None:
         self.bindings.setdefault(name, []).append(Binding(value, where, steps))
 
-    def find(self, name: str) -> Scope | None:
+    def find(self, name: str) -> PythonScope | None:
         """Return the scope that binds a name."""
-        scope: Scope | None = self
+        scope: PythonScope | None = self
         while scope is not None and name not in scope.bindings:
             scope = scope.parent
         return scope
@@ -76,7 +76,7 @@ class Scope:
 def scan(tree: ast.Module) -> list[Expression]:
     """Return the expressions of a module in textual order. Their scopes contain all bindings."""
     scanner = _Scanner()
-    scanner.block(tree.body, Scope(None), ())
+    scanner.block(tree.body, PythonScope(None), ())
     return scanner.expressions
 
 
@@ -85,16 +85,16 @@ class _Scanner:
         self.expressions: list[Expression] = []
         self._blocks = 0
 
-    def block(self, body: Sequence[ast.stmt], scope: Scope, block: Block) -> None:
+    def block(self, body: Sequence[ast.stmt], scope: PythonScope, block: Block) -> None:
         for statement in body:
             self._statement(statement, scope, block)
 
-    def _branch(self, body: Sequence[ast.stmt], scope: Scope, block: Block) -> None:
+    def _branch(self, body: Sequence[ast.stmt], scope: PythonScope, block: Block) -> None:
         if body:
             self._blocks += 1
             self.block(body, scope, (*block, self._blocks))
 
-    def _statement(self, statement: ast.stmt, scope: Scope, block: Block) -> None:
+    def _statement(self, statement: ast.stmt, scope: PythonScope, block: Block) -> None:
         where = Where(scope, block, statement.lineno, statement.col_offset)
         match statement:
             case ast.FunctionDef() | ast.AsyncFunctionDef():
@@ -103,7 +103,7 @@ class _Scanner:
                 scope.bind(statement.name, None, where)
                 for base in (*statement.bases, *statement.decorator_list):
                     self._expression(base, where)
-                self.block(statement.body, Scope(scope), ())
+                self.block(statement.body, PythonScope(scope), ())
             case ast.Assign(targets=targets, value=value):
                 for target in targets:
                     self._bind(target, value, where)
@@ -162,9 +162,9 @@ class _Scanner:
         if isinstance(item, (ast.ExceptHandler, ast.match_case)):
             self._branch(item.body, where.scope, where.block)
 
-    def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: Scope, where: Where) -> None:
+    def _function(self, node: ast.FunctionDef | ast.AsyncFunctionDef, scope: PythonScope, where: Where) -> None:
         scope.bind(node.name, None, where)
-        inner = Scope(scope, shared=False)
+        inner = PythonScope(scope, shared=False)
         parameters = node.args
         for default in (*parameters.defaults, *parameters.kw_defaults, *node.decorator_list):
             if default is not None:

@@ -20,7 +20,7 @@ from ros_lint.collectors.python.rewritten_source import too_deep
 from ros_lint.collectors.python.source_errors import NotPythonError
 
 
-class Reason(NamedTuple):
+class SyntaxReason(NamedTuple):
     """Why a source is refused, from an offset on."""
 
     offset: int
@@ -44,31 +44,32 @@ _LEVELS: Final = 100
 _LONGEST_WORD: Final = 40
 
 
-def reason(text: str, read_expression: Callable[[str], ast.expr]) -> Reason:
+def reason(text: str, read_expression: Callable[[str], ast.expr]) -> SyntaxReason:
     """Return why a source is no Python. ``read_expression`` raises NotPythonError for a text that is no expression."""
     if len(text) > _LONGEST_TEXT:
-        return Reason(0, "Python refuses it, and it is too long to say why", known=False)
-    found, reasons = list[Token](), list[Reason]()
+        return SyntaxReason(0, "Python refuses it, and it is too long to say why", known=False)
+    found, reasons = list[Token](), list[SyntaxReason]()
     try:
         for token in tokens(text):
             found.append(token)
     except TokenError as error:
-        reasons.append(Reason(error.offset, error.message, not isinstance(error, TemplateDepthError)))
+        reasons.append(SyntaxReason(error.offset, error.message, not isinstance(error, TemplateDepthError)))
     else:
         if (unpaired := brackets(text, found)) is not None:
-            reasons.append(Reason(*unpaired[::-1]))
+            reasons.append(SyntaxReason(*unpaired[::-1]))
     if "\0" in text:
-        reasons.append(Reason(text.index("\0"), "Python has no such character"))
+        reasons.append(SyntaxReason(text.index("\0"), "Python has no such character"))
     if conflict := _CONFLICT.search(text):
-        reasons.append(Reason(conflict.start(), "this merge conflict is not resolved"))
+        reasons.append(SyntaxReason(conflict.start(), "this merge conflict is not resolved"))
     if indentation := next(_indentation(text, found), None):
         reasons.append(indentation)
     if reasons:
         return min(reasons)
     if (deep := too_deep(text, found)) is not None:
-        return Reason(deep[1], deep[0], known=False)
+        return SyntaxReason(deep[1], deep[0], known=False)
     return next(
-        _in_statements(text, found, read_expression), Reason(0, "Python refuses it for a reason that is not known", known=False)
+        _in_statements(text, found, read_expression),
+        SyntaxReason(0, "Python refuses it for a reason that is not known", known=False),
     )
 
 
@@ -89,7 +90,7 @@ def _logical_lines(found: Sequence[Token]) -> Iterator[tuple[Token, Token]]:
         yield first, last
 
 
-def _indentation(text: str, found: Sequence[Token]) -> Iterator[Reason]:
+def _indentation(text: str, found: Sequence[Token]) -> Iterator[SyntaxReason]:
     """Yield what is wrong with the indentation. It is measured twice: with tabs up to each eighth column, and as one column."""
     levels = [(0, 0)]
     word, line, end, opens = "", "", 0, False
@@ -99,37 +100,37 @@ def _indentation(text: str, found: Sequence[Token]) -> Iterator[Reason]:
         level = len(blanks.expandtabs(8)), len(blanks)
         if level[0] > levels[-1][0]:
             if word in _COMPOUND and ":" not in line:
-                yield Reason(end, '":" is missing at the end of the line')
+                yield SyntaxReason(end, '":" is missing at the end of the line')
             elif not opens:
-                yield Reason(first.start, "this line is indented too far")
+                yield SyntaxReason(first.start, "this line is indented too far")
             elif level[1] <= levels[-1][1]:
-                yield Reason(first.start, "tabs and blanks are mixed in the indentation")
+                yield SyntaxReason(first.start, "tabs and blanks are mixed in the indentation")
             elif len(levels) == _LEVELS:
-                yield Reason(first.start, f"more than {_LEVELS} levels of indentation")
+                yield SyntaxReason(first.start, f"more than {_LEVELS} levels of indentation")
             levels.append(level)
         elif opens and word in _COMPOUND:
-            yield Reason(first.start, f'an indented block is missing after this "{word}"')
+            yield SyntaxReason(first.start, f'an indented block is missing after this "{word}"')
         while levels[-1][0] > level[0]:
             levels.pop()
         if levels[-1][0] != level[0]:
-            yield Reason(first.start, "the indentation is that of no line above")
+            yield SyntaxReason(first.start, "the indentation is that of no line above")
         elif levels[-1] != level:
-            yield Reason(first.start, "tabs and blanks are mixed in the indentation")
+            yield SyntaxReason(first.start, "tabs and blanks are mixed in the indentation")
         word, line, end = text[first.start : first.end], text[first.start : last.end], last.end
         opens = text[last.start : last.end] == ":"
     if opens and word in _COMPOUND:
-        yield Reason(end, f'an indented block is missing after this "{word}"')
+        yield SyntaxReason(end, f'an indented block is missing after this "{word}"')
 
 
 # --- statements
 
 
-def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[Reason]:
+def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
     """Yield what is wrong with the first statement that Python refuses."""
     try:
         code = rewrite(text, found).text
     except TokenError as error:
-        yield Reason(error.offset, error.message)
+        yield SyntaxReason(error.offset, error.message)
         return
     lines = [match.span() for match in _LINE.finditer(code)]
     starts = [match.start() for match in _LINE.finditer(text)]
@@ -141,13 +142,13 @@ def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[
             end = starts[behind] if behind < len(starts) else len(text)
             inside = [token for token in found if starts[first] <= token.start < end and token.kind != "comment"]
             if old := _OF_PYTHON_2.search(statement):
-                yield Reason(starts[first] + old.start(1), f'this is Python 2: say "as {old[2]}"')
+                yield SyntaxReason(starts[first] + old.start(1), f'this is Python 2: say "as {old[2]}"')
             yield from _literals(text, inside, read_expression)
             place = _place(statement)
             if place is not None:
                 line, column = place
                 at = min(starts[first + line - 1] + column, end) if first + line <= len(starts) else end
-                yield _word(text, inside, at) if line else Reason(starts[first], "this statement cannot be read")
+                yield _word(text, inside, at) if line else SyntaxReason(starts[first], "this statement cannot be read")
             return
 
 
@@ -184,21 +185,21 @@ def _place(statement: str) -> tuple[int, int] | None:
     return None
 
 
-def _word(text: str, code: Sequence[Token], at: int) -> Reason:
+def _word(text: str, code: Sequence[Token], at: int) -> SyntaxReason:
     """Return what is wrong with the last token that begins before an offset."""
     if code[-1].kind != "newline":
         code = [*code, Token("newline", len(text), len(text))]
     index = max((index for index, token in enumerate(code) if token.start < at), default=0)
     token, before = code[index], code[index - 1] if index else None
     if token.kind == "newline" and before is not None:
-        return Reason(before.end, "the line ends too early")
+        return SyntaxReason(before.end, "the line ends too early")
     shown = _shown(text[token.start : token.end])
     hint = ""
     if before is not None and _ends_value(text, before) and _begins_value(text, token):
         of_python_2 = text[before.start : before.end] == "print"
         hint = "; print is a function" if of_python_2 else "; is a comma or an operator missing before it?"
     shown = shown if token.kind in ("string", "template") else f'"{shown}"'
-    return Reason(token.start, f"{shown} is not expected here{hint}")
+    return SyntaxReason(token.start, f"{shown} is not expected here{hint}")
 
 
 def _shown(written: str) -> str:
@@ -220,18 +221,18 @@ def _is_value(text: str, token: Token) -> bool:
     return is_name or token.kind in ("number", "string", "template")
 
 
-def _literals(text: str, code: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[Reason]:
+def _literals(text: str, code: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
     """Yield what is wrong with the strings and numbers of a source."""
     for before, token in pairwise([Token("newline", 0, 0), *code]):
         written = text[token.start : token.end]
         if token.kind == "number" and not _is_literal(written):
-            yield Reason(token.start, "this is no number")
+            yield SyntaxReason(token.start, "this is no number")
         elif token.kind == "name" and before.kind == "number" and before.end == token.start and not iskeyword(written):
-            yield Reason(before.start, "this is no number")
+            yield SyntaxReason(before.start, "this is no number")
         elif token.kind == "string" and not _is_literal(written):
-            yield Reason(token.start, _why_no_string(written))
+            yield SyntaxReason(token.start, _why_no_string(written))
         elif token.kind == "string" and _are_unlike(text, before, token):
-            yield Reason(token.start, "bytes and texts cannot stand side by side")
+            yield SyntaxReason(token.start, "bytes and texts cannot stand side by side")
         elif token.kind == "template":
             yield from _wrong_fields(text, token, read_expression)
 
@@ -261,11 +262,11 @@ def _why_no_string(written: str) -> str:
     return "an escape in this string means nothing"
 
 
-def _wrong_fields(text: str, token: Token, read_expression: Callable[[str], ast.expr]) -> Iterator[Reason]:
+def _wrong_fields(text: str, token: Token, read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
     for piece in template(text, token.start).pieces:
         if piece.field is not None:
             start, end = piece.field.expression
             try:
                 read_expression(f"({text[start:end]})")
             except NotPythonError:
-                yield Reason(start, f"{_shown(text[start:end])} is no expression")
+                yield SyntaxReason(start, f"{_shown(text[start:end])} is no expression")

@@ -31,7 +31,7 @@ _RESERVED_FOLDERS = frozenset(
 """Folders that the automatic discovery of setuptools does not treat as packages."""
 
 
-class Context(NamedTuple):
+class SetupContext(NamedTuple):
     """Data of a package that, besides the options of setup(), are needed to compute its installed files."""
 
     files: Files
@@ -49,7 +49,7 @@ class Distribution:
     ``place`` is a function from a value and a default to the span of the value; the default is for a value without a place.
     """
 
-    def __init__(self, context: Context, place: Callable[[Value, Span], Span]) -> None:
+    def __init__(self, context: SetupContext, place: Callable[[Value, Span], Span]) -> None:
         self._context = context
         self._place = place
         self.provides: list[InstalledFile] = []
@@ -68,7 +68,7 @@ class Distribution:
         self._scripts(options.get("scripts"))
         self._entry_points(options.get("entry_points"))
         if options.get("ext_modules"):
-            self.opaque.append(Opaque(Facet.PYTHON, "which modules an extension has is not followed", self._context.call))
+            self.opaque.append(Opaque(Facet.PYTHON, "the names of the modules of an extension are unknown", self._context.call))
         commands = options.get("cmdclass")
         if isinstance(commands, Unknown):
             self._hide(INSTALLED, commands)

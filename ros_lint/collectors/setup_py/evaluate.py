@@ -21,7 +21,7 @@ from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import is_of_others, read, refusal, span_of
 from ros_lint.collectors.python.unbound_names import tried, unbound
 from ros_lint.collectors.setup_py import setup_cfg as setup_cfg_collector
-from ros_lint.collectors.setup_py.distribution import INSTALLED, Context, Distribution
+from ros_lint.collectors.setup_py.distribution import INSTALLED, Distribution, SetupContext
 from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.library import Setup
 from ros_lint.collectors.setup_py.interpreter.program import Program
@@ -74,7 +74,7 @@ def evaluate(
     for setup in library.setups:
         call = place(setup, start)
         options = completed(setup.options, package_files, cfg, pyproject)
-        context = Context(package_files, executables, folder, call, len(library.setups) > 1)
+        context = SetupContext(package_files, executables, folder, call, len(library.setups) > 1)
         distribution = Distribution(context, place)
         distribution.read(options)
         if setup.module not in _PLAIN_SETUPS:
@@ -117,7 +117,7 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
         python=SetupScript(newer_syntax=() if newer and is_of_others(source) else newer),
     )
     if program.end or not program.setup_library.setups:
-        reason = f"setup.py is not evaluated to its end: {program.end}" if program.end else "no call of setup() is found"
+        reason = f"setup.py cannot be evaluated to its end: {program.end}" if program.end else "it contains no call of setup()"
         return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
     return script
 

@@ -64,7 +64,7 @@ def _single(option: Option) -> Value:
         return ""
     line = option.lines[0]
     if line.text.startswith(("attr:", "file:")):
-        return Unknown(f"{option.key} = {line.text} is not followed", None, line.span)
+        return Unknown(f"{option.key} = {line.text} cannot be evaluated", None, line.span)
     return _word(line)
 
 

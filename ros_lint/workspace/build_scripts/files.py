@@ -9,7 +9,7 @@ from ros_lint.base.auxiliary_files import is_auxiliary
 from ros_lint.base.paths import folders_of, join, parent, resolve
 from ros_lint.base.text import Span, Text, from_bytes, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents, text_of
-from ros_lint.collectors.cmake.syntax import Parsed
+from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.collectors.launch.detect import is_of_ros_1
 from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
 from ros_lint.facts.build import BuildFiles, BuildScript, ScriptFile
@@ -29,7 +29,7 @@ _Texts = Sequence[tuple[str, bytes]]
 """Files of a package that can refer to resources: paths in the tree and contents."""
 
 
-def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Parsed], script: BuildScript) -> BuildScript:
+def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, ParsedScript], script: BuildScript) -> BuildScript:
     """Return a script with facts of related files: plugin descriptions, scripts, resources.
 
     ``commands`` are its CMake files, by path relative to the package.
@@ -74,7 +74,9 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
     )
 
 
-def _inputs(scripts: Mapping[str, Parsed], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]) -> Iterator[str]:
+def _inputs(
+    scripts: Mapping[str, ParsedScript], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]
+) -> Iterator[str]:
     """Yield resources, their folders and programs that are arguments of CMake commands except install()."""
     if not uninstalled and not programs:
         return
@@ -90,7 +92,7 @@ def _inputs(scripts: Mapping[str, Parsed], uninstalled: Mapping[str, Sequence[st
     yield from (file for file in programs if re.search(rf"(?<![\w.-]){re.escape(file)}(?![\w.-])", text))
 
 
-def _source_folders(scripts: Mapping[str, Parsed]) -> re.Pattern[bytes] | None:
+def _source_folders(scripts: Mapping[str, ParsedScript]) -> re.Pattern[bytes] | None:
     """Return a pattern for macros in code whose value is the source folder, None if CMake defines none."""
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name in _DEFINE)
     macros = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 from ros_lint.base.paths import is_below, join, strip_folder
 from ros_lint.base.tree import Entry, Tree, text_of
 from ros_lint.collectors.cmake.evaluator.sources import OutsideTree, Sources
-from ros_lint.collectors.cmake.syntax import Parsed, parse
+from ros_lint.collectors.cmake.syntax import ParsedScript, parse
 from ros_lint.workspace.build_scripts.files import Executables, text_in
 from ros_lint.workspace.discovery.discover import SKIPPED_FOLDERS, DiscoveredPackage
 
@@ -25,7 +25,7 @@ class Parts(NamedTuple):
     """A package with the inputs of the evaluation of its scripts."""
 
     package: DiscoveredPackage
-    commands: Mapping[str, Parsed]
+    commands: Mapping[str, ParsedScript]
     """CMake files by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
     """Declared names by kind letter, as in the index."""
@@ -43,7 +43,7 @@ class Surroundings:
         self._base = tree.identity("")
         self._entries: dict[str, Mapping[str, Entry]] = {}
         self._files: dict[str, Sequence[str]] = {}
-        self._scripts: dict[str, Parsed | None] = {}
+        self._scripts: dict[str, ParsedScript | None] = {}
 
     def of(self, package: str) -> OutsideTree:
         """Return the view for the scripts of the package at a path."""
@@ -62,7 +62,7 @@ class Surroundings:
             self._files[folder] = sorted(self._gathered(folder))
         return self._files[folder]
 
-    def script(self, path: str) -> Parsed | None:
+    def script(self, path: str) -> ParsedScript | None:
         if path not in self._scripts:
             inside = self.kind(path) == "file" and is_below(self._tree.identity(path), self._base)
             text = text_of(self._tree, path) if inside else None
@@ -119,10 +119,10 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
     )
 
 
-class _Scripts(Mapping[str, Parsed]):
+class _Scripts(Mapping[str, ParsedScript]):
     """The CMake files of a package. Files without a CMake name are parsed when they are requested."""
 
-    def __init__(self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, Parsed]) -> None:
+    def __init__(self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, ParsedScript]) -> None:
         self._tree = tree
         self._package = package
         self._parsed = dict(parsed)
@@ -130,7 +130,7 @@ class _Scripts(Mapping[str, Parsed]):
     def __contains__(self, path: object) -> bool:
         return path in self._parsed or path in self._package.files
 
-    def __getitem__(self, path: str) -> Parsed:
+    def __getitem__(self, path: str) -> ParsedScript:
         if path not in self._parsed:
             text = text_in(self._tree, self._package, path)
             if text is None:

@@ -11,7 +11,7 @@ from ros_lint.collectors.cmake.commands.ros2_run import note_started_programs
 from ros_lint.collectors.cmake.evaluator.arguments import parse_keywords
 from ros_lint.collectors.cmake.evaluator.flow import run_file, run_named
 from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Handler, Run
-from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, RETURN, STOP, Frame
+from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, RETURN, STOP, CallFrame
 from ros_lint.collectors.cmake.evaluator.truth import TRUE_WORDS, is_off
 from ros_lint.collectors.cmake.evaluator.values import (
     HOLE,
@@ -264,7 +264,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         frame = run.frames[-1]
         run.charge(SLOW * sum(map(len, args)))
         commands = parse(Text(frame.path, " ".join(args[2:]))).commands
-        return run_file(run, commands, Frame(False, frame.path, frame.file, provider=frame.provider))
+        return run_file(run, commands, CallFrame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
         run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
         run.hide(ALL_FACETS, f"the commands that cmake_language({mode}) runs are unknown")

@@ -18,7 +18,7 @@ from ros_lint.collectors.cmake.evaluator.definitions import reads_argument_varia
 from ros_lint.collectors.cmake.evaluator.expansion import Template, expand, template
 from ros_lint.collectors.cmake.evaluator.flow import HANDLERS, call, run_conditionally, run_named
 from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
-from ros_lint.collectors.cmake.evaluator.state import BY_DEFAULT, IF_TESTING, NEXT, STOP, BudgetError, Exit, Frame, Procedure
+from ros_lint.collectors.cmake.evaluator.state import BY_DEFAULT, IF_TESTING, NEXT, STOP, BudgetError, CallFrame, Exit, Procedure
 from ros_lint.collectors.cmake.evaluator.values import join, split
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED, Command, parse
@@ -39,7 +39,7 @@ _Keywords = tuple[str, str, str, str]
 """Arguments of cmake_parse_arguments(): prefix, options, keywords with one value and with many values."""
 
 
-class Released(NamedTuple):
+class ReleasedMacros(NamedTuple):
     """A released macro or function with its compiled form."""
 
     procedure: Procedure
@@ -48,11 +48,11 @@ class Released(NamedTuple):
     keywords: _Keywords | None
     steps: tuple[_Step, ...] | None
     """The commands of the macro, None if it cannot be compiled."""
-    frame: Frame
+    frame: CallFrame
 
 
 @cache
-def released(name: str) -> Released | None:
+def released(name: str) -> ReleasedMacros | None:
     """Return a released macro by its name in lower case, None if there is none."""
     macro = macros().get(name)
     if macro is None:
@@ -67,7 +67,7 @@ def released(name: str) -> Released | None:
     keywords, body = _split_keywords(node.body)
     steps = tuple(_steps(body, keywords[0] if keywords else "", ())) if is_macro else (None,)
     compiled = None if None in steps else tuple(step for step in steps if step is not None)
-    return Released(procedure, _direct(node.body, parameters), keywords, compiled, Frame(False, "", "", procedure))
+    return ReleasedMacros(procedure, _direct(node.body, parameters), keywords, compiled, CallFrame(False, "", "", procedure))
 
 
 def _direct(body: Body, parameters: Sequence[str]) -> tuple[str, list[str]] | None:
@@ -115,7 +115,7 @@ def _argument(text: str, kind: int) -> str | _Reference:
     return "", parts, kind == QUOTED
 
 
-def run_released(run: Run, macro: Released, args: list[str]) -> Exit:
+def run_released(run: Run, macro: ReleasedMacros, args: list[str]) -> Exit:
     """Run a released macro or function with evaluated arguments."""
     text = "".join(args)
     if macro.direct is not None and ";" not in text:

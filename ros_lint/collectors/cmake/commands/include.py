@@ -11,9 +11,9 @@ from ros_lint.base.paths import join as join_path
 from ros_lint.collectors.cmake.evaluator.flow import run_file
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.sources import OUTSIDE
-from ros_lint.collectors.cmake.evaluator.state import NEXT, Frame, Variables
+from ros_lint.collectors.cmake.evaluator.state import NEXT, CallFrame, Variables
 from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, HOLE, OTHER_PACKAGE, PREFIX, TREE, is_fixed
-from ros_lint.collectors.cmake.syntax import Command, Parsed
+from ros_lint.collectors.cmake.syntax import Command, ParsedScript
 from ros_lint.facts.visibility import ALL_FACETS, Facet
 
 
@@ -73,14 +73,14 @@ def include_own(run: Run, path: str) -> int | None:
     return _run_script(run, path, run.paths.sources.scripts[path])
 
 
-def _run_script(run: Run, path: str, parsed: Parsed) -> int | None:
+def _run_script(run: Run, path: str, parsed: ParsedScript) -> int | None:
     """Run a script of the package or of the tree around it. ``path`` is relative to the package."""
     outside = is_outside(path)
     if outside:
         run.outside_scripts.append(parsed)
         if parsed.problems:
             run.hide(ALL_FACETS, f"a syntax error hides the rest of '{path}'")
-    frame = Frame(not outside, run.paths.tree_path(path), run.paths.absolute(path), provider=OUTSIDE if outside else "")
+    frame = CallFrame(not outside, run.paths.tree_path(path), run.paths.absolute(path), provider=OUTSIDE if outside else "")
     return run_file(run, parsed.commands, frame)
 
 
@@ -119,7 +119,7 @@ def include_of_package(run: Run, package: str, source: str) -> int | None:
     helper = run.helpers[package]
     install_path = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
     install_path = next((file.path for file in helper.script.products.installs if file.source == source), install_path)
-    frame = Frame(False, join_path(helper.sources.path, source), f"{OTHER_PACKAGE}{package}/{install_path}", provider=package)
+    frame = CallFrame(False, join_path(helper.sources.path, source), f"{OTHER_PACKAGE}{package}/{install_path}", provider=package)
     commands = helper.sources.scripts[source].commands
     if source.endswith(".in"):
         commands = tuple([_configured(command, helper.script.project.name or package) for command in commands])

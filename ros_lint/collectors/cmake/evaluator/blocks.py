@@ -29,14 +29,14 @@ class Definition(NamedTuple):
     body: Body
 
 
-class Scope(NamedTuple):
+class ScopeBlock(NamedTuple):
     """``block()``, which has its own scope of variables."""
 
     command: Command
     body: Body
 
 
-Node = Command | If | Loop | Definition | Scope
+Node = Command | If | Loop | Definition | ScopeBlock
 Body = tuple[Node, ...]
 
 Rewrite = Callable[[tuple[Argument, ...]], tuple[Argument, ...]]
@@ -90,7 +90,7 @@ class _Open:
             case "foreach" | "while":
                 return Loop(self.command, body)
             case "block":
-                return Scope(self.command, body)
+                return ScopeBlock(self.command, body)
             case _:
                 return Definition(self.command, body)
 

@@ -7,7 +7,17 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.base.text import to_bytes
-from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, NUMBER, TRUE, UNKNOWN, UNLIKELY, Token, Truth, number_of
+from ros_lint.collectors.cmake.evaluator.truth import (
+    FALSE,
+    LIKELY,
+    NUMBER,
+    TRUE,
+    UNKNOWN,
+    UNLIKELY,
+    ConditionToken,
+    Truth,
+    number_of,
+)
 from ros_lint.collectors.cmake.evaluator.values import HOLE, TREE, certainly_set, elements, is_fixed, is_known, split_cost
 
 if TYPE_CHECKING:
@@ -16,7 +26,7 @@ if TYPE_CHECKING:
 # --- unary tests ---------------------------------------------------------------------------------------------------
 
 
-def _defined(run: Run, token: Token) -> Truth:
+def _defined(run: Run, token: ConditionToken) -> Truth:
     name = token.text
     if not is_known(name):
         return Truth(UNKNOWN)
@@ -31,34 +41,34 @@ def _defined(run: Run, token: Token) -> Truth:
     return Truth(TRUE if certainly_set(value) else UNKNOWN)
 
 
-def _target(run: Run, token: Token) -> Truth:
+def _target(run: Run, token: ConditionToken) -> Truth:
     if token.text in run.targets:
         return Truth(TRUE if "CONDITIONAL" not in run.targets[token.text] else UNKNOWN)
     return Truth(UNKNOWN if run.open_world or not is_known(token.text) else FALSE)
 
 
-def _command(run: Run, token: Token) -> Truth:
+def _command(run: Run, token: ConditionToken) -> Truth:
     name = token.text.lower()
     if name in run.procedures:
         return Truth(TRUE)
     return Truth(UNKNOWN)
 
 
-def _exists(run: Run, token: Token) -> Truth:
+def _exists(run: Run, token: ConditionToken) -> Truth:
     path = run.paths.source_or_outside(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
     return Truth(TRUE if run.paths.is_file(path) or run.paths.is_folder(path) else UNLIKELY)
 
 
-def _is_directory(run: Run, token: Token) -> Truth:
+def _is_directory(run: Run, token: ConditionToken) -> Truth:
     path = run.paths.source_or_outside(token.text) if token.text.startswith(TREE) else None
     if path is None:
         return Truth(UNKNOWN)
     return Truth(TRUE if run.paths.is_folder(path) else UNLIKELY)
 
 
-def _is_absolute(_run: Run, token: Token) -> Truth:
+def _is_absolute(_run: Run, token: ConditionToken) -> Truth:
     if not is_fixed(token.text):
         return Truth(UNKNOWN)
     return Truth(TRUE if token.text.startswith(("/", "~")) else FALSE)
@@ -67,18 +77,18 @@ def _is_absolute(_run: Run, token: Token) -> Truth:
 _POLICY = re.compile(r"CMP(\d{4})")
 
 
-def _policy(_run: Run, token: Token) -> Truth:
+def _policy(_run: Run, token: ConditionToken) -> Truth:
     match = _POLICY.fullmatch(token.text)
     if match is None:
         return Truth(FALSE)
     return Truth(TRUE if int(match[1]) <= 50 else LIKELY)
 
 
-def _unknown(_run: Run, _token: Token) -> Truth:
+def _unknown(_run: Run, _token: ConditionToken) -> Truth:
     return Truth(UNKNOWN)
 
 
-UNARY: Final[dict[str, Callable[[Run, Token], Truth]]] = {
+UNARY: Final[dict[str, Callable[[Run, ConditionToken], Truth]]] = {
     "DEFINED": _defined,
     "TARGET": _target,
     "COMMAND": _command,
@@ -94,7 +104,7 @@ UNARY: Final[dict[str, Callable[[Run, Token], Truth]]] = {
 # --- binary tests --------------------------------------------------------------------------------------------------
 
 
-def _operands(run: Run, token: Token) -> tuple[str, ...]:
+def _operands(run: Run, token: ConditionToken) -> tuple[str, ...]:
     """Return the value of a variable, or the text itself if no variable has its name.
 
     Both for an empty variable, because it may be unset.
@@ -114,15 +124,15 @@ def _agreed(answers: Iterable[int]) -> int:
     return different.pop() if len(different) == 1 else UNKNOWN
 
 
-def _of_operands(compare: Callable[[str, str], int]) -> Callable[[Run, Token, Token], int]:
-    def compared(run: Run, left: Token, right: Token) -> int:
+def _of_operands(compare: Callable[[str, str], int]) -> Callable[[Run, ConditionToken, ConditionToken], int]:
+    def compared(run: Run, left: ConditionToken, right: ConditionToken) -> int:
         seconds = _operands(run, right)
         return _agreed(compare(first, second) for first in _operands(run, left) for second in seconds)
 
     return compared
 
 
-def _comparison(compare: Callable[[str, str], bool]) -> Callable[[Run, Token, Token], int]:
+def _comparison(compare: Callable[[str, str], bool]) -> Callable[[Run, ConditionToken, ConditionToken], int]:
     def compared(first: str, second: str) -> int:
         if is_known(first) and is_known(second):
             return TRUE if compare(first, second) else FALSE
@@ -196,7 +206,7 @@ def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]
     return lambda left, right: compare(compare_versions(left, right), 0)
 
 
-def _matches(run: Run, left: Token, right: Token) -> int:
+def _matches(run: Run, left: ConditionToken, right: ConditionToken) -> int:
     from ros_lint.collectors.cmake.evaluator.regex import find, forget  # noqa: PLC0415  (few scripts use MATCHES)
 
     texts = _operands(run, left)
@@ -210,7 +220,7 @@ def _matches(run: Run, left: Token, right: Token) -> int:
     return TRUE if matches[0] else FALSE
 
 
-def _in_list(run: Run, left: Token, right: Token) -> int:
+def _in_list(run: Run, left: ConditionToken, right: ConditionToken) -> int:
     value = run.get(right.text)
     if value is None:
         return UNLIKELY if run.may_be_set(right.text) else FALSE
@@ -226,11 +236,11 @@ def _is_element(element: str, value: str) -> int:
     return FALSE if is_known(value) else UNKNOWN
 
 
-def _newer(_run: Run, _left: Token, _right: Token) -> int:
+def _newer(_run: Run, _left: ConditionToken, _right: ConditionToken) -> int:
     return UNKNOWN
 
 
-BINARY: Final[dict[str, Callable[[Run, Token, Token], int]]] = {
+BINARY: Final[dict[str, Callable[[Run, ConditionToken, ConditionToken], int]]] = {
     "STREQUAL": _of_operands(_same),
     "STRLESS": _comparison(lambda left, right: to_bytes(left) < to_bytes(right)),
     "STRGREATER": _comparison(lambda left, right: to_bytes(left) > to_bytes(right)),

@@ -17,7 +17,7 @@ from ros_lint.collectors.cmake.evaluator.truth import (
     TRUE,
     UNKNOWN,
     UNLIKELY,
-    Token,
+    ConditionToken,
     Truth,
     both,
     constant,
@@ -51,18 +51,18 @@ def condition(run: Run, command: Command) -> Truth:
     if len(command.args) == 1:
         text, kind, _, _ = command.args[0]
         if kind == PLAIN:  # by far the most frequent conditions
-            return _word(run, Token(text, False, False))
-    tokens: list[Token] = []
+            return _word(run, ConditionToken(text, False, False))
+    tokens: list[ConditionToken] = []
     for text, kind, _, _ in command.args:
         if kind == UNQUOTED:
             configurable = _is_configurable(run, text)
             value = run.evaluate(text)
             run.charge(split_cost(value))
-            tokens += [Token(part, False, configurable) for part in split(value)]
+            tokens += [ConditionToken(part, False, configurable) for part in split(value)]
         elif kind == QUOTED:
-            tokens.append(Token(run.evaluate(text), True, _is_configurable(run, text)))
+            tokens.append(ConditionToken(run.evaluate(text), True, _is_configurable(run, text)))
         else:
-            tokens.append(Token(text, kind in (LITERAL, BRACKET), False))
+            tokens.append(ConditionToken(text, kind in (LITERAL, BRACKET), False))
         if "_FOUND}" in text:
             run.tested_variables.update(_FOUND_VARIABLE.findall(text))
     if len(tokens) > 1:
@@ -86,7 +86,7 @@ class _Parser:
     That is parentheses, unary tests, binary tests, NOT, then AND and OR from left to right.
     """
 
-    def __init__(self, run: Run, tokens: list[Token]) -> None:
+    def __init__(self, run: Run, tokens: list[ConditionToken]) -> None:
         self.run = run
         self.tokens = tokens
         self.at = 0
@@ -188,7 +188,7 @@ def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
     return truths[0]
 
 
-def _word(run: Run, token: Token) -> Truth:
+def _word(run: Run, token: ConditionToken) -> Truth:
     """Return the truth of a single word: a constant, a variable or a string."""
     text = token.text
     if text == "BUILD_TESTING" and not token.quoted:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, Final
 
-from ros_lint.collectors.cmake.evaluator.blocks import Body, Definition, If, Scope, rewritten
+from ros_lint.collectors.cmake.evaluator.blocks import Body, Definition, If, ScopeBlock, rewritten
 from ros_lint.collectors.cmake.evaluator.expansion import substituted
 from ros_lint.collectors.cmake.evaluator.flow import run_body
 from ros_lint.collectors.cmake.evaluator.run import Run
@@ -72,7 +72,7 @@ def _substituted(macro_arguments: dict[str, str], args: tuple[Argument, ...]) ->
     return tuple(substituted_args)
 
 
-def _run_scope(run: Run, node: Scope) -> Exit:
+def _run_scope(run: Run, node: ScopeBlock) -> Exit:
     """Run a block(). Its variables are removed at its end, except those of PROPAGATE."""
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
@@ -90,4 +90,4 @@ def _run_scope(run: Run, node: Scope) -> Exit:
     return exits
 
 
-BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Definition: _define, Scope: _run_scope}
+BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {Definition: _define, ScopeBlock: _run_scope}

@@ -99,7 +99,7 @@ _SIMPLE = re.compile(r"\$\{(\w+)\}")
 def substituted(text: str, values: Mapping[str, str]) -> str:
     """Return an argument in a macro with the references to parameters replaced by their values.
 
-    HOLE if it is too long.
+    The result is HOLE, the mark of an unknown value, if it would be too long.
     """
     match = _SIMPLE.fullmatch(text)
     if match is not None:
@@ -123,7 +123,7 @@ def substituted(text: str, values: Mapping[str, str]) -> str:
 def expand(parts: Template, lookup: Lookup) -> str:
     """Return the value of an argument.
 
-    An argument that is a single reference keeps the MAYBE marks of its list elements.
+    If the argument is a single reference such as ``${NAMES}``, the MAYBE marks of conditional elements are kept.
     """
     if len(parts) == 1:
         part = parts[0]

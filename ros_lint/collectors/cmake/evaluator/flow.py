@@ -15,10 +15,10 @@ from ros_lint.collectors.cmake.evaluator.state import (
     RETURN,
     STOP,
     BudgetError,
+    CallFrame,
     Changes,
     Choice,
     Exit,
-    Frame,
     Procedure,
     Variables,
 )
@@ -126,7 +126,7 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
     values = _call_values(procedure, args, first_uncertain, possibly_empty)
     for arg in args:
         run.note_brackets(arg)
-    frame = Frame(procedure.own, procedure.path, procedure.folder, procedure)
+    frame = CallFrame(procedure.own, procedure.path, procedure.folder, procedure)
     frames.append(frame)
     if procedure.macro:
         frame.macro_arguments = values
@@ -200,7 +200,7 @@ def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
     return f"{value};{MAYBE}" if possibly_empty and len(args) > 1 and any(arg in possibly_empty for arg in args) else value
 
 
-def run_file(run: Run, commands: Sequence[Command], frame: Frame) -> Exit:
+def run_file(run: Run, commands: Sequence[Command], frame: CallFrame) -> Exit:
     """Run the commands of a file. A return() ends only the file."""
     if len(run.frames) > DEEPEST:
         raise BudgetError

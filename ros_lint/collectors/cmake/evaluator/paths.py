@@ -14,7 +14,7 @@ from ros_lint.base.wildcards import LONGEST
 from ros_lint.collectors.cmake.evaluator.sources import Sources
 from ros_lint.collectors.cmake.evaluator.values import ATOM, BINARY, HOLE, MAYBE, PREFIX, TREE
 from ros_lint.collectors.cmake.released_macros import VARIABLES
-from ros_lint.collectors.cmake.syntax import Parsed
+from ros_lint.collectors.cmake.syntax import ParsedScript
 
 _OF_BUILD = "$<BUILD_INTERFACE:"
 
@@ -76,7 +76,7 @@ class Paths:
         path = self.source(value)
         return self.outside(value) if path is None else path
 
-    def script(self, path: str) -> Parsed | None:
+    def script(self, path: str) -> ParsedScript | None:
         """Return the commands of the CMake file at a path relative to the package.
 
         None if no such file is visible.

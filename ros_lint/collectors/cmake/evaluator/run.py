@@ -11,10 +11,10 @@ from ros_lint.collectors.cmake.evaluator.found_packages import FoundPackages, fo
 from ros_lint.collectors.cmake.evaluator.paths import Paths
 from ros_lint.collectors.cmake.evaluator.results import Results
 from ros_lint.collectors.cmake.evaluator.sources import OUTSIDE, Helper, Sources
-from ros_lint.collectors.cmake.evaluator.state import MISSING, Frame, State, Variables
+from ros_lint.collectors.cmake.evaluator.state import MISSING, CallFrame, State, Variables
 from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, split, split_cost, with_unpaired_holes
 from ros_lint.collectors.cmake.released_macros import CONFIGURABLE_VARIABLES, UNKNOWN_VARIABLES
-from ros_lint.collectors.cmake.syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, Parsed
+from ros_lint.collectors.cmake.syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, ParsedScript
 from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.environment import ROS_2
 from ros_lint.facts.sources import Mention, Purpose, Via
@@ -54,7 +54,7 @@ class Run(State):
         """Runs a command that neither CMake nor the package defines, given its name and arguments."""
         self.distro = distro
         self.helpers = helpers
-        self.frames: list[Frame] = []
+        self.frames: list[CallFrame] = []
         """The files, functions and macros that are being run, outermost first."""
         self.steps = 0
         self.uncertain_conditions = 0
@@ -85,7 +85,7 @@ class Run(State):
         """Names of the projects of FetchContent_Declare(), taken from their addresses (such as owner/name)."""
         self.command_names: set[str] = set()
         """Names of the commands that have run, in lower case."""
-        self.outside_scripts: list[Parsed] = []
+        self.outside_scripts: list[ParsedScript] = []
         """Scripts outside of the package that have run."""
         self.component_scopes: list[Variables] = []
         """The scope in which each of the components is registered."""
@@ -238,7 +238,7 @@ class Run(State):
         frame = self.frames[-1]
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == OUTSIDE
 
-    def enter_file(self, frame: Frame) -> None:
+    def enter_file(self, frame: CallFrame) -> None:
         """Make a file the current one."""
         self.frames.append(frame)
         self.place_file()
@@ -261,7 +261,7 @@ class Run(State):
         3. an argument that evaluates to the value
         4. the name of the command
         """
-        innermost: Frame | None = None
+        innermost: CallFrame | None = None
         for frame in reversed(self.frames):
             command = frame.command
             if not frame.own or command is None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import Final, NamedTuple
 
-from ros_lint.collectors.cmake.syntax import Parsed
+from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.facts.build import BuildScript
 
 OUTSIDE: Final = ".."
@@ -23,7 +23,7 @@ class OutsideTree(NamedTuple):
     """Returns "file" or "directory", or "" if the path does not exist or is not visible."""
     below: Callable[[str], Sequence[str]] = lambda folder: ()
     """Lists every file below a folder; empty if some of them are not visible."""
-    script: Callable[[str], Parsed | None] = lambda path: None
+    script: Callable[[str], ParsedScript | None] = lambda path: None
     """Parses a CMake file; None if it does not exist or is not visible."""
 
 
@@ -36,7 +36,7 @@ class Sources(NamedTuple):
     """The folder of the package, relative to the base of the run; "" is the base."""
     files: Sequence[str]
     """Every file below the folder, relative to it, sorted."""
-    scripts: Mapping[str, Parsed]
+    scripts: Mapping[str, ParsedScript]
     """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder."""
     executables: AbstractSet[str] = frozenset()
     """Files with the executable bit in the whole tree, relative to the folder."""

@@ -338,7 +338,7 @@ class InstalledTarget(NamedTuple):
     """Destinations of the headers of the target, by artifact."""
 
 
-class Frame:
+class CallFrame:
     """A file, function or macro that is being run."""
 
     __slots__ = ("command", "file", "folder", "macro_arguments", "own", "path", "procedure", "provider")

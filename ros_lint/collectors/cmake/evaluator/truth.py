@@ -39,7 +39,7 @@ class Truth(NamedTuple):
     test_if_false: bool = False
 
 
-class Token(NamedTuple):
+class ConditionToken(NamedTuple):
     """An evaluated word of a condition."""
 
     text: str
@@ -73,7 +73,7 @@ def reversible(value: int) -> int:
     return {TRUE: LIKELY, FALSE: UNLIKELY}.get(value, value)
 
 
-def reversible_if_configurable(value: int, run: Run, *tokens: Token) -> Truth:
+def reversible_if_configurable(value: int, run: Run, *tokens: ConditionToken) -> Truth:
     """Return an answer, reversible if a token depends on a value that a user may change."""
     configurable = any(token.configurable or (not token.quoted and run.is_configurable(token.text)) for token in tokens)
     return Truth(reversible(value) if configurable else value)

@@ -177,7 +177,7 @@ def join(values: Iterable[str]) -> str:
 def join_with(glue: str, texts: Sequence[str]) -> str:
     """Return texts joined by ``glue``.
 
-    HOLE if the result is too long (a loop can double a text in each round).
+    The result is HOLE, the mark of an unknown value, if it would be too long: a loop can double a text in each round.
     """
     if len(glue) * len(texts) + sum(map(len, texts)) > LONGEST:
         return HOLE

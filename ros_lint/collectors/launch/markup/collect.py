@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Literal
 
 from ros_lint.base.text import Text
 from ros_lint.collectors.launch.markup import actions as actions_of_tags
@@ -17,23 +17,11 @@ from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import LaunchAction, LaunchReference
-from ros_lint.facts.visibility import Opaque, Problem
+from ros_lint.facts.launch import LaunchAction, LaunchFile
 
 
-class MarkupFacts(NamedTuple):
-    """The references, opaque places, problems and actions of a launch file."""
-
-    references: tuple[LaunchReference, ...]
-    opaque: tuple[Opaque, ...]
-    problems: tuple[Problem, ...]
-    actions: tuple[LaunchAction, ...]
-    newer: tuple[Problem, ...]
-    """Features that not every distribution supports; ``kind`` is the first distribution that does."""
-
-
-def read(source: Text, root: Entity) -> MarkupFacts:
-    """Return the facts of the entities of a launch file."""
+def launch_file(source: Text, language: Literal["xml", "yaml"], root: Entity) -> LaunchFile:
+    """Return the facts of a launch file in "xml" or "yaml", given its root as an entity."""
     reader = Reader(source, _TAG_READERS)
     actions: list[LaunchAction] = []
     try:
@@ -46,12 +34,15 @@ def read(source: Text, root: Entity) -> MarkupFacts:
     else:
         actions = reader.actions(children)
     references = References(actions)
-    return MarkupFacts(
+    return LaunchFile(
+        source.path,
+        language,
         references.all(),
         tuple(references.opaque),
         (*reader.problems, *references.problems),
-        tuple(actions),
-        tuple(reader.newer),
+        actions=tuple(actions),
+        configurations_read=configurations_read(source.text),
+        version_problems=tuple(reader.newer),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros_lint.base import xml_tree
 from ros_lint.base.text import Text
-from ros_lint.collectors.launch.markup import collect as launch_markup
+from ros_lint.collectors.launch.markup.collect import launch_file
 from ros_lint.collectors.launch.markup.entity import Entity
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.visibility import Facet, Opaque, Problem
@@ -22,18 +22,7 @@ def collect(source: Text) -> LaunchFile:
             opaque=(Opaque(Facet.USES, "the file is not valid XML", span),),
             problems=(Problem("syntax", error.message, span),),
         )
-    facts = launch_markup.read(source, root)
-    configurations_read = launch_markup.configurations_read(source.text)
-    return LaunchFile(
-        source.path,
-        "xml",
-        facts.references,
-        facts.opaque,
-        facts.problems,
-        actions=facts.actions,
-        configurations_read=configurations_read,
-        version_problems=facts.newer,
-    )
+    return launch_file(source, "xml", root)
 
 
 def entities(source: Text) -> Entity:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.base.safe_yaml import YamlBoundError, YamlError, compose, scalar
 from ros_lint.base.text import Text
-from ros_lint.collectors.launch.markup import collect as launch_markup
+from ros_lint.collectors.launch.markup.collect import launch_file
 from ros_lint.collectors.launch.markup.entity import CHILDREN, NO_VALUE, Entity
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.visibility import Facet, Opaque, Problem
@@ -38,18 +38,7 @@ def collect(source: Text) -> LaunchFile:
         start = source.span(0, 0)
         problem = Problem("root", "the file must be a mapping with 'launch' as its only key", start)
         return LaunchFile(source.path, "yaml", problems=(problem,))
-    facts = launch_markup.read(source, root)
-    configurations_read = launch_markup.configurations_read(source.text)
-    return LaunchFile(
-        source.path,
-        "yaml",
-        facts.references,
-        facts.opaque,
-        facts.problems,
-        actions=facts.actions,
-        configurations_read=configurations_read,
-        version_problems=facts.newer,
-    )
+    return launch_file(source, "yaml", root)
 
 
 class _Reader:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.python.substitutions import conditions_of
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
-from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
+from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import INSTALLED, text_of
 from ros_lint.collectors.python.interpreter.path_calls import PATH_FUNCTIONS, new_path, on_path
@@ -49,9 +49,9 @@ def call_library(
 ) -> Value:
     """Return the result of a library function, or of a method of a library object."""
     if isinstance(callee, Method):
-        call = Call(machine, callee.name, arguments, keywords, node, frame)
+        call = LibraryCall(machine, callee.name, arguments, keywords, node, frame)
         return _of_path(call, callee.owner) if isinstance(callee.owner, FilePath) else _method(call, callee.owner)
-    call = Call(machine, callee, arguments, keywords, node, frame)
+    call = LibraryCall(machine, callee, arguments, keywords, node, frame)
     last = callee.rpartition(".")[2]
     model = _MODELS_BY_NAME.get(callee) or (
         _MODELS_BY_LAST_PART.get(last) if not callee.startswith(("os.", "builtins.")) else None
@@ -66,7 +66,7 @@ def call_library(
     return Unknown("" if callee.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 
-def _create(call: Call, name: str) -> LaunchObject:
+def _create(call: LibraryCall, name: str) -> LaunchObject:
     launch_object = LaunchObject(name, call.arguments, call.keywords, call.node, call.frame.source)
     launch_object.conditions = call.machine.conditions
     call.machine.made.append(launch_object)
@@ -85,7 +85,7 @@ def _create(call: Call, name: str) -> LaunchObject:
     return launch_object
 
 
-def _note_command(call: Call, launch_object: LaunchObject) -> None:
+def _note_command(call: LibraryCall, launch_object: LaunchObject) -> None:
     """Note the first place that runs xacro, which is a use of the package xacro."""
     command, expression = launch_object.get(0, "command"), launch_object.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(command)):
@@ -93,7 +93,7 @@ def _note_command(call: Call, launch_object: LaunchObject) -> None:
         call.machine.named.setdefault("xacro", (first, call.frame.source))
 
 
-def _note_builder(call: Call, launch_object: LaunchObject) -> None:
+def _note_builder(call: LibraryCall, launch_object: LaunchObject) -> None:
     """Note the package that a builder of moveit_configs_utils looks up immediately.
 
     Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
@@ -118,7 +118,7 @@ def package_of_builder(builder: LaunchObject) -> str:
     return package if isinstance(package, str) and symbolic_text.is_plain(package) else ""
 
 
-def _of_path(call: Call, owner: FilePath) -> Value:
+def _of_path(call: LibraryCall, owner: FilePath) -> Value:
     """Return the result of a method of a path that needs the file."""
     match call.name:
         case "resolve" | "absolute" | "expanduser":
@@ -169,7 +169,7 @@ _FILE_POSITIONS: Mapping[str, int] = {
 """
 
 
-def _note_built(call: Call, owner: LaunchObject) -> None:
+def _note_built(call: LibraryCall, owner: LaunchObject) -> None:
     """Note the file that MoveIt's builders read immediately, relative to the share folder of the package."""
     position = _FILE_POSITIONS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
@@ -183,7 +183,7 @@ def _note_built(call: Call, owner: LaunchObject) -> None:
         call.machine.opened.append((full_path, expression, call.frame.source, call.machine.conditions))
 
 
-def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
+def _note(call: LibraryCall, package: Value, at: ast.expr, eager: bool) -> None:
     source = call.frame.source
     for alternative in alternatives(package):
         node, place_source = getattr(alternative.value, "node", at), getattr(alternative.value, "source", source)
@@ -197,7 +197,7 @@ def _note(call: Call, package: Value, at: ast.expr, eager: bool) -> None:
 _ADD_METHODS = frozenset({"add_action", "add_entity", "append"})
 
 
-def _method(call: Call, owner: LaunchObject) -> Value:
+def _method(call: LibraryCall, owner: LaunchObject) -> Value:
     machine, name = call.machine, call.name
     if name in _ADD_METHODS and owner.name == "LaunchDescription":
         machine.spend(1)
@@ -222,24 +222,24 @@ def _method(call: Call, owner: LaunchObject) -> Value:
     return Unknown(f"{name}() of {owner.name}")
 
 
-def _share(call: Call) -> Value:
+def _share(call: LibraryCall) -> Value:
     package = call.get(0, "package_name", "package")
     _note(call, package, call.node.args[0] if call.node.args else call.node, eager=True)
     return call.result(joined([call.texts(0, "package_name", "package")], lambda row: symbolic_text.share(row[0])))
 
 
-def _share_path(call: Call) -> Value:
+def _share_path(call: LibraryCall) -> Value:
     paths = _share(call)
     return union(Guarded(FilePath(str(path.value)), path.conditions) for path in alternatives(paths))
 
 
-def _prefix(call: Call) -> Value:
+def _prefix(call: LibraryCall) -> Value:
     package = call.get(0, "package_name", "package")
     _note(call, package, call.node.args[0] if call.node.args else call.node, eager=True)
     return call.result(joined([call.texts(0, "package_name", "package")], lambda row: symbolic_text.prefix(row[0])))
 
 
-def _variable(call: Call) -> Value:
+def _variable(call: LibraryCall) -> Value:
     default = call.get(1, "default")
     names = call.texts(0, "key")
     if call.machine.sets(names):
@@ -251,7 +251,7 @@ def _variable(call: Call) -> Value:
     return call.result(tuple(environment(name, value) for name in names for value in defaults))
 
 
-def _has_resource(call: Call) -> Value:
+def _has_resource(call: LibraryCall) -> Value:
     return _is_installed(call.texts(1, "resource_name"))
 
 
@@ -260,11 +260,11 @@ def _is_installed(names: tuple[str, ...]) -> Value:
     return Unknown("whether something is installed", LaunchCondition((symbolic,), None))
 
 
-def _exists(call: Call) -> Value:
+def _exists(call: LibraryCall) -> Value:
     return call.machine.ask(call.texts(0, "path"))
 
 
-def _first_argument(call: Call) -> Value:
+def _first_argument(call: LibraryCall) -> Value:
     return call.get(0)
 
 
@@ -272,13 +272,13 @@ def _perform(position: int) -> Rule:
     return lambda call: call.result(call.machine.texts(call.get(position)))
 
 
-def _configuration(call: Call) -> Value:
+def _configuration(call: LibraryCall) -> Value:
     default = call.get(1)
     defaults = call.texts(1) if default is not None else (None,)
     return call.result(tuple(symbolic_text.configuration(name, value) for name in call.texts(0) for value in defaults))
 
 
-def _xacro_output(call: Call) -> Value:
+def _xacro_output(call: LibraryCall) -> Value:
     """Return the output of xacro, for ``xacro.process_file`` and similar functions."""
     return _create(call, "Command") if call.arguments else unknown(call)
 
@@ -286,7 +286,7 @@ def _xacro_output(call: Call) -> Value:
 def _writes_file(position: int) -> Rule:
     """Return the model of a function that writes a file. The file need not exist when the launch starts."""
 
-    def model(call: Call) -> Value:
+    def model(call: LibraryCall) -> Value:
         call.machine.ask(call.texts(position))
         return unknown(call)
 
@@ -296,7 +296,7 @@ def _writes_file(position: int) -> Rule:
 _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 
 
-def _runs_command(call: Call) -> Value:
+def _runs_command(call: LibraryCall) -> Value:
     """Note the output file of a command (after ``>`` or ``-o``), which need not exist when the launch starts."""
     words = call.items(0)
     if words is None:

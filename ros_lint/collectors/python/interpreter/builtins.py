@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.python.interpreter import container_functions
-from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing, unknown, unknown_text
+from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import call_method, of_instance
 from ros_lint.collectors.python.interpreter.operations import each, text_of, truth
 from ros_lint.collectors.python.interpreter.values import (
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
-def _str(call: Call) -> Value:
+def _str(call: LibraryCall) -> Value:
     value = call.get(0)
     if isinstance(value, LaunchObject):
         call.machine.record_misuse(value, "formatted", call.node, call.frame)
@@ -44,7 +44,7 @@ def _str(call: Call) -> Value:
     return call.result(text_of(value)) if value is not None or call.arguments else ""
 
 
-def _repr(call: Call) -> Value:
+def _repr(call: LibraryCall) -> Value:
     value = plain(call.get(0))
     if isinstance(value, (int, float, type(None))) or (isinstance(value, str) and launch_text.is_plain(value)):
         return call.result((repr(str(value) if isinstance(value, str) else value),))
@@ -52,7 +52,7 @@ def _repr(call: Call) -> Value:
 
 
 def _number(kind: type) -> Rule:
-    def rule(call: Call) -> Value:
+    def rule(call: LibraryCall) -> Value:
         values = [plain(value) for value in (*call.arguments, *call.keywords.values())]
         if all(isinstance(value, (int, float)) or _is_short_text(value) for value in values):
             try:
@@ -68,30 +68,30 @@ def _is_short_text(value: Value) -> bool:
     return isinstance(value, str) and launch_text.is_plain(value) and len(value) < 50
 
 
-def _bool(call: Call) -> Value:
+def _bool(call: LibraryCall) -> Value:
     answer, condition = truth(call.machine, call.get(0))
     return answer if answer is not None else Unknown("a truth", condition)
 
 
-def _list(call: Call) -> Value:
+def _list(call: LibraryCall) -> Value:
     if not call.arguments:
         return []
     elements = call.items(0)
     return call.like(0, elements) if elements is not None else unknown(call)
 
 
-def _tuple(call: Call) -> Value:
+def _tuple(call: LibraryCall) -> Value:
     elements = _list(call)
     return tuple(elements) if isinstance(elements, list) else elements
 
 
-def _dict(call: Call) -> Value:
+def _dict(call: LibraryCall) -> Value:
     entries: dict[Any, Value] = {}
     call_method(call.machine, Method(entries, "update"), call.arguments, call.keywords, call.node, call.frame)
     return entries
 
 
-def _length(call: Call) -> Value:
+def _length(call: LibraryCall) -> Value:
     return each(call.get(0), partial(_length_of, call.machine))
 
 
@@ -105,7 +105,7 @@ def _length_of(machine: Interpreter, value: Value) -> Value:
     return Unknown("a length")
 
 
-def _range(call: Call) -> Value:
+def _range(call: LibraryCall) -> Value:
     *before, last = call.arguments or [None]
     return each(last, lambda last_value: _range_of([*before, last_value]))
 
@@ -120,7 +120,7 @@ def _range_of(arguments: list[Value]) -> Value:
     return Unknown("a range")
 
 
-def _enumerate(call: Call) -> Value:
+def _enumerate(call: LibraryCall) -> Value:
     elements = call.items(0)
     start = plain(call.get(1, "start")) or 0
     if elements is None or not isinstance(start, int):
@@ -139,7 +139,7 @@ def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
     return function(value)
 
 
-def _isinstance(call: Call) -> Value:
+def _isinstance(call: LibraryCall) -> Value:
     value, kind = plain(call.get(0)), plain(call.get(1))
     kinds = kind if isinstance(kind, tuple) else (kind,)
     names = {class_.last for class_ in kinds if isinstance(class_, LibraryName)}
@@ -166,7 +166,7 @@ def _is_of(value: Value, name: str) -> bool:
     return isinstance(kind, type) and isinstance(value, kind)
 
 
-def _getattr(call: Call) -> Value:
+def _getattr(call: LibraryCall) -> Value:
     owner, name = plain(call.get(0)), plain(call.get(1))
     if isinstance(owner, Instance) and isinstance(name, str):
         if len(call.arguments) > 2 and name not in owner.attributes and owner.cls.find(name) is None:
@@ -175,7 +175,7 @@ def _getattr(call: Call) -> Value:
     return Unknown("an attribute")
 
 
-def _fields(call: Call) -> Value:
+def _fields(call: LibraryCall) -> Value:
     """Return objects with the names of the fields, as ``dataclasses.fields()`` does."""
     owner = plain(call.get(0))
     cls = owner.cls if isinstance(owner, Instance) else owner
@@ -189,7 +189,7 @@ def _fields(call: Call) -> Value:
     return fields
 
 
-def _open(call: Call) -> Value:
+def _open(call: LibraryCall) -> Value:
     paths, mode = call.texts(0, "file"), plain(call.get(1, "mode"))
     if isinstance(mode, str) and not _MAKES.isdisjoint(mode):
         call.machine.ask(paths)  # the file need not exist before
@@ -202,7 +202,7 @@ _WRITES = frozenset("wxa+")
 _MAKES = frozenset("wxa")
 
 
-def _parsed(call: Call) -> Value:
+def _parsed(call: LibraryCall) -> Value:
     return each(call.get(0, "stream", "s"), partial(_content, call.machine))
 
 
@@ -221,18 +221,18 @@ def _content(machine: Interpreter, text: Value) -> Value:
         raise ProgramRaised from None
 
 
-def _partial(call: Call) -> Value:
+def _partial(call: LibraryCall) -> Value:
     return Bound(call.arguments[0], call.arguments[1:], call.keywords) if call.arguments else unknown(call)
 
 
-def _copied(call: Call) -> Value:
+def _copied(call: LibraryCall) -> Value:
     value = plain(call.get(0))
     if isinstance(value, list):
         return value.copy() if type(value) is list else SetOf(value)
     return dict(value) if isinstance(value, dict) else value
 
 
-def _copied_whole(call: Call) -> Value:
+def _copied_whole(call: LibraryCall) -> Value:
     return _deep(call.machine, call.get(0), {})
 
 

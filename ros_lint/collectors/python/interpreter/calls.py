@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Frame
 
 
-class Call:
+class LibraryCall:
     """A call of a library function: its name, arguments and place."""
 
     __slots__ = ("arguments", "frame", "keywords", "machine", "name", "node")
@@ -56,20 +56,20 @@ class Call:
         return items(self.machine, self.get(position))
 
 
-Rule = Callable[[Call], Value]
+Rule = Callable[[LibraryCall], Value]
 
 
-def unknown(call: Call) -> Value:
+def unknown(call: LibraryCall) -> Value:
     """Return the unknown result of an unknown function. Its arguments escape."""
     call.machine.escape([call.arguments, call.keywords])
     return Unknown(f"{call.name.rpartition('.')[2]}()")
 
 
-def unknown_text(call: Call) -> Value:
+def unknown_text(call: LibraryCall) -> Value:
     """Return an unknown text."""
     return written(UNKNOWN, call.node, call.frame.source)
 
 
-def nothing(_: Call) -> Value:
+def nothing(_: LibraryCall) -> Value:
     """Return None."""
     return None

@@ -7,7 +7,7 @@ from itertools import product
 from math import prod
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.python.interpreter.calls import Call, Rule, unknown
+from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, unknown
 from ros_lint.collectors.python.interpreter.methods import items, more
 from ros_lint.collectors.python.interpreter.operations import truth
 from ros_lint.collectors.python.interpreter.ordering import arranged, positions, sort_keys, unique
@@ -17,17 +17,17 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 
-def _set(call: Call) -> Value:
+def _set(call: LibraryCall) -> Value:
     elements = call.items(0) if call.arguments else []
     return unknown(call) if elements is None else SetOf(unique(elements))
 
 
-def _zip(call: Call) -> Value:
+def _zip(call: LibraryCall) -> Value:
     rows = _rows(call, 0)
     return unknown(call) if rows is None else [_under(conditions, tuple(row)) for row, conditions in rows]
 
 
-def _rows(call: Call, start: int) -> list[tuple[list[Value], Conditions]] | None:
+def _rows(call: LibraryCall, start: int) -> list[tuple[list[Value], Conditions]] | None:
     """Return the rows of zip() over the arguments from ``start`` on with their conditions, or None."""
     columns = [items(call.machine, argument) for argument in call.arguments[start:]]
     if any(column is None for column in columns):
@@ -46,7 +46,7 @@ def _under(conditions: Conditions, value: Value) -> Value:
 def _extreme(function: Callable[..., int]) -> Rule:
     """Return the model of min() or max()."""
 
-    def rule(call: Call) -> Value:
+    def rule(call: LibraryCall) -> Value:
         values = call.items(0) if len(call.arguments) == 1 else call.arguments
         if values is None or any(isinstance(value, Guarded) for value in values):
             return Unknown("the least or the greatest of what is not known")
@@ -63,19 +63,19 @@ def _extreme(function: Callable[..., int]) -> Rule:
     return rule
 
 
-def _sorted(call: Call) -> Value:
+def _sorted(call: LibraryCall) -> Value:
     elements = call.items(0)
     if elements is None:
         return unknown(call)
     return call.like(0, arranged(call.machine, elements, call.keywords, call.node, call.frame))
 
 
-def _reversed(call: Call) -> Value:
+def _reversed(call: LibraryCall) -> Value:
     elements = call.items(0)
     return elements[::-1] if elements is not None else unknown(call)
 
 
-def _map(call: Call) -> Value:
+def _map(call: LibraryCall) -> Value:
     rows = _rows(call, 1)
     if not rows:
         return unknown(call) if rows is None else []
@@ -86,7 +86,7 @@ def _map(call: Call) -> Value:
     return results
 
 
-def _filter(call: Call) -> Value:
+def _filter(call: LibraryCall) -> Value:
     elements = call.items(1)
     if elements is None:
         return unknown(call)
@@ -102,7 +102,7 @@ def _filter(call: Call) -> Value:
 
 
 def _any_all(wanted: bool) -> Rule:
-    def rule(call: Call) -> Value:
+    def rule(call: LibraryCall) -> Value:
         elements = call.items(0)
         answers = [_answer(call.machine, element, wanted) for element in elements] if elements is not None else [None]
         if wanted in answers:
@@ -118,7 +118,7 @@ def _answer(machine: Interpreter, value: Value, wanted: bool) -> bool | None:
     return None if answer is wanted and isinstance(value, Guarded) else answer
 
 
-def _sum(call: Call) -> Value:
+def _sum(call: LibraryCall) -> Value:
     start, parts = plain(call.get(1, "start")), call.items(0)
     if parts is None:
         return unknown(call)
@@ -136,16 +136,16 @@ def _sum(call: Call) -> Value:
     return elements if isinstance(start, list) else tuple(elements)
 
 
-def _chain(call: Call) -> Value:
+def _chain(call: LibraryCall) -> Value:
     return _chained(call, call.arguments)
 
 
-def _chain_of(call: Call) -> Value:
+def _chain_of(call: LibraryCall) -> Value:
     parts = call.items(0)
     return unknown(call) if parts is None else _chained(call, parts)
 
 
-def _chained(call: Call, parts: list[Value]) -> Value:
+def _chained(call: LibraryCall, parts: list[Value]) -> Value:
     elements: list[Value] = []
     for part in parts:
         inner = items(call.machine, part)
@@ -156,7 +156,7 @@ def _chained(call: Call, parts: list[Value]) -> Value:
     return elements
 
 
-def _product(call: Call) -> Value:
+def _product(call: LibraryCall) -> Value:
     columns = [column for position in range(len(call.arguments)) if (column := call.items(position)) is not None]
     size = prod(map(len, columns))
     if len(columns) < len(call.arguments) or call.keywords or size * len(columns) > call.machine.most_items:

@@ -207,7 +207,7 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
             return written(UNKNOWN + right, node, frame.source)
         if isinstance(left, (list, tuple)) and isinstance(right, (list, tuple)):
             machine.spend(len(left) + len(right))
-            if isinstance(left, tuple) is not isinstance(right, tuple):
+            if machine.caught and isinstance(left, tuple) is not isinstance(right, tuple):
                 raise ProgramRaised("TypeError")
             return [*left, *right] if isinstance(left, list) else (*left, *right)
         if isinstance(left, (list, tuple)) and isinstance(right, Unknown):
@@ -236,7 +236,14 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
             return left * right if len(left) * right <= _MOST_ITEMS else Unknown(TOO_LARGE)
     if all(isinstance(operand, _KNOWN) and (not isinstance(operand, str) or is_plain(operand)) for operand in (left, right)):
         numbers = isinstance(left, _NUMBERS) and isinstance(right, _NUMBERS)
-        if type(op) in _OPERATORS and not numbers and not isinstance(left, SetOf) and not isinstance(right, SetOf):
+        # Outside of try, the rest of the program is interpreted as if the types were right.
+        if (
+            machine.caught
+            and type(op) in _OPERATORS
+            and not numbers
+            and not isinstance(left, SetOf)
+            and not isinstance(right, SetOf)
+        ):
             raise ProgramRaised("TypeError")
         return Unknown("the result of an operator")
     for operand in (left, right):

@@ -5,13 +5,13 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Callable, Mapping
 
-from ros_lint.collectors.python.interpreter.calls import Call, Rule
+from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule
 from ros_lint.collectors.python.interpreter.path_functions import split, split_suffix
 from ros_lint.collectors.python.interpreter.values import FilePath, Value, guarded_text, union
 from ros_lint.collectors.symbolic_text import joined
 
 
-def _join(call: Call) -> Value:
+def _join(call: LibraryCall) -> Value:
     for argument in call.arguments:
         call.machine.record_misuse(argument, "joined", call.node, call.frame)
     rows = [call.texts(position) for position in range(len(call.arguments))]
@@ -27,7 +27,7 @@ def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
     return lambda call: union(guarded_text(text, function(text)) for text in call.texts(0))
 
 
-def new_path(call: Call) -> Value:
+def new_path(call: LibraryCall) -> Value:
     """Return a path of pathlib."""
     rows = [call.texts(position) for position in range(len(call.arguments))]
     paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)

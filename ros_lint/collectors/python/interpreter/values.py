@@ -105,7 +105,7 @@ class SetOf(list[Value]):
 
 
 class Globbed(list[Value]):
-    """The unchanged result of one glob."""
+    """The list that one call of glob() returns. A list made from it by an operation is no longer of this type."""
 
     __slots__ = ("pattern",)
     pattern: str

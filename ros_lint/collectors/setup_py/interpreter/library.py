@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS as PYTHON
-from ros_lint.collectors.python.interpreter.calls import Call, Rule, nothing
+from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing
 from ros_lint.collectors.python.interpreter.operations import each
 from ros_lint.collectors.python.interpreter.path_calls import PATH_FUNCTIONS, on_path
 from ros_lint.collectors.python.interpreter.values import (
@@ -118,10 +118,10 @@ class SetupLibrary:
         else:
             name = callee
         module, _, last = name.rpartition(".")
-        call = Call(interpreter, name, arguments, keywords, node, frame)
+        call = LibraryCall(interpreter, name, arguments, keywords, node, frame)
         if last == "setup":
             self._note_setup(call, module)
-            return Unknown("what setup() returns is not followed", None, node)
+            return Unknown("the result of setup() is not evaluated", None, node)
         rule = _FUNCTIONS.get(name) or self._functions.get(name) or self._functions.get(last)
         return rule(call) if rule is not None else Unknown(f"{last}()")
 
@@ -140,18 +140,18 @@ class SetupLibrary:
     def misuse(self, made: LaunchObject, how: How) -> How | None:  # noqa: ARG002
         return None
 
-    def _note_setup(self, call: Call, module: str) -> None:
+    def _note_setup(self, call: LibraryCall, module: str) -> None:
         deciding = Deciding(call.machine.conditions, call.machine.tests)
         options = {name: deciding.option(value) for name, value in call.keywords.items()}
         self.setups.append(Setup(options, call.node, module))
 
-    def _generate_parameter_module(self, call: Call) -> Value:
+    def _generate_parameter_module(self, call: LibraryCall) -> Value:
         name = plain(call.get(0, "module_name"))
         if isinstance(name, str):
             self.generated.append(f"{self._package}.{name}")
         return None
 
-    def _generate_distutils_setup(self, call: Call) -> Value:
+    def _generate_distutils_setup(self, call: LibraryCall) -> Value:
         """Return the options of generate_distutils_setup() in catkin_pkg, which adds data of package.xml."""
         version = Unknown("the version in package.xml is not looked at", None, call.node)
         return {"name": self._package, "version": version, **call.keywords}
@@ -163,7 +163,7 @@ class SetupLibrary:
 def _on_known(function: Callable[..., Value]) -> Rule:
     """Return the model of a function that needs known arguments; paths are passed as texts."""
 
-    def rule(call: Call) -> Value:
+    def rule(call: LibraryCall) -> Value:
         keywords = {name: _argument(plain(value)) for name, value in call.keywords.items()}
         if not all(map(_is_known, keywords.values())):
             return Unknown(f"{call.name}()")
@@ -259,13 +259,13 @@ _ON_FILES: dict[str, Callable[..., Any]] = {
 }
 
 
-def _variable(call: Call) -> Value:
+def _variable(call: LibraryCall) -> Value:
     name = plain(call.get(0, "key"))
     known = ROS_2.get(name) if isinstance(name, str) else None
     return Unknown("an environment variable") if known is None else known
 
 
-def _exit(_: Call) -> Value:
+def _exit(_: LibraryCall) -> Value:
     raise ProgramRaised("SystemExit", deliberate=True)
 
 

@@ -146,5 +146,5 @@ class Program(Machine):
 def _reason(node: ast.expr) -> str:
     """Return why the value of an expression is unknown."""
     if isinstance(node, ast.Call):
-        return f"{at(node.func)}() is not followed"
-    return f"the operator of {at(node)} is not followed" if isinstance(node, ast.BinOp) else f"{at(node)} is not known"
+        return f"{at(node.func)}() cannot be evaluated"
+    return f"the operator of {at(node)} cannot be evaluated" if isinstance(node, ast.BinOp) else f"{at(node)} is not known"

@@ -1,0 +1,129 @@
+"""Undeclared packages that a declared dependency provides, but not where they are needed.
+
+Where a package is built, only its ``build_depend``, ``buildtool_depend`` and ``depend`` are certainly installed; where it
+runs, only its ``exec_depend``, ``build_export_depend`` and ``depend`` (REP 149; bloom/generators/debian/generator.py).
+What these need at run time or to build against them is installed with them, because bloom makes it the ``Depends`` of
+their binary packages. So the tag of this package decides, and all edges of its dependencies that others follow count.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.build.commands import unguarded_tests
+from ros_lint.analysis.dependencies.declared_closure import declared_closure
+from ros_lint.analysis.dependencies.needs import Need, needs
+from ros_lint.analysis.dependencies.undeclared import is_part_of_launch
+from ros_lint.analysis.dependencies.unknown_closure import may_provide
+from ros_lint.analysis.memo import cached_by_package
+from ros_lint.base.auxiliary_files import is_for_tests
+from ros_lint.facts.manifest import Role
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ros_lint.facts.manifest import Depend
+    from ros_lint.facts.sources import Use, Via
+    from ros_lint.knowledge.closure import Closure
+    from ros_lint.workspace.model import Package, Workspace
+
+
+class Misplaced(NamedTuple):
+    """A need that only dependencies with the wrong tag provide."""
+
+    need: Need
+    """The need with all of its uses."""
+    uses: tuple[Use, ...]
+    """The uses for which nothing provides it, best evidence first; never empty."""
+    depend: Depend
+    """The tag of the dependency that provides it elsewhere."""
+    purpose: str
+    """The purpose for which it is not installed: "to build this package"."""
+
+
+class _Phase(NamedTuple):
+    """A purpose of uses, and the tags that are installed for it."""
+
+    purpose: str
+    uses: Role
+    vias: frozenset[Via]
+    tags: Role
+
+
+_PHASES = (
+    _Phase(
+        "to build this package",
+        Role.BUILD | Role.TOOL,
+        frozenset({"include", "cmake", "interface", "symbol", "target"}),
+        Role.BUILD | Role.TOOL,
+    ),
+    _Phase("with this package", Role.EXEC, frozenset({"import", "package"}), Role.EXEC | Role.EXPORT),
+)
+"""Launch files are left out, because another rule reports what they need at run time."""
+
+
+@cached_by_package
+def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
+    """Return the undeclared needs that only dependencies with the wrong tag provide.
+
+    Left out are:
+    - packages for tests, because their dependencies serve tests anyway,
+    - needs of unguarded tests, because they have to move to the tests,
+    - parts of launch that only launch files import, because ``ros2 launch`` provides them,
+    - needs that come with a declared name which itself needs another tag, because that tag is reported,
+    - needs that a dependency with the right tag may provide: its dependencies are unknown, or it does so in another
+      distribution and none was chosen.
+    """
+    every = needs(package, workspace)
+    waiting = [need for need in every if need.is_transitive and not need.declared]
+    if not waiting or is_for_tests(package.name):
+        return ()
+    unguarded = unguarded_tests(package)
+    result: list[Misplaced] = []
+    for phase in _PHASES:
+        closure = declared_closure(package, workspace, phase.tags)
+        if not any(_outside(closure, _of_phase(phase, need.uses)) for need in waiting):
+            continue  # the common case
+        repaired = [name for need in every if need.declared and _of_phase(phase, need.uses) for name in need.declared]
+        closure = declared_closure(package, workspace, phase.tags, repaired)
+        for need in waiting:
+            uses = _outside(closure, _of_phase(phase, need.uses))
+            if (
+                not uses
+                or need.name in unguarded
+                or is_part_of_launch(package, uses)
+                or any(need is other.need for other in result)
+            ):
+                continue
+            if any(_may_provide(closure, name, workspace) for use in uses for name in use.providers):
+                continue
+            if depend := _provider(package, workspace, uses[0].providers):
+                result.append(Misplaced(need, tuple(uses), depend, phase.purpose))
+    return tuple(result)
+
+
+def _outside(closure: Closure, uses: Iterable[Use]) -> list[Use]:
+    """Return the uses that no name of a closure satisfies."""
+    return [use for use in uses if not any(name in closure for name in use.providers)]
+
+
+def _may_provide(closure: Closure, name: str, workspace: Workspace) -> bool:
+    """Return whether a dependency may provide a name: an unknown one, or any in the distribution of the user."""
+    if may_provide(closure.unknown, name, workspace):
+        return True
+    provides = workspace.world.knowledge.provides_elsewhere
+    return not workspace.target.explicit and any(provides(dependency, name) for dependency in closure)
+
+
+def _of_phase(phase: _Phase, uses: Iterable[Use]) -> list[Use]:
+    """Return the certain uses that belong to a phase."""
+    return [use for use in uses if use.certain and use.via in phase.vias and use.role & phase.uses]
+
+
+def _provider(package: Package, workspace: Workspace, names: Iterable[str]) -> Depend | None:
+    """Return the tag of a declared dependency that provides one of the names."""
+    starts = tuple(dict.fromkeys(declared.name for declared in package.declared))
+    for name in names:
+        if path := workspace.world.path(starts, name):
+            return package.tags(path[0])[0].depend
+    return None

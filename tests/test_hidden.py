@@ -1,0 +1,65 @@
+"""What a report says of the findings that it does not show."""
+
+from typing import Any
+
+import pytest
+
+from ros_lint.base.tree import MemoryTree
+from ros_lint.engine import registry
+from ros_lint.engine.check import ReportContext, check
+from ros_lint.engine.report import OFF, HiddenCount, Report
+from ros_lint.engine.selection import select
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import TargetDistro
+from tests.packages import manifest_text
+
+CMAKE = """cmake_minimum_required(VERSION 3.8)
+project(talker)
+find_package(ament_cmake REQUIRED)
+find_package(rclcpp REQUIRED)
+find_package(std_msgs REQUIRED){comment}
+add_executable(talker talker.cpp)
+target_link_libraries(talker rclcpp::rclcpp)
+install(TARGETS talker DESTINATION lib/talker)
+ament_package()
+"""
+
+
+TOOL = ["<buildtool_depend>ament_cmake</buildtool_depend>"]
+
+
+def report(comment: str = "", **settings: Any) -> Report:
+    """Return the report on a package that finds std_msgs and does not use it."""
+    files = {
+        "talker/package.xml": manifest_text("talker", [*TOOL, "<depend>rclcpp</depend>", "<depend>std_msgs</depend>"]),
+        "talker/CMakeLists.txt": CMAKE.format(comment=comment),
+        "talker/talker.cpp": "#include <rclcpp/rclcpp.hpp>\nint main() { rclcpp::shutdown(); }\n",
+    }
+    loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "--distro", True))
+    rules = registry.load()
+    return check(loader.load(), loader.suppressions(), select(rules, **settings), ReportContext(rules, "", "", ()))
+
+
+def test_findings_of_rules_that_are_off_are_counted() -> None:
+    assert HiddenCount(OFF, 1, (("unused-find-package", 1),)) in report().hidden
+    assert "unused-find-package" not in {issue.rule.name for issue in report().issues}
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"ignored": ("unused-find-package",)},
+        {"severities": {"unused-find-package": "off"}},
+        {"added": ("unused-find-package",)},
+        {"chosen": ("undeclared-dependency",)},
+        {"per_path": {"CMakeLists.txt": ("unused-find-package",)}},
+        {"pedantic": True},
+    ],
+    ids=str,
+)
+def test_findings_of_rules_that_the_settings_mention_are_not_counted(settings: dict[str, Any]) -> None:
+    assert OFF not in [hidden.reason for hidden in report(**settings).hidden]
+
+
+def test_suppressed_findings_of_rules_that_are_off_are_not_counted() -> None:
+    assert not report("  # ros-lint: ignore[unused-find-package] soon").hidden
