@@ -58,7 +58,10 @@ def _field(quote: str) -> str:
 
 
 def _template(quote: str, field: str) -> str:
-    """Return a pattern of an f-string after its first quote character. ``field`` is the pattern of its fields."""
+    """Return a pattern of an f-string without its prefix and its first quote character.
+
+    ``quote`` is this character, ``field`` the pattern of a field in braces.
+    """
     piece = rf"\\[^N{{}}\r\n]|\{{\{{|\}}\}}|{field}"
     before = rf"(?:(?<=[fF]{quote})|(?<=[fF][rR]{quote}))"
     long = rf"{quote}{quote}(?:[^{{}}{quote}\\]|{quote}(?!{quote}{quote})|{piece})*{quote}{quote}{quote}"
@@ -66,7 +69,7 @@ def _template(quote: str, field: str) -> str:
 
 
 def _string(quote: str) -> str:
-    """Return a pattern of a string after its first quote character. It excludes f-strings and t-strings."""
+    """Return a pattern of a string without its first quote character. It excludes f-strings and t-strings."""
     bodies = "|".join(body.removeprefix(quote) for body in STRINGS if body.startswith(quote))
     return rf"(?<![fFtT]{quote})(?<![fFtT][rR]{quote})(?:{bodies})"
 

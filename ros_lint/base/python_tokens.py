@@ -261,7 +261,10 @@ class _TemplateParser:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the offset at which literal text ends. In a format specification, doubled braces are not an escape."""
+    """Return the offset at which the literal text of an f-string ends that starts at ``at``. ``literal`` is its pattern.
+
+    In a format specification it also ends at doubled braces, because they are not an escape there.
+    """
     match = literal.match(text, at)
     end = match.end() if match is not None else at
     if in_format:

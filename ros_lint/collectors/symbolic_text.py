@@ -373,7 +373,11 @@ class _Filling:
         self._remaining = _MAX_FILLED
 
     def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
-        """Return the alternatives of a text while the configurations in ``busy`` are being replaced."""
+        """Return the alternatives of a text after its configurations are replaced by their values.
+
+        The configurations in ``busy`` have values with this text. They are replaced by their defaults, because their
+        values would contain themselves.
+        """
         pending = [text]
         done: dict[str, None] = {}
         while pending:

@@ -33,7 +33,7 @@ class Closure:
 
     @property
     def names(self) -> frozenset[str]:
-        """All names."""
+        """All names in the closure."""
         return frozenset(self._reach.expand(self._bits))
 
     def difference(self, other: Closure) -> Iterator[str]:

@@ -104,11 +104,11 @@ class InstallPrefix:
         return tuple(name for name, kind in self._list("bin") if kind == "file")
 
     def share_files(self, package: str) -> tuple[str, ...]:
-        """Return the files below share/<package>, relative to it, sorted."""
+        """Return the paths of the files in share/<package>, relative to this folder, sorted."""
         return tuple(sorted(self._walk(f"share/{package}", "")))
 
     def launch_files(self, package: str) -> tuple[str, ...]:
-        """Return the launch files below share/<package>, relative to it, sorted.
+        """Return the paths of the launch files in share/<package>, relative to this folder, sorted.
 
         A launch file is recognized by a name that ``ros2 launch`` completes, or by its contents.
         """
@@ -141,7 +141,10 @@ class InstallPrefix:
 
     @cached_property
     def modules(self) -> Mapping[str, tuple[str, ...]]:
-        """Names of the top-level Python modules, each with its package; with () if the package is unknown."""
+        """Names of the top-level Python modules, each with a tuple of its package.
+
+        The tuple is empty if the package is unknown.
+        """
         owners: dict[str, tuple[str, ...]] = {}
         for folder in self._python_folders():
             entries = self._list(folder)

@@ -93,7 +93,7 @@ class ReleasedContents(NamedTuple):
 
     @property
     def complete(self) -> bool:
-        """True if names that are not listed do not exist."""
+        """True if ``fields`` lists all contents of the package."""
         return self.origin in {"=", "b"}
 
     def known(self, kind: ContentKind) -> Known:
@@ -146,7 +146,7 @@ def _split_plugins(plugins: Iterable[str]) -> Iterator[str]:
 
 
 def _join_plugins(plugins: Iterable[str]) -> tuple[str, ...]:
-    """Return base=class,class for each base. The inverse of :func:`_apart`."""
+    """Return base=class,class for each base. The inverse of :func:`_split_plugins`."""
     classes_of: dict[str, list[str]] = {}
     for plugin in plugins:
         base, _, name = plugin.partition("=")

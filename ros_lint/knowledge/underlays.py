@@ -106,7 +106,7 @@ class Installed:
 
     @cached_property
     def share_files(self) -> Known:
-        """Files below share/<package>, relative to it."""
+        """Paths of the files in share/<package> of this package, relative to this folder."""
         return Known(self.prefix.share_files(self.name), complete=True)
 
 

@@ -79,7 +79,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _forgets_macro(package: Package) -> bool:
-    """Return whether a source includes the header of the macro, but no source has the macro, tests included."""
+    """Return whether a source includes register_node_macro.hpp, but none calls RCLCPP_COMPONENTS_REGISTER_NODE().
+
+    Sources of tests count too.
+    """
     included = any(use.via == "include" and "register_node_macro" in use.what for use in package.uses)
     return included and all(macro.kind != "component" for macro in package.registrations)
 

@@ -146,7 +146,7 @@ def _uninstalled_target(package: Package, name: str) -> _Missing | None:
 
 
 def _named_by_module(package: Package, name: str, all_names: Collection[str]) -> _Missing | None:
-    """Return the hint for the name of a Python file where that of its executable is required."""
+    """Return the hint if a launch file names a Python module instead of its executable, else None."""
     script, stem = package.built, name.removesuffix(".py")
     entries = [
         entry for entry in script.products.entry_points if entry.name in all_names and entry.module.rpartition(".")[2] == stem

@@ -123,7 +123,8 @@ def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, 
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
         if inside and name not in installed and folder not in as_data:
-            yield _Lack(name, folder, f"the Python package '{name}' is not installed; add it to packages", place)
+            message = f"the Python package '{name}' is not installed; add it to the option 'packages' of setup()"
+            yield _Lack(name, folder, message, place)
 
 
 def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
@@ -156,7 +157,7 @@ def _remedy(package: Package, folder: str, name: str, slot: EditableList | None)
     if f"{folder}/__init__.py" in package.files:
         return ""
     return f"; add {folder}/__init__.py" + (
-        f" and add '{name}' to packages" if slot else ""
+        f" and add '{name}' to the option 'packages' of setup()" if slot else ""
     )  # find_packages() finds the folder then
 
 
@@ -232,7 +233,7 @@ def _fix(slot: EditableList | None, name: str, package: str) -> Fix | None:
     element = (
         edits.setup_py.joined(slot, package, "", name.removeprefix(package)) if inside else edits.setup_py.quoted(slot, name)
     )
-    return Fix(f"add '{name}' to packages", (edits.setup_py.add(slot, element),))
+    return Fix(f"add '{name}' to the option 'packages' of setup()", (edits.setup_py.add(slot, element),))
 
 
 RULE = Rule(

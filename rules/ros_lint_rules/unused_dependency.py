@@ -93,11 +93,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
     """Return the message for an unused dependency that is the only source of a package that is used without a declaration."""
     if carried.package == package.name:
-        return f"'{name}' is unused itself; the package uses '{carried.name}' through it; declare '{carried.name}' instead"
+        return f"'{name}' is not used, only its dependency '{carried.name}'; declare '{carried.name}' instead"
     if carried.name == name:
         return f"'{name}' is declared here, but only '{carried.package}' uses it; declare it in '{carried.package}' instead"
     return (
-        f"'{name}' is unused itself; only '{carried.package}' uses '{carried.name}' through it; "
+        f"'{name}' is not used; only '{carried.package}' uses its dependency '{carried.name}'; "
         f"declare '{carried.name}' in '{carried.package}' instead"
     )
 

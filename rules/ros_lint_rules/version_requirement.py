@@ -34,11 +34,11 @@ from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace
 _Version = tuple[tuple[int, str], ...]
 """Components as numbers of digits and these digits, because there is no limit to a number in package.xml."""
 _TESTS: dict[str, tuple[str, Callable[[_Version, _Version], bool]]] = {
-    "version_lt": ("below", operator.lt),
-    "version_lte": ("at most", operator.le),
-    "version_eq": ("exactly", operator.eq),
-    "version_gte": ("at least", operator.ge),
-    "version_gt": ("above", operator.gt),
+    "version_lt": ("<", operator.lt),
+    "version_lte": ("<=", operator.le),
+    "version_eq": ("==", operator.eq),
+    "version_gte": (">=", operator.ge),
+    "version_gt": (">", operator.gt),
 }
 
 
@@ -52,14 +52,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         version = workspace.world.version(depend.name) or ""
         packages = workspace.by_name.get(depend.name, ())
         failed = [
-            f"{word} {limit}"
+            f"{symbol} {limit}"
             for attribute, limit in depend.versions
-            for word, test in (_TESTS[attribute],)
+            for symbol, test in (_TESTS[attribute],)
             if _numbers(version) and _numbers(limit) and not test(_numbers(version), _numbers(limit))
         ]
         if failed and len(packages) < 2:
             yield Finding(
-                f"'{depend.name}' has version {version}, but must be {' and '.join(failed)}; "
+                f"'{depend.name}' has version {version}, but '{package.name}' requires version {' and '.join(failed)}; "
                 "use another version, or correct the attribute",
                 depend.span,
                 depend.name,

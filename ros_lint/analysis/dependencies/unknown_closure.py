@@ -98,9 +98,14 @@ def _found(workspace: Workspace) -> frozenset[str]:
 
 
 def _is_no_package(name: str, workspace: Workspace) -> bool:
-    """Return whether an unknown name is a key, a misspelling, a group or a ROS 1 package.
+    """Return whether an unknown name is probably not the name of a ROS 2 package. It is one of these:
 
-    A ROS 1 package that a build script finds, and that has no ROS 2 successor, was probably ported without a release.
+    - a name that is not valid for a package, such as that of a rosdep key,
+    - the build type ament_python,
+    - a dependency group,
+    - a misspelled name,
+    - a package that was only released for ROS 1. Exception: a build script finds it and it has no ROS 2 successor,
+      because it was probably ported without a release.
     """
     if not may_be_package(name) or name == "ament_python" or workspace.world.group_members(name):
         return True

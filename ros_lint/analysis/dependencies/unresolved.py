@@ -1,4 +1,4 @@
-"""Declared names that do not resolve, in packages where this is an error."""
+"""Declared dependencies that are neither packages nor rosdep keys. :func:`declared_names` lists the exceptions."""
 
 from __future__ import annotations
 

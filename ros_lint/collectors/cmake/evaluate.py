@@ -240,10 +240,10 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 
 
 def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
-    """Return the mentions. Searches without REQUIRED are classified by the result of :func:`_taken`.
+    """Return the mentions of other packages. Those in find_package() without REQUIRED are classified.
 
-    Such a search is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
-    macros of the package.
+    Such a mention is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
+    macros of the package. ``used`` is the result of :func:`_used_packages`.
     """
     if not run.packages.optional_finds:
         return tuple(run.results.mentions)

@@ -84,7 +84,7 @@ def first_use(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Conta
 
 
 def _places(text: bytes, name: bytes) -> Iterator[int]:
-    """Yield the offsets of a word that is not a part or a member of another name."""
+    """Yield the offsets of ``name`` as a whole word, except as a member such as ``a.name``."""
     start = text.find(name)
     while start >= 0:
         previous, following = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]

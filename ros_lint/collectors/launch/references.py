@@ -375,7 +375,10 @@ class References:
 
 
 def _has_no_place(texts: Iterable[str], configurations: Container[str]) -> bool:
-    """Return whether no text contains an install place or xacro, directly or through a configuration."""
+    """Return whether none of the texts may contain a path in an install space or a command of xacro.
+
+    ``configurations`` are the launch configurations whose values may contain such a path.
+    """
     for text in texts:
         if text.isascii():
             if runs_xacro(text):

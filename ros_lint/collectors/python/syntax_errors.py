@@ -153,7 +153,7 @@ def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[
 
 
 def _statements(text: str, found: Sequence[Token], lines: Sequence[int]) -> Iterator[int]:
-    """Yield the first line, from 0, of each statement that stands in no other one."""
+    """Yield the first line of each top-level statement, counted from 0."""
     yield 0
     line, decorated = 0, False
     for first, _ in _logical_lines(found):

@@ -32,7 +32,7 @@ _RESERVED_FOLDERS = frozenset(
 
 
 class SetupContext(NamedTuple):
-    """Data about the package that determines the installed files together with the options of setup()."""
+    """Data of a package that, besides the options of setup(), are needed to compute its installed files."""
 
     files: Files
     executables: AbstractSet[str]

@@ -169,7 +169,8 @@ def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
     match = _BASE.match(option.value)
     if match and "$" not in match[1]:
         return posixpath.normpath(match[1]), None
-    return None, Opaque(Facet.EXECUTABLES, f"the folder '{option.value}' cannot be evaluated", option.span)
+    reason = f"the value '{option.value}' of install_scripts in setup.cfg cannot be evaluated"
+    return None, Opaque(Facet.EXECUTABLES, reason, option.span)
 
 
 _BASE = re.compile(r"\$\{?(?:base|prefix)\}?/(.*)\Z")

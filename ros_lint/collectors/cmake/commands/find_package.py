@@ -120,7 +120,7 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
 
 
 def _find_all(run: Run, args: list[str]) -> None:
-    """``ros_lint_find(build|test)``: the dependencies that package.xml declares are searched."""
+    """``ros_lint_find(build|test)`` in ros_macros.cmake: the dependencies that package.xml declares are searched."""
     names = run.paths.sources.test_depends
     if args[:1] == ["build"]:
         names = run.paths.sources.build_depends
@@ -140,7 +140,7 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 
 
 def _packages_used(run: Run, args: list[str]) -> None:
-    """``ros_lint_uses(for how names...)``: the arguments of a macro are names of packages."""
+    """``ros_lint_uses(for how names...)`` in ros_macros.cmake: the package uses the packages ``names``."""
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
@@ -181,7 +181,7 @@ def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> No
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """``ros_lint_target_uses(how target names...)``: a target uses packages."""
+    """``ros_lint_target_uses(how target names...)`` in ros_macros.cmake: a target uses the packages ``names``."""
     _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
     record_header_sources(
@@ -281,7 +281,7 @@ def _link_libraries(run: Run, args: list[str]) -> None:
 
 
 def _hide(run: Run, args: list[str]) -> None:
-    """``ros_lint_hide(facets reason)``: facets of the package are hidden."""
+    """``ros_lint_hide(facets reason)`` in ros_macros.cmake: facets of the package are hidden."""
     facet = Facet(0)
     for name in split(args[0]):
         facet |= ALL_FACETS if name == "ANYTHING" else Facet[name]

@@ -41,9 +41,10 @@ def hide(run: Run, destination: str | None, reason: str) -> None:
 
 
 def destination_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
-    """Return the destination in sections of arguments (see ``sections()``).
+    """Return the folder to which a call of install() installs, relative to the prefix.
 
-    None if it is unknown or outside of the prefix.
+    ``parts`` are the arguments of the call by keyword (see ``sections()``). None if the folder is unknown or outside of
+    the prefix.
     """
     destinations = parts.get("DESTINATION")
     if destinations:

@@ -17,13 +17,13 @@ def _unknown(run: Run, name: str) -> None:
 
 
 def _first(run: Run, args: list[str]) -> None:
-    """Run a command whose first argument is the output variable."""
+    """Set the output variable to an unknown value. It is the first argument."""
     if args:
         _unknown(run, args[0])
 
 
 def _first_in_cache(run: Run, args: list[str]) -> None:
-    """Run a command whose first argument is the output variable, in the cache.
+    """Set the output variable to an unknown value in the cache. It is the first argument.
 
     The value survives the end of a function.
     """
@@ -32,7 +32,7 @@ def _first_in_cache(run: Run, args: list[str]) -> None:
 
 
 def _last_in_cache(run: Run, args: list[str]) -> None:
-    """Run a command whose last argument is the output variable, in the cache."""
+    """Set the output variable to an unknown value in the cache. It is the last argument."""
     if args:
         _unknown_in_cache(run, args[-1])
 

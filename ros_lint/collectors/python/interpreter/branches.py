@@ -189,7 +189,10 @@ def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
 
 
 def _stops(body: Sequence[ast.stmt]) -> bool:
-    """Return whether a block ends the program, unless its exception is caught."""
+    """Return whether a block ends with ``raise`` or a call of exit(), quit() or _exit().
+
+    Code outside of the block may catch the exception.
+    """
     last = body[-1] if body else None
     if isinstance(last, ast.Raise):
         return True

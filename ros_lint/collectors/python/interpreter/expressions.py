@@ -184,7 +184,10 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
 
 
 def _together(values: list[Value], word: str) -> Value:
-    """Return comparisons of unknown texts as one unknown truth, None if any value is something else."""
+    """Combine the results of comparisons of unknown texts into one unknown value with a condition.
+
+    ``word`` is the operator between them, "and" or "or". None if any value is not the result of such a comparison.
+    """
     parts: list[str] = []
     for value in values:
         condition = value.condition if isinstance(value, Unknown) else None

@@ -77,7 +77,7 @@ class Program(Machine):
         return self._with_origin(value, node, frame)
 
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
-        """Return the result of an operation; in place of an unknown one the operand that is unknown."""
+        """Return the result ``value`` of an operation, or the unknown operand because of which it is unknown."""
         fresh = isinstance(value, Unknown) and value.node is None and value.reason != TOO_LARGE
         if not fresh and not (isinstance(value, str) and UNKNOWN in value):
             return value
