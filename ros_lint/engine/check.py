@@ -67,6 +67,7 @@ def _blind_spots(workspace: Workspace) -> tuple[BlindSpot, ...]:
         Facet.LIBRARIES: "libraries",
         Facet.INTERFACES: "interfaces",
         Facet.COMPONENTS: "components",
+        Facet.EXPORTS: "exported dependencies",
     }
     names_by_word = {
         word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])

@@ -105,7 +105,7 @@ def _is_seen(package: Package) -> bool:
     script = package.script
     if script is None or build.stops_early(script) or package.builds_with != "ament_cmake":
         return False
-    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.commands.names))
+    return not (script.hides(Facet.EXPORTS) or _EXPORTS_ALL.intersection(script.commands.names))
 
 
 def _exported(script: BuildScript) -> set[str]:

@@ -100,7 +100,7 @@ def _skip(run: Run, file: str) -> int:
     Like a module, it probably defines commands and installs nothing itself.
     """
     run.open_world = True
-    run.hide(Facet.USES, f"include() of {file} cannot be evaluated")
+    run.hide(Facet.USES | Facet.EXPORTS, f"include() of {file} cannot be evaluated")
     return NEXT
 
 
@@ -158,7 +158,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     parsed = run.paths.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
         run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-        run.hide(ALL_FACETS, "the folder of add_subdirectory() was not found")
+        run.hide(_BY_SUBDIRECTORY, "the folder of add_subdirectory() was not found")
         return None
     if not (run.uncertain_conditions or run.muted or is_outside(path)):
         run.results.subdirectories[path] = None
@@ -170,7 +170,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     if parsed is None:
         if run.paths.is_folder(path):
             run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-            run.hide(ALL_FACETS, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
+            run.hide(_BY_SUBDIRECTORY, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
         else:
             run.add_problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.place_of(name), path)
         return None
@@ -186,6 +186,8 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
 
 
 _TOP: Final = "CMakeLists.txt"
+_BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
+"""What a subdirectory can hide: ament_package() does not see what the macros of ament export there."""
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:

@@ -351,10 +351,10 @@ class Run(State):
         """Record that code cannot be evaluated and which facet of the package it hides.
 
         ``below`` limits what is hidden to a folder of the install prefix, ``inside`` to the build of a source folder. Code that
-        does not run with default options hides only possible uses of packages.
+        does not run with default options hides only possible uses and exports of packages.
         """
         if self.non_default_conditions:
-            facet &= Facet.USES
+            facet &= Facet.USES | Facet.EXPORTS
         if facet and not self.muted:
             self.results.opaques[Opaque(facet, reason, span or self.current_place(), below=below, inside=inside)] = None
 
