@@ -32,6 +32,7 @@ from ros_lint.collectors.cmake.evaluator.found_packages import folded
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
 from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, CallFrame
+from ros_lint.collectors.cmake.evaluator.unset import unset_variables
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import Command, is_template
@@ -138,6 +139,7 @@ def _result(run: Run, path: str) -> BuildScript:
             unused_optional_finds=tuple(_unused_finds(run, used)),
             commented_interfaces=tuple([name for parsed in run.paths.sources.scripts.values() for name in parsed.set_aside]),
             errors=tuple(_errors(run)),
+            unset_variables=tuple(unset_variables(run)),
             interpreted_tests=_interpreted_tests(run),
             runs_tests=any(map(_RUNS_TESTS.search, calls)),
             includes_outside_package=run.results.includes_outside_package,

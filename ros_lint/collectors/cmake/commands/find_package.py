@@ -118,6 +118,7 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
         if source in helper.sources.scripts:
             include_of_package(run, name, source)
         else:
+            run.skipped_include = True
             run.hide(Facet.USES, f"the CMake code of '{name}' was not found")
 
 

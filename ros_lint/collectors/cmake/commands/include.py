@@ -30,7 +30,7 @@ def _include(run: Run, args: list[str]) -> int | None:
         if _is_from_index(run):
             return _skip(run, "a file that another package has registered")
         run.hide(ALL_FACETS, "the file of include() is unknown")
-        run.open_world = True
+        run.open_world = run.skipped_include = True
         return None
     return _include_file(run, name, optional)
 
@@ -48,6 +48,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         parsed = run.paths.script(path) if path is not None else None
         if path is not None and parsed is not None:
             return _run_script(run, path, parsed)
+    run.skipped_include = True
     if optional:
         return None
     if is_module:
@@ -99,7 +100,7 @@ def _skip(run: Run, file: str) -> int:
 
     Like a module, it probably defines commands and installs nothing itself.
     """
-    run.open_world = True
+    run.open_world = run.skipped_include = True
     run.hide(Facet.USES, f"include() of {file} cannot be evaluated")
     return NEXT
 

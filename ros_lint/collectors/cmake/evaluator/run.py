@@ -69,6 +69,8 @@ class Run(State):
         """True if code that cannot be read has run."""
         self.any_variable_may_be_set = False
         """True if that code may have set any variable."""
+        self.skipped_include = False
+        """True if a file of include() or of a found package was not read."""
         self.may_define_targets = False
         """True if that code may have defined targets."""
         self.settable: set[str] = set()
