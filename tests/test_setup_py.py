@@ -223,7 +223,8 @@ def test_imports_are_mentions() -> None:
         ("data_files=[('share/pkg', ['nope.txt'])]", [("missing-file", "'nope.txt' does not exist", "'nope.txt'")]),
         (
             "data_files=[('share/pkg', glob('models/*'))]",
-            [("directory-in-data-files", "'models/robot' is a folder, but data_files can only copy files, so the build fails; list only files",
+            [("directory-in-data-files", "'models/robot' is a folder, but data_files can only copy files, "
+                    "so the build fails; list only files",
               "glob('models/*')")],
         ),
         (
