@@ -33,6 +33,7 @@ class Issue(NamedTuple):
 
 UNSURE = "of lower confidence (shown with --pedantic)"
 OFF = "of rules that are off (shown with --pedantic)"
+MINOR = "of lower severity than --min-severity"
 
 
 class HiddenCount(NamedTuple):
@@ -95,6 +96,8 @@ class Report(NamedTuple):
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    ros1: tuple[str, ...] = ()
+    """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()
     """Warnings about the command line and settings, which are printed to standard error."""
 

@@ -267,7 +267,11 @@ def _remappings(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[Laun
                 result.append((walker.text(first, node, launch_object.source), walker.text(second, node, launch_object.source)))
             elif any(isinstance(alternative.value, str) if parts is None else len(parts) != 2 for parts, alternative in choices):
                 walker.problems.append(
-                    Problem("remapping", "a remapping must be a pair of names", span_of(node, launch_object.source))
+                    Problem(
+                        "remapping",
+                        "a remapping must be a pair of names; write ('from', 'to')",
+                        span_of(node, launch_object.source),
+                    )
                 )
     return tuple(result)
 
