@@ -191,8 +191,8 @@ def _negated(condition: LaunchCondition) -> str | None:
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
     """Return whether a block of an if or try statement ends the launch file, so that the code after it is unconditional.
 
-    ``everywhere`` is True if no conditions hold around the statement. Under other conditions, ``raise Error("...")`` does
-    not count, because the message says what users of that branch have to install.
+    ``everywhere`` is True if no conditions hold around the statement. If it is False, ``raise Error("...")`` does not
+    count, because the message says what users of that branch have to install.
     """
     last = body[-1] if body else None
     return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))

@@ -137,7 +137,10 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the content of a file of the workspace, which represents the opened file. It is Unknown for any other file."""
+        """Return the content of a file of the workspace, which represents the opened file.
+
+        The result is Unknown for any other file.
+        """
 
     @abstractmethod
     def texts(self, value: Value) -> tuple[str, ...]:

@@ -198,7 +198,7 @@ class Recorder:
             self.lazily.add(package)
 
     def set_variable(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
-        """Record that ``at`` sets an environment variable, for all code that is interpreted after it."""
+        """Record that the call ``at`` sets an environment variable, for all code that is interpreted after the call."""
         made = LaunchObject("SetEnvironmentVariable", [name, value], {}, at, source)
         made.conditions = self.conditions
         self.variables.append(made)

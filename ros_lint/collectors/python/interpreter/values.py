@@ -214,7 +214,10 @@ class Function:
         return False
 
     def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
-        """Return the values of the parameters, by name, if the function is called with these arguments."""
+        """Return the values of the parameters, by name, if the function is called with these arguments.
+
+        A parameter without argument has its default value, or is unknown if it has no default.
+        """
         spec = self.node.args
         names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
         values: dict[str, Value] = dict(self.keyword_defaults)
