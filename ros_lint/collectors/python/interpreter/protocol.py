@@ -1,4 +1,4 @@
-"""The interfaces of the Python interpreter: to its handlers, and to models of libraries."""
+"""The interfaces between the Python interpreter, its handlers of statements and expressions, and the models of libraries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Side effects recorded while a launch file is interpreted: look-ups, files, conditions, variables."""
+"""Side effects that are recorded while a program is interpreted: package look-ups, read files, conditions, variables."""
 
 from __future__ import annotations
 

@@ -433,14 +433,14 @@ def around(value: Value) -> Conditions:
     return conditions
 
 
-def same(one: Value, other: Value) -> bool:
+def same(left: Value, right: Value) -> bool:
     """Return whether two values are certainly equal."""
-    if one is other:
+    if left is right:
         return True
-    if isinstance(one, str) and isinstance(other, str):
-        return one == other
+    if isinstance(left, str) and isinstance(right, str):
+        return left == right
     simple = (int, float, bool, type(None), tuple)
-    return type(one) is type(other) and isinstance(one, simple) and bool(one == other)
+    return type(left) is type(right) and isinstance(left, simple) and bool(left == right)
 
 
 def environment(name: str, default: str | None) -> str:
