@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.analysis.rule import Rule
+from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.registry import matching, unknown_rule_message
-from ros_lint.engine.report import UNSURE, HiddenCount, Issue
+from ros_lint.engine.report import EXPLAINED, UNSURE, HiddenCount, Issue
 from ros_lint.errors import UserError
 
 
@@ -84,7 +85,10 @@ def select(
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
-    """Return the issues to show, with the severities of the settings, and counts of hidden issues."""
+    """Return the issues to show, with the severities of the settings, and counts of hidden issues.
+
+    Issues that another shown issue explains are hidden.
+    """
     shown: list[Issue] = []
     unsure: list[Issue] = []
     ignored = 0
@@ -99,8 +103,13 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
             shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
         else:
             shown.append(issue)
-    hidden = [HiddenCount.of(UNSURE, unsure), HiddenCount("ignored by per-path-ignores", ignored)]
-    return tuple(shown), tuple(entry for entry in hidden if entry.count)
+    causes = without_explained(shown, selection.severities)
+    hidden = [
+        HiddenCount.of(UNSURE, unsure),
+        HiddenCount("ignored by per-path-ignores", ignored),
+        HiddenCount(EXPLAINED, len(shown) - len(causes)),
+    ]
+    return causes, tuple(entry for entry in hidden if entry.count)
 
 
 def matches(path: str, pattern: str) -> bool:
