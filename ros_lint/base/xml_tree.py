@@ -91,7 +91,7 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
-        message = expat.ErrorString(error.code) or "not well-formed"
+        message = f"not valid XML: {expat.ErrorString(error.code) or 'not well-formed'}"
         raise XmlError(message, offset(parser.ErrorByteIndex)) from None
     return root[0]
 

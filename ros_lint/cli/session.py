@@ -131,7 +131,7 @@ def _fact_cache_key(request: Request) -> str:
 
 _WITHOUT_EFFECT = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
-    "show-settings", "unsafe-fixes", "write-baseline",
+    "quiet", "show-settings", "statistics", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
 """Settings that do not affect the report. Of the configuration file only the contents do, not the path."""
 

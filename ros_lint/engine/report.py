@@ -47,6 +47,7 @@ class Issue(NamedTuple):
 UNSURE = "of lower confidence (shown with --pedantic)"
 EXPLAINED = "explained by other findings"
 OFF = "of rules that are off (shown with --pedantic)"
+MINOR = "of lower severity than --min-severity"
 
 
 class HiddenCount(NamedTuple):
@@ -109,6 +110,8 @@ class Report(NamedTuple):
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    ros1: tuple[str, ...] = ()
+    """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()
     """Warnings about the command line and settings, which are printed to standard error."""
 

@@ -38,6 +38,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "not_seen_through": [
             {"what": spot.what, "packages": len(spot.packages), "names": list(spot.packages)} for spot in report.blind_spots
         ],
+        "ros1_packages": list(report.ros1),
         "crashes": [crash._asdict() for crash in report.crashes],
         "summary": {
             **{str(severity): report.count(severity) for severity in sorted(Severity, reverse=True)},

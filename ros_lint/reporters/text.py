@@ -26,13 +26,13 @@ _FILES = 2
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:
-    """Return the report as text."""
+    """Return the report as text: packages with errors first; in a package errors, then warnings, then infos."""
     texts = cache(texts)
     packages: dict[str, list[Issue]] = {}
-    for issue in report.issues:
+    for issue in sorted(report.issues, key=lambda issue: -issue.severity):
         packages.setdefault(issue.package, []).append(issue)
     parts: list[str] = []
-    for package, issues in packages.items():
+    for package, issues in sorted(packages.items(), key=lambda item: (-item[1][0].severity, item[1][0].finding.span)):
         title = f"{safe(package, style) or 'outside any package'}: {count(len(issues), 'finding')}"
         parts.append(f"{paint(style, 'bold', title)}\n\n{render_issues(issues, texts, style)}\n")
     return "".join(parts) + summary(report, style)

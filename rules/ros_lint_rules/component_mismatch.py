@@ -115,11 +115,11 @@ def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Fin
     script = package.script
     assert script is not None
     library = build.library_registering(package, macro)
-    command = f'rclcpp_components_register_nodes({library or "..."} "{macro.name}")'
+    command = f'rclcpp_components_register_nodes({library or "<library>"} "{macro.name}")'
     usable = library and "rclcpp_components" in dependencies.names_searched(package, script)
     fix = Fix.of(f"register '{macro.name}'", edits.cmake.at_end(script, command), safe=False) if usable else None
     return Finding(
-        f"CMake does not register the component '{macro.name}'; add {command}",
+        f"CMakeLists.txt does not register the component '{macro.name}', so it cannot be loaded; add {command}",
         macro.span,
         macro.name,
         fix=fix,

@@ -224,7 +224,7 @@ def _message(owner: str, path: str, more: int = 0) -> str:
     """Return the beginning of a message about a missing file, and the number of further ones in its folder."""
     if not more:
         return f"'{path}' does not exist in '{owner}'"
-    return f"'{path}' and {more} other file{'s' if more > 1 else ''} of this folder that are named here do not exist in '{owner}'"
+    return f"'{path}' and {more} other file{'s' if more > 1 else ''} of its folder that this file names do not exist in '{owner}'"
 
 
 def _twin(path: str, all_names: tuple[str, ...]) -> str:
@@ -296,8 +296,8 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
         if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.products.installs)
     }
     if package.name in owners:
-        return f"; '{package.name}' has it"
-    return f"; '{owners.pop()}' has it" if len(owners) == 1 else ""
+        return f"; it exists in '{package.name}'"
+    return f"; it exists in '{owners.pop()}'" if len(owners) == 1 else ""
 
 
 def _hint(path: str, all_names: tuple[str, ...]) -> str:

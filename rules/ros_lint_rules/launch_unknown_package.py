@@ -173,7 +173,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         return _Verdict(names.ask_if_meant([meant.name]), Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
     if len(renamed) == 1 and _may_have(renamed[0], places, workspace, all):
-        return _Verdict(f"; the workspace has '{renamed[0]}'", Confidence.HIGH, renamed[0])
+        return _Verdict(names.ask_if_meant([renamed[0]]), Confidence.HIGH, renamed[0])
     distro, date = workspace.target.distro, world.knowledge.date
     elsewhere = world.where_else(name)
     if elsewhere:
@@ -185,7 +185,9 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     own = launch.installed_programs(package)
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
-        return _Verdict(f"; '{package.name}' itself installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name)
+        return _Verdict(
+            f"; this package, '{package.name}', installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
+        )
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
         return _Verdict(names.ask_if_meant([family]), Confidence.HIGH, family)

@@ -199,7 +199,7 @@ def _as_modules(inside: _Inside, workspace: Workspace) -> str:
     if f"{inside.rest}/__init__.py" in below:
         return f"import its modules from {inside.rest.removeprefix('src/').replace('/', '.')}"
     if below and all(file.endswith(".py") for file in below):
-        return "Python finds modules next to the installed program without it"
+        return "remove it, because Python finds modules next to the installed program"
     return ""
 
 

@@ -149,7 +149,7 @@ def _python_packages(package: Package) -> Iterator[Finding]:
             continue
         what = "has no __init__.py" if any(file.startswith(f"{folder}/") for file in package.files) else "does not exist"
         yield Finding(
-            f"ament_python_install_package({folder}): the folder {what}",
+            f"ament_python_install_package() fails because the folder '{folder}' {what}",
             call.span(0),
             folder if what.startswith("does") else f"{folder}/__init__.py",
         )

@@ -81,9 +81,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for name, places in missing.items():
         (what, first), *others = places
         sure = along is not None and name not in along and name not in probable
-        why = "but there is no find_package() for it" if sure else "which is found only if another package finds it"
+        why = "but there is no find_package() for it" if sure else "but only another package calls find_package() for it"
         yield Finding(
-            f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) before it",
+            f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) earlier",
             first.span,
             name,
             first_related(place for _, place in others),

@@ -45,6 +45,7 @@ from ros_lint.api import (
     build,
     cached_by_workspace,
     first_related,
+    names,
 )
 
 
@@ -89,14 +90,14 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     alike = [macro for macro in registered if macro.name.rpartition("::")[2] == last and macro.name not in described]
     verb = "registers"
     if alike:
-        hint = f"; the sources register '{alike[0].name}'"
+        hint = names.did_you_mean([alike[0].name])
     elif entry.type in package.unwritten_classes:
         verb, hint = "registers or defines", "; remove the entry"
     else:
         hint = f"; add PLUGINLIB_EXPORT_CLASS({entry.type}, {entry.base}) to a source"
     related = first_related(Related("registered here", macro.span) for macro in alike)
     yield Finding(
-        f"no source {verb} '{entry.type}'{hint}",
+        f"no source of this package {verb} the plugin '{entry.type}'{hint}",
         entry.span,
         f"{plugin.path}#{entry.type}",
         related,

@@ -119,7 +119,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         severity = Severity.INFO if need.name in with_launch else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
-            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
+            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
             finding = finding._replace(message=message, fix=None)
         if finding.fix:
             finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
@@ -152,7 +152,9 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     elif proposal.obstacle:
         message = f"'{name}' {problem}, and it cannot be declared: {proposal.obstacle}"
     elif condition:
-        message = f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen it"
+        message = (
+            f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen the condition"
+        )
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):

@@ -97,7 +97,8 @@ def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterat
         library = build.library_registering(package, macro)
         if library and library not in needed:
             yield Finding(
-                f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
+                f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it; "
+                "add it to a description",
                 macro.span,
                 macro.name,
                 first_related(Related("this description is exported", call.span(1)) for call in calls),

@@ -126,7 +126,7 @@ def _unknown(
     if meant and meant.by == "slip" and not world.is_package(meant.name) and dependencies.is_used_in_sources(stranger):
         other_library, meant = meant.name, None  # the code uses the name as well, so it is not a typo of another library
     if (meant is None or meant.by == "slip") and (inside := _in_folder(name, workspace)):
-        return _of_folder(stranger, workspace, f"{what}, only the folder of '{inside}'", inside)
+        return _of_folder(stranger, workspace, f"{what}, only the name of the folder of '{inside}'", inside)
     fix = None
     of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
     installing = () if of_cmake else world.knowledge.rosdep.installing(name)

@@ -248,7 +248,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
         return _Lack(Role.EXPORT, why, Confidence.HIGH if sure else Confidence.MEDIUM)
     if missing(Role.EXPORT, Role.EXPORT):
         if packages:
-            why = "which installs it, but REP 149 requires an export for packages that build against this one"
+            why = "but it is part of the public interface, so REP 149 requires <build_export_depend> as well"
             return _Lack(Role.EXPORT, why, Confidence.LOW)
         return _Lack(Role.EXPORT, "but packages that build against this one need it as well", Confidence.MEDIUM)
     return None

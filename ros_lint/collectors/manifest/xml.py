@@ -256,7 +256,7 @@ def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
         fault = _explain(text, error.code, stopped)
     except _EntityDeclaredError:
         stopped = len(data[: parser.CurrentByteIndex].decode("utf-8", "ignore"))
-        message = "ros-lint does not resolve entities; write the text of the entity where it is used"
+        message = "it declares an entity, which ros-lint does not resolve; write the text of the entity where it is used"
         fault = Fault("entity", message, stopped, text.find(">", stopped) + 1 or len(text))
     finally:
         # Parser and handlers refer to each other, and the garbage collector may be off: unfreed parsers cost more than

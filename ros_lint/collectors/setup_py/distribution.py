@@ -156,7 +156,7 @@ class Distribution:
                 self._data_file("", entry, maybe)
                 continue
             if not isinstance(entry, (tuple, list)) or len(entry) != 2:
-                self._problem("data-files-form", "an entry of data_files is a pair of a folder and a list of files", entry)
+                self._problem("data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry)
                 continue
             folder, sources = entry
             if isinstance(folder, Unknown):
@@ -164,14 +164,20 @@ class Distribution:
                 continue
             folder = posixpath.normpath(str(folder)) if str(folder) else ""
             if folder.startswith("/"):
-                self._problem("absolute-destination", f"'{folder}' is outside the install prefix", entry[0])
+                self._problem(
+                    "absolute-destination",
+                    f"data_files cannot install to '{folder}', which is outside the install prefix; write a relative folder",
+                    entry[0],
+                )
                 continue
             if not isinstance(sources, (list, Unknown)) or not isinstance(entry, tuple):
                 self._problem(
                     "data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry[0]
                 )
             if isinstance(sources, Globbed) and not sources:
-                message = f"no file matches '{sources.pattern}', so nothing is installed to {folder}"
+                message = (
+                    f"no file matches '{sources.pattern}', so nothing is installed to {folder}; correct or remove the pattern"
+                )
                 self._problem("empty-glob", message, entry[0], sources.pattern)
             for source, maybe_source in self._items(sources, _facet(folder)):
                 self._data_file(folder, source, maybe or maybe_source)
@@ -180,7 +186,7 @@ class Distribution:
         context = self._context
         path = context.files.inside(str(source))
         if path is not None and context.files.is_folder(path):
-            message = f"'{path}' is a folder, but data_files can only copy files: the build fails"
+            message = f"'{path}' is a folder, but data_files can only copy files, so the build fails; list only files"
             self._problem("directory-in-data-files", message, source, path)
             return
         if path is not None and not context.files.is_file(path):
