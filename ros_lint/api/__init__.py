@@ -1,6 +1,6 @@
 """Everything that a rule may import: types of rules, findings and the model, and namespaces of functions."""
 
-from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
+from ros_lint.analysis.finding import Confidence, Consequence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import first_related
@@ -51,6 +51,7 @@ __all__ = [
     "Call",
     "Component",
     "Confidence",
+    "Consequence",
     "Declared",
     "Depend",
     "Edit",

@@ -192,7 +192,8 @@ class _Missing:
     def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, launch.PassedFile]:
         """Return the files that are missing when ``file`` is launched, see :func:`passed_files`.
 
-        Files that a launch file names without the help of arguments are left out.
+        Files that a launch file names without the help of arguments are left out. ``settled``: also leave out files that depend
+        on the launch arguments of ``file`` itself.
         """
         key = file.path, settled
         if key not in self._passed:
@@ -221,7 +222,7 @@ _Key = tuple[Span, str, str]
 
 
 def _message(owner: str, path: str, more: int = 0) -> str:
-    """Return the beginning of a message about a missing file, and the number of further ones in its folder."""
+    """Return the beginning of a message: ``path`` and ``more`` other files of its folder do not exist in the package."""
     if not more:
         return f"'{path}' does not exist in '{owner}'"
     return f"'{path}' and {more} other file{'s' if more > 1 else ''} of its folder that this file names do not exist in '{owner}'"
@@ -230,7 +231,7 @@ def _message(owner: str, path: str, more: int = 0) -> str:
 def _twin(path: str, all_names: tuple[str, ...]) -> str:
     """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
     folder, _, base = path.rpartition("/")
-    siblings = [name.rpartition("/")[2] for name in all_names if _kind(name) == _kind(path)]
+    siblings = [name.rpartition("/")[2] for name in all_names if _folder_and_suffix(name) == _folder_and_suffix(path)]
     near = names.similar_names(base, siblings, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
 
@@ -241,16 +242,18 @@ def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 
 
-def _kind(path: str) -> tuple[str, str]:
+def _folder_and_suffix(path: str) -> tuple[str, str]:
     """Return the folder and the suffix of a file."""
     folder, _, base = path.rpartition("/")
     return folder, base.rpartition(".")[2]
 
 
 def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: Workspace) -> bool:
-    """Return whether a file is not looked up, but others of its folder and suffix are: then the file is the one to suggest."""
+    """Return whether an existing file is never looked up, unlike files of its folder and suffix: a good suggestion."""
     wanted = {look_up.path for look_up in launch.files_looked_up(workspace).get(owner, ())}
-    return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(all_names))
+    return file not in wanted and any(
+        _folder_and_suffix(other) == _folder_and_suffix(file) for other in wanted.intersection(all_names)
+    )
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
