@@ -33,7 +33,7 @@ class Newer(NamedTuple):
 
 
 class Rewritten(NamedTuple):
-    """A source rewritten without constructs newer than Python 3.10, and where they were. Offsets are of the original source."""
+    """A source rewritten without constructs newer than Python 3.10, and the offsets of these constructs in the original source."""
 
     text: str
     newer: tuple[Newer, ...]
