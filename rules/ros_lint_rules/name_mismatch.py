@@ -83,7 +83,7 @@ def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> It
 
 
 def _is_called(package: Package, name: str) -> bool:
-    """Return whether a project() of the package has this name: a superbuild has more than one project()."""
+    """Return whether any project() of the package has this name. A superbuild has several."""
     return name == package.built.project.name or any(
         build.evaluated_name(package, call.texts[0]) == name for call in package.calls("project") if call.args
     )

@@ -189,7 +189,10 @@ class _Lack(NamedTuple):
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
-    """Return the missing export tag if uninstalled headers need it, with low confidence."""
+    """Return the lack of an export that headers in include/ cause, with low confidence; None for any other lack.
+
+    The headers are not installed yet.
+    """
     if lacking is None or lacking.role is not Role.EXPORT:
         return None
     why = "but headers in include/ use it, so packages that build against them need it once they are installed"

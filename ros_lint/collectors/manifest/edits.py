@@ -162,7 +162,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
 
 
 def raise_format(manifest: Manifest, format_number: int) -> Edit:
-    """Return the edit that sets the attribute ``format`` of ``<package>``, which must exist."""
+    """Return the edit that sets the attribute ``format`` of ``<package>``. The manifest must have this element."""
     if manifest.format_span is not None:
         return Edit(manifest.format_span, str(format_number))
     begin = manifest.begin or manifest.end

@@ -154,7 +154,7 @@ class _Rewriter:
     def _blank_parameters(self, opening: int) -> tuple[str, ...]:
         """Replace a list of type parameters by blanks, and return their names: ``[T, *Ts]`` -> ("T", "Ts").
 
-        Defaults such as ``[T = int]`` are recorded as a construct of its own (PEP 696).
+        A default such as ``[T = int]`` is recorded as another newer construct (PEP 696).
         """
         closing = self._closing[opening]
         names = []

@@ -1,4 +1,4 @@
-"""Actions that Python launch files start at events, and actions that their functions return during the launch."""
+"""Actions that a Python launch file starts at events, and actions that a function of the file returns during the launch."""
 
 from __future__ import annotations
 

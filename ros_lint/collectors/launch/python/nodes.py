@@ -165,7 +165,8 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
     """Return the texts in the arguments ``names`` of a node, which are lists or dictionaries, and in ``prefix`` and ``cwd``.
 
-    A text from ``arguments`` has the name "", a text from an environment dictionary the name of its variable, ``$A``.
+    Each text has a name: "" in ``arguments`` and ``ros_arguments``, the variable (``$A``) in an environment dictionary, else
+    the name of the argument.
     """
     result: list[tuple[str, LaunchValue]] = []
     for name in names:

@@ -52,7 +52,7 @@ _ELEMENT: Final = 128
 
 
 def is_followed(values: Iterable[Value]) -> bool:
-    """Return whether values are small and flat enough to be followed.
+    """Return whether values are small and flat enough to be evaluated.
 
     A container that occurs in several containers counts each time.
     """
