@@ -52,7 +52,7 @@ class Trials(Protocol):
         """Return the issues that have a fix of the selected kind."""
 
     def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
-        """Return the changes with the fixes of a group. Raises EditError if they cannot be combined."""
+        """Return ``changed`` with the fixes of a group applied to it. Raises EditError if they cannot be combined."""
 
     def regressions(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[Regression, ...]:
         """Return the reasons not to apply the fixes of a group, () if there are none."""

@@ -63,7 +63,7 @@ class HiddenCount(NamedTuple):
 
     @classmethod
     def of(cls, reason: str, issues: Iterable[Issue]) -> HiddenCount:
-        """Return the number of some issues, by rule."""
+        """Return the counts of the issues, in total and for each rule, with the reason why they are hidden."""
         rules = Counter(issue.rule.name for issue in issues)
         return cls(reason, rules.total(), tuple(sorted(rules.items())))
 

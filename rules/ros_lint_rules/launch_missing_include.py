@@ -83,7 +83,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the missing files that installed models, displays and parameters look up in packages of the workspace."""
+    """Yield findings for missing files that installed models, displays and parameter files look up in workspace packages."""
     if not package.lookups:
         return
     share = f"share/{package.name}/"
@@ -123,7 +123,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the missing files that launch files name themselves."""
+    """Yield findings for missing files that launch files name without the help of arguments."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
@@ -153,7 +153,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
-    """Yield the missing files that included launch files name with the arguments that they are passed."""
+    """Yield findings for missing files whose paths included launch files form from the arguments that they are passed."""
     links = launch.include_resolver(workspace)
     paths = [
         (package, launch_file.file) for package in workspace.packages for launch_file in launch.package_launch_files(package)
@@ -292,7 +292,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return the hint that another package has the file: the package that names it, or else the only one of the workspace."""
+    """Return the hint that ``package``, or else the only package of the workspace with the file, installs it; "" if none."""
     owners = {
         other.name
         for other in workspace.packages

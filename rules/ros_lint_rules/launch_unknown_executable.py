@@ -201,7 +201,7 @@ _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")
 
 
 def _meant(name: str, all_names: tuple[str, ...]) -> str:
-    """Return the only executable that differs in nothing but its suffix, dashes and underscores, or capitals, or ""."""
+    """Return the only executable that differs from ``name`` just in its suffix, dashes, underscores or capitals; else ""."""
 
     def plain(text: str) -> str:
         text = text.lower().replace("-", "_")

@@ -123,7 +123,7 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
 
 
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
-    """Return whether no declared dependency is the package or may depend on it, directly or indirectly.
+    """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
     An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another one.
     """

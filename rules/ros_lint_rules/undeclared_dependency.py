@@ -230,7 +230,7 @@ def _needs_back(name: str, package: Package, workspace: Workspace) -> bool:
 
 
 def _elsewhere(name: str, workspace: Workspace) -> str:
-    """Return the distributions that have an unavailable package; "" if it is available.
+    """Return the distributions that have the package, as a list in text; "" if the chosen distribution has it or none does.
 
     If no distribution is set, packages of all distributions are available.
     """

@@ -99,7 +99,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 def _in_package_folder(package: Package) -> Iterator[Finding]:
-    """Yield the exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
+    """Yield findings for exported libraries that are installed to lib/<package>, where find_package() does not look."""
     loaded = build.EXPORTING_PLUGINS in package.built.commands.names
     for name, place in build.libraries_in_libexec(package, (".so", ".a")).items():
         if exported := _exported(package, name):

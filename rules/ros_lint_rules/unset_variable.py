@@ -99,7 +99,7 @@ def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str],
 
 
 def _effect(command: str) -> str:
-    """Return what the reference to an unset variable does in a command."""
+    """Return the part of the message that says what happens if an argument of the command is an unset variable."""
     return next(effect for prefix, effect in _EFFECTS.items() if command.startswith(prefix))
 
 
@@ -116,7 +116,7 @@ _EFFECTS = {
 
 
 def _explained(command: str) -> tuple[str, ...]:
-    """Return the rules that report what is missing because an argument of a command is empty."""
+    """Return the names of the rules that report the consequence of an empty argument of the command; () if there are none."""
     return next((rules for prefix, rules in _CONSEQUENCES.items() if command.startswith(prefix)), ())
 
 
@@ -133,7 +133,7 @@ _CONSEQUENCES = {
 
 
 def _similar(package: Package, name: str) -> list[str]:
-    """Return the variables of the package whose names resemble a name, nearest first."""
+    """Return the variables that the CMake files set and whose names resemble ``name``, the most similar first."""
     all_names: dict[str, None] = {}
     for command, index in _SETTING.items():
         for call in package.calls(command, anywhere=True):

@@ -91,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
-    """Return the message for an unused dependency that is the only source of a package that is used without a declaration."""
+    """Return the message for an unused dependency ``name`` that provides ``carried``, a package that is used but not declared."""
     if carried.package == package.name:
         return f"'{name}' is not used, only its dependency '{carried.name}'; declare '{carried.name}' instead"
     if carried.name == name:
