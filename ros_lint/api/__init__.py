@@ -26,7 +26,7 @@ from ros_lint.facts.build import (
     SetupScript,
     UninstalledImport,
 )
-from ros_lint.facts.cmake import BuildTarget, Call, UnsetVariable
+from ros_lint.facts.cmake import BuildTarget, Call, CommandPlace, UnsetVariable
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
 from ros_lint.facts.manifest import Depend, Element, Manifest, Role
 from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule
@@ -49,6 +49,7 @@ __all__ = [
     "CMakeBuild",
     "CMakeCommands",
     "Call",
+    "CommandPlace",
     "Component",
     "Confidence",
     "Consequence",
