@@ -66,7 +66,10 @@ _UNKNOWN_CONDITION = LaunchCondition((UNKNOWN,), None)
 
 
 def _is_exhaustive(condition_sets: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Return whether one of the condition sets certainly holds, because a condition and its opposite are both in the list."""
+    """Return whether one of the condition sets certainly holds.
+
+    It does if two of the sets consist of a single condition, and the conditions are opposites.
+    """
     single = {conditions[0] for conditions in condition_sets if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
 

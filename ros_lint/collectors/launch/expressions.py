@@ -25,7 +25,10 @@ class _Unknown(Exception):  # noqa: N818
 
 @lru_cache(maxsize=1_024)
 def evaluate(text: str) -> str:
-    """Return the text of the value of a constant expression: ``1 + 1`` -> ``2``. The result is UNKNOWN if it is not constant."""
+    """Return the text of the value of a constant expression: ``1 + 1`` -> ``2``.
+
+    The result is UNKNOWN if ``text`` is not a constant expression.
+    """
     if len(text) > _MAX_LENGTH:
         return UNKNOWN
     try:

@@ -25,7 +25,8 @@ def _display_file(text: str) -> str:
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | None]]:
     """Return the values of an action that can contain a path, except its target.
 
-    Each value has a function that returns the part of a text which is a file to read, None if no part is.
+    Each value comes with a function that returns the file name in a text of the value, or with None if the program reads
+    no file that the value names.
     """
     values: list[tuple[LaunchValue, FilePart | None]] = []
     if action.value is not None:
@@ -43,7 +44,10 @@ def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | No
 
 
 def _rviz_arguments(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, FilePart | None]]:
-    """Yield the arguments of rviz2, each with the function for its display file: ``-d a.rviz`` as one argument or as two."""
+    """Yield the arguments of rviz2. The value with the display file comes with the function that returns its name.
+
+    The option and the file may be one argument, ``-d a.rviz``, or two.
+    """
     is_display_next = False
     for name, value in arguments:
         if not name:

@@ -157,9 +157,9 @@ class References:
                 self.hide("the included launch file is computed", target.span)
 
     def _note_process(self, action: LaunchAction, conditional: bool) -> None:
-        """Add references for the packages in a command line.
+        """Add references for the packages that a command line uses.
 
-        Such commands are ``ros2 run a b``, ``ros2 launch a b``, ``xacro`` and those in ``_COMMANDS``.
+        The commands are ``ros2 run a b``, ``ros2 launch a b``, ``xacro`` and those in ``_COMMANDS``.
         """
         words: list[tuple[str, LaunchValue, bool]] = []
         for name, value in action.arguments:
@@ -255,7 +255,7 @@ class References:
     def _is_computed(self, package: str, value: LaunchValue) -> bool:
         """Return whether a package name is composed of parts, for example of launch configurations.
 
-        It is composed if neither ``value`` nor a default contains it as a whole.
+        It is composed if neither ``value`` nor the default of a launch configuration contains the name as a whole.
         """
         prefix = f"{symbolic_text.prefix(package)}/"
         texts = [value.texts, *self._defaults.values.values()]

@@ -52,7 +52,7 @@ class LaunchScope(NamedTuple):
 class Filling:
     """Replaces the marks in symbolic texts by the values in a scope.
 
-    ``environment`` has the environment variables that are the same everywhere, by name with a leading dollar sign.
+    ``environment`` has the environment variables that have one value in all scopes, by name with a leading dollar sign.
     """
 
     def __init__(self, environment: Mapping[str, Texts]) -> None:

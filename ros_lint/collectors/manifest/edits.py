@@ -162,7 +162,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
 
 
 def raise_format(manifest: Manifest, format_number: int) -> Edit:
-    """Return the edit that sets the attribute ``format`` of ``<package>``, which must exist."""
+    """Return the edit that sets the attribute ``format`` of ``<package>``. The manifest must have this element."""
     if manifest.format_span is not None:
         return Edit(manifest.format_span, str(format_number))
     begin = manifest.begin or manifest.end
@@ -360,7 +360,7 @@ def _is_verbatim(child: Element | Depend) -> bool:
 
 
 def _longest_ascent(ranks: list[int]) -> frozenset[int]:
-    """Return the indexes of a longest subsequence of ``ranks`` that never decreases: [1, 3, 2] -> {0, 1} or {0, 2}."""
+    """Return the indexes of a longest subsequence of ``ranks`` that never decreases: [5, 1, 2] -> {1, 2}."""
     chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, previous index
     longest: dict[int, int] = {}  # by rank: the index at which the longest run with this last rank ends
     for at, rank in enumerate(ranks):

@@ -84,9 +84,9 @@ class Distribution:
         self.opaque.append(Opaque(facet, reason, self._place(value, self._context.call)))
 
     def _items(self, value: Value, facet: Facet) -> Iterator[tuple[Value, bool]]:
-        """Yield the known elements of a list, each with True if it may be missing.
+        """Yield the known elements of a list, each with a boolean: True if the list may not contain the element.
 
-        Unknown elements, and a value that is not a list, hide ``facet`` of the package.
+        If ``value`` or an element is unknown, an opaque place is recorded, which hides ``facet`` of the package.
         """
         if value is None:
             return

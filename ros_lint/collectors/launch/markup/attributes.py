@@ -145,7 +145,7 @@ class Reader:
         return LaunchValue(joined(rows, _as_yaml), entity.place(name))
 
     def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
-        """Return the type of an element of an attribute, None if it is a text with substitutions."""
+        """Return the type of ``value``, an element of a list in an attribute, None if it is a text with substitutions."""
         if not isinstance(value, str):
             return type(value)
         pieces = self._pieces(entity, name, value)
@@ -207,7 +207,10 @@ class Reader:
         return tuple(pairs)
 
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
-        """Return the conditions of the attributes ``if`` and ``unless``. Raises Rejected."""
+        """Return the condition in the attribute ``if`` or ``unless`` of an entity, () if the entity has neither.
+
+        Raises Rejected if the entity has both, or the value is invalid.
+        """
         if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
             return ()
         if_text, unless_text = entity.get("if"), entity.get("unless")

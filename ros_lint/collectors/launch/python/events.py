@@ -1,4 +1,4 @@
-"""Actions that Python launch files start at events, and actions that their functions return during the launch."""
+"""Actions that a Python launch file starts at events, and actions that a function of the file returns during the launch."""
 
 from __future__ import annotations
 
@@ -55,7 +55,10 @@ def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction
 
 
 def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[LaunchAction]:
-    """Return the actions that run at an event, which the arguments ``names`` of an object contain: ``on_exit=[action]``."""
+    """Return the actions in the arguments ``names`` of an object, which run at an event: ``on_exit=[action]``.
+
+    Each argument may also be a function that returns the actions.
+    """
     actions: list[LaunchAction] = []
     for name in names:
         for alternative in alternatives(launch_object.get(-1, name)) if name in launch_object.keywords else ():

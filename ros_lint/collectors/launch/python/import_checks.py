@@ -106,7 +106,10 @@ def _imported(tree: ast.Module) -> frozenset[str]:
 
 
 def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
-    """Return whether a called function is imported from a launch library, or qualified with one: ``launch.actions.Timer``."""
+    """Return whether a called function is imported from a launch library, or qualified with one.
+
+    An example of a qualified name is ``launch.actions.TimerAction``.
+    """
     root = function
     while isinstance(root, ast.Attribute):
         root = root.value

@@ -165,7 +165,8 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
     """Return the texts in the arguments ``names`` of a node, which are lists or dictionaries, and in ``prefix`` and ``cwd``.
 
-    A text from ``arguments`` has the name "", a text from an environment dictionary the name of its variable, ``$A``.
+    Each text has a name: "" in ``arguments`` and ``ros_arguments``, the variable (``$A``) in an environment dictionary, else
+    the name of the argument.
     """
     result: list[tuple[str, LaunchValue]] = []
     for name in names:
@@ -277,7 +278,10 @@ def _remappings(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[Laun
 
 
 def nested(walker: Walker, launch_object: LaunchObject) -> list[LaunchAction]:
-    """Return the actions in the arguments of a call of an unknown class or function. They are under an unknown condition."""
+    """Return the actions in the arguments of a call of an unknown class or function.
+
+    The actions are under an unknown condition, because the class or function may not start them.
+    """
     result: list[LaunchAction] = []
     for value in (*launch_object.arguments, *launch_object.keywords.values()):
         for alternative in alternatives(value):

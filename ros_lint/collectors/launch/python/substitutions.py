@@ -223,9 +223,10 @@ CONDITIONS = _PREDICATE_CONDITIONS | _COMPARISON_CONDITIONS
 
 
 def conditions_of(value: Value, evaluation: TextEvaluation | None = None) -> Conditions:
-    """Return the conditions of an IfCondition, UnlessCondition or LaunchConfigurationEquals.
+    """Return the conditions that a value of the argument ``condition`` of an action stands for.
 
-    Any other value has an unknown condition.
+    The value is an IfCondition, UnlessCondition, LaunchConfigurationEquals or LaunchConfigurationNotEquals. Any other value
+    stands for an unknown condition.
     """
     conditions: list[LaunchCondition] = []
     for alternative in alternatives(value):

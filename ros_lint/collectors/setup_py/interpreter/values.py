@@ -1,4 +1,4 @@
-"""The values of the options of setup(): alternatives are decided as far as possible.
+"""The values of the options of setup(). Where conditions decide between alternative values, only the valid one is kept.
 
 Texts and unknown values keep their origins in the source.
 """
@@ -52,7 +52,7 @@ _ELEMENT: Final = 128
 
 
 def is_followed(values: Iterable[Value]) -> bool:
-    """Return whether values are small and flat enough to be followed.
+    """Return whether values are small and flat enough to be evaluated.
 
     A container that occurs in several containers counts each time.
     """
