@@ -185,6 +185,7 @@ EVERYTHING = Report(
         UnreadFile("unknown-dependency", "there is no index for distribution jazzy", None),
     ),
     blind_spots=(BlindSpot("executables", ("bringup", "talker")), BlindSpot("used dependencies", ("talker",))),
+    ros1=("old_driver",),
     crashes=(Crash("unused-dependency", "talker", TRACEBACK), Crash("dependency-cycle", "", TRACEBACK)),
     workspace="ws",
 )

@@ -7,7 +7,7 @@ import pytest
 from ros_lint.base.tree import MemoryTree
 from ros_lint.engine import registry
 from ros_lint.engine.check import ReportContext, check
-from ros_lint.engine.report import OFF, HiddenCount, Report
+from ros_lint.engine.report import MINOR, OFF, HiddenCount, Report
 from ros_lint.engine.selection import select
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
@@ -43,6 +43,18 @@ def report(comment: str = "", **settings: Any) -> Report:
 def test_findings_of_rules_that_are_off_are_counted() -> None:
     assert HiddenCount(OFF, 1, (("unused-find-package", 1),)) in report().hidden
     assert "unused-find-package" not in {issue.rule.name for issue in report().issues}
+
+
+def test_findings_below_the_lowest_severity_are_hidden_and_counted_once() -> None:
+    everything = report(pedantic=True)
+    assert {str(issue.severity) for issue in everything.issues} == {"warning"}
+    assert report(pedantic=True, min_severity="warning").issues == everything.issues
+    errors = report(pedantic=True, min_severity="error")
+    assert errors.issues == ()
+    assert HiddenCount(MINOR, len(everything.issues)) in errors.hidden
+    raised = report(pedantic=True, min_severity="error", severities={"unused-find-package": "error"})
+    assert [issue.rule.name for issue in raised.issues] == ["unused-find-package"]
+    assert report(min_severity="error").hidden == ()
 
 
 @pytest.mark.parametrize(

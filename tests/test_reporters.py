@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +17,14 @@ import ros_lint.reporters
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.text import Span, Text, read
 from ros_lint.engine.report import OFF, HiddenCount, Report
-from ros_lint.reporters import FORMATS, reporter, sarif
+from ros_lint.reporters import FORMATS, reporter, sarif, statistics
 from ros_lint.reporters.ansi import Style, glyph, safe
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.github import command
 from ros_lint.reporters.text import render_issues
 from ros_lint.workspace.target import UnreadFile
-from tests.reports import ARM, EVERYTHING, ISSUES, REPORTS, SOURCES, texts
+from tests.reports import ARM, CLEAN, EVERYTHING, ISSUES, REPORTS, SOURCES, texts
 
 GOLDEN = Path(__file__).parent / "golden"
 NARROW = Style(width=100, fixes=True)
@@ -118,6 +119,36 @@ def test_only_infos_of_one_rule_and_package_are_one_block() -> None:
     argument = next(issue for issue in ISSUES if issue.finding.subject == "x")
     warning = end._replace(finding=end.finding._replace(severity=Severity.WARNING))
     assert "findings of" not in render_issues([end, argument, end._replace(package="arm"), warning, warning], texts)
+
+
+def test_packages_with_errors_come_first_and_so_do_errors_in_a_package() -> None:
+    warning = next(issue for issue in ISSUES if issue.severity is Severity.WARNING)
+    error = warning._replace(finding=warning.finding._replace(severity=Severity.ERROR, message="the error"))
+    info = warning._replace(finding=warning.finding._replace(severity=Severity.INFO, message="the info"))
+    shown = EVERYTHING._replace(issues=(info._replace(package="a"), info, warning, error))
+    lines = reporter("text")(shown, texts, Style()).splitlines()
+    order = [f"{warning.package}: 3 findings", "error[", "warning[", "info[", "a: 1 finding", "info["]
+    assert [line for line in lines if line.startswith(tuple(order))] == [
+        next(line for line in lines if line.startswith(start)) for start in order
+    ]
+
+
+def test_a_quiet_style_has_findings_and_no_summary() -> None:
+    for form in ("text", "concise"):
+        loud, quiet = (reporter(form)(EVERYTHING, texts, Style(summary=wanted)) for wanted in (True, False))
+        assert loud.startswith(quiet)
+        assert loud[len(quiet) :].startswith("Found ")
+
+
+def test_statistics_count_the_findings_of_each_rule() -> None:
+    table = statistics.render(EVERYTHING, texts, Style(summary=False)).splitlines()
+    counts = Counter((issue.rule.name, str(issue.severity)) for issue in ISSUES)
+    rows = [line.split() for line in table]
+    assert {(name, severity): int(number) for number, severity, _, name, *_ in rows} == counts
+    assert [int(number) for number, *_ in rows] == sorted(counts.values(), reverse=True)
+    fixable = Counter((issue.rule.name, str(issue.severity)) for issue in ISSUES if issue.finding.fix)
+    assert {(name, severity): int(number) for _, severity, _, name, number, _ in rows} == {key: fixable[key] for key in counts}
+    assert statistics.render(CLEAN, texts, Style()).startswith("No problems found")
 
 
 @pytest.mark.parametrize("form", ["text", "concise", "github"])
@@ -278,7 +309,7 @@ def keys(schema: Any) -> set[str]:
 def test_every_key_is_in_the_docs() -> None:
     docs = (Path(__file__).parent.parent / "docs" / "output.md").read_text("utf-8")
     section = docs.partition("## json\n")[2].partition("\n## ")[0]
-    assert keys(SCHEMA) <= set(re.findall(r"`([a-z_]+)`", section))
+    assert keys(SCHEMA) <= set(re.findall(r"`([a-z0-9_]+)`", section))
 
 
 def test_json_contains_the_whole_report() -> None:

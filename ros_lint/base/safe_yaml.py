@@ -25,6 +25,8 @@ _MOST_BITS: Final = 4_096
 """Maximum size of an integer. Python does not convert integers of more than 4,300 digits to text."""
 _LONGEST_FOR_PYTHON: Final = 50_000
 """Maximum number of characters for the library's pure Python code, which is slow."""
+_LIMIT_OF_LIBRARY: Final = "exceeded maximum nesting depth"
+"""The problem that libyaml reports for brackets or indentation deeper than its own limit of 1,000 levels."""
 _LEADING: Final = re.compile(r"^[ \t?:-]+", re.MULTILINE)
 
 
@@ -152,9 +154,11 @@ def _bounded(text: str) -> str:
                     raise YamlBoundError(f"nested more than {DEEPEST} levels deep", _start(event))
             elif isinstance(event, yaml.CollectionEndEvent):
                 depth -= 1
-    except (yaml.YAMLError, UnicodeError):
-        pass  # reading the text raises the error again
-    return text
+    except (yaml.YAMLError, UnicodeError) as error:
+        # libyaml scans ahead of its events, and the one in PyYAML 6.0.4 and later has a limit of its own.
+        if isinstance(error, yaml.MarkedYAMLError) and error.problem == _LIMIT_OF_LIBRARY:
+            raise YamlBoundError(f"nested more than {DEEPEST} levels deep", _as_yaml_error(error, len(text)).offset) from None
+    return text  # reading the text raises every other error again
 
 
 def _check_aliases(root: yaml.Node) -> None:

@@ -187,7 +187,7 @@ def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
     match option.type:
         case "flag":
             switch = argparse.BooleanOptionalAction if option.default else "store_true"
-            parser.add_argument(flag, action=switch, help=text)
+            parser.add_argument(*filter(None, (option.short, flag)), action=switch, help=text)
         case "number":
             parser.add_argument(flag, type=int, metavar=option.metavar, help=text)
         case "words":

@@ -28,6 +28,8 @@ class CliOption(NamedTuple):
     in_file: bool = True
     environment: str = ""
     """The environment variable that is read if neither the command line nor the file sets the option."""
+    short: str = ""
+    """Short form of the flag, such as "-q"; "" if there is none."""
     loads_code: bool = False
     """True if the option loads code. Files cannot set it, because they can be part of the checked workspace."""
 
@@ -60,6 +62,7 @@ OPTIONS: tuple[CliOption, ...] = (
         "lowest severity that makes the exit code 1",
         choices=(*SEVERITIES, "never"),
     ),
+    CliOption("min-severity", "word", "info", "lowest severity of findings to show", choices=SEVERITIES),
     CliOption("exclude", "words", (), "patterns of files or folders not to read, such as build_*", metavar="PATTERNS"),
     CliOption(
         "severity",
@@ -91,6 +94,8 @@ OPTIONS: tuple[CliOption, ...] = (
     CliOption("config", "path", "", "configuration file to use instead of the nearest one", metavar="FILE", in_file=False),
     CliOption("isolated", "flag", False, "ignore configuration files and environment variables", in_file=False),
     CliOption("show-settings", "flag", False, "print every setting with its origin and exit", in_file=False),
+    CliOption("statistics", "flag", False, "print the number of findings of each rule instead of the findings", in_file=False),
+    CliOption("quiet", "flag", False, "print findings without a summary", in_file=False, short="-q"),
     CliOption("progress", "flag", True, "show progress on a terminal", in_file=False),
 )
 COMMANDS = {

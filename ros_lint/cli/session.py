@@ -125,13 +125,13 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
 
 def _fact_cache_key(request: Request) -> str:
-    """Return the key under which facts of files are cached. They depend on the folders that links may lead into."""
+    """Return the cache key of the facts: the base, and the folders that links may lead into if there are more."""
     return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
 
 
 _WITHOUT_EFFECT = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
-    "show-settings", "unsafe-fixes", "write-baseline",
+    "quiet", "show-settings", "statistics", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
 """Settings that do not affect the report. Of the configuration file only the contents do, not the path."""
 

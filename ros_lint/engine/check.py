@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from ros_lint.analysis.rule import Rule
     from ros_lint.facts.suppressions import Suppression
-    from ros_lint.workspace.model import Workspace
+    from ros_lint.workspace.model import Package, Workspace
 
 
 class ReportContext(NamedTuple):
@@ -36,7 +36,7 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
     checked = find_issues(workspace, selection.rules, suppressions, context.rules)
     shown, hidden = show(checked.issues, selection)
     of_others = find_issues(workspace, selection.off, suppressions, context.rules).issues
-    if off := [issue for issue in of_others if not selection.ignores_path(issue)]:
+    if off := [issue for issue in of_others if not selection.ignores_path(issue) and selection.is_severe(issue)]:
         hidden = (*hidden, HiddenCount.of(OFF, off))
     if checked.suppressed:
         hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
@@ -50,6 +50,7 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
         hidden=hidden,
         not_checked=workspace.not_checked,
         blind_spots=_blind_spots(workspace),
+        ros1=tuple([_name(package) for package in workspace.packages if package.is_ros1]),
         crashes=checked.crashes,
         workspace=context.folder,
         warnings=context.warnings,
@@ -70,7 +71,12 @@ def _blind_spots(workspace: Workspace) -> tuple[BlindSpot, ...]:
         Facet.EXPORTS: "exported dependencies",
     }
     names_by_word = {
-        word: tuple([package.name or package.path for package in workspace.packages if package.hidden(facet)])
+        word: tuple([_name(package) for package in workspace.packages if package.hidden(facet) and not package.is_ros1])
         for facet, word in words.items()
     }
     return tuple(BlindSpot(word, packages) for word, packages in names_by_word.items() if packages)
+
+
+def _name(package: Package) -> str:
+    """Return the name of a package, or its path if the manifest has no name."""
+    return package.name or package.path

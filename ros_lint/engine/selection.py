@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.analysis.rule import Rule
+from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.registry import matching, unknown_rule_message
-from ros_lint.engine.report import UNSURE, HiddenCount, Issue
+from ros_lint.engine.report import EXPLAINED, MINOR, UNSURE, HiddenCount, Issue
 from ros_lint.errors import UserError
 
 
@@ -31,6 +32,16 @@ class Selection(NamedTuple):
     """Path patterns, each with the names of the rules to ignore in matching files."""
     off: tuple[Rule, ...] = ()
     """Rules that are off by default and that the settings do not mention."""
+    min_severity: Severity = Severity.INFO
+    """The lowest severity of findings to show."""
+
+    def severity(self, issue: Issue) -> Severity:
+        """Return the severity of an issue: from the settings, else its own."""
+        return self.severities.get(issue.rule.name, issue.severity)
+
+    def is_severe(self, issue: Issue) -> bool:
+        """Return whether an issue has the lowest severity to show, or a higher one."""
+        return self.severity(issue) >= self.min_severity
 
     def ignores_path(self, issue: Issue) -> bool:
         """Return whether a path pattern ignores an issue."""
@@ -47,6 +58,7 @@ def select(
     severities: Mapping[str, str] | None = None,
     per_path: Mapping[str, Sequence[str]] | None = None,
     pedantic: bool = False,
+    min_severity: str = "info",
 ) -> Selection:
     """Return the selection. Raises SelectionError for a selector that matches no rule.
 
@@ -80,27 +92,37 @@ def select(
     ordered = tuple(rule for rule in rules if rule.name in selected)
     unmentioned = [rule for rule in rules if not rule.default and rule.name not in selected and rule.name not in declined]
     off = tuple(unmentioned) if "default" in chosen else ()
-    return Selection(ordered, frozenset(selected_by_name), levels, pedantic, ignores, off)
+    return Selection(ordered, frozenset(selected_by_name), levels, pedantic, ignores, off, Severity[min_severity.upper()])
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
-    """Return the issues to show, with the severities of the settings, and counts of hidden issues."""
+    """Return the issues to show, with the severities of the settings, and counts of hidden issues.
+
+    Issues that another shown issue explains are hidden.
+    """
     shown: list[Issue] = []
     unsure: list[Issue] = []
-    ignored = 0
+    ignored = minor = 0
     for issue in issues:
-        name = issue.rule.name
-        sure = issue.finding.confidence is Confidence.HIGH
+        sure = issue.finding.confidence is Confidence.HIGH or selection.pedantic or issue.rule.name in selection.named
         if selection.ignores_path(issue):
             ignored += 1
-        elif not (sure or selection.pedantic or name in selection.named):
+        elif not selection.is_severe(issue):
+            minor += sure
+        elif not sure:
             unsure.append(issue)
-        elif name in selection.severities:
-            shown.append(issue._replace(finding=issue.finding._replace(severity=selection.severities[name])))
-        else:
+        elif (severity := selection.severity(issue)) is issue.severity:
             shown.append(issue)
-    hidden = [HiddenCount.of(UNSURE, unsure), HiddenCount("ignored by per-path-ignores", ignored)]
-    return tuple(shown), tuple(entry for entry in hidden if entry.count)
+        else:
+            shown.append(issue._replace(finding=issue.finding._replace(severity=severity)))
+    causes = without_explained(shown, selection.severities)
+    hidden = [
+        HiddenCount.of(UNSURE, unsure),
+        HiddenCount("ignored by per-path-ignores", ignored),
+        HiddenCount(MINOR, minor),
+        HiddenCount(EXPLAINED, len(shown) - len(causes)),
+    ]
+    return causes, tuple(entry for entry in hidden if entry.count)
 
 
 def matches(path: str, pattern: str) -> bool:

@@ -21,6 +21,8 @@ class Style(NamedTuple):
     """Width in columns. Longer source lines are shortened; messages are not."""
     fixes: bool = False
     """True if the changes of each fix are shown."""
+    summary: bool = True
+    """True if a summary follows the findings."""
 
 
 _CODES = {

@@ -38,6 +38,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "not_seen_through": [
             {"what": spot.what, "packages": len(spot.packages), "names": list(spot.packages)} for spot in report.blind_spots
         ],
+        "ros1_packages": list(report.ros1),
         "crashes": [crash._asdict() for crash in report.crashes],
         "summary": {
             **{str(severity): report.count(severity) for severity in sorted(Severity, reverse=True)},
@@ -61,6 +62,10 @@ def _finding(issue: Issue) -> dict[str, Any]:
         "confidence": str(finding.confidence),
         "related": [{"message": related.message, **_place(related.span)} for related in finding.related],
         "steps": finding.steps,
+        "explains": [
+            {"rule": explained.rule, "subject": explained.subject, "message": explained.message, **_place(explained.span)}
+            for explained in issue.explained
+        ],
         "fix": _fix(finding.fix) if finding.fix else None,
     }
 

@@ -279,6 +279,8 @@ def _notes(report: Report, codes: dict[str, int]) -> Iterator[JsonObject]:
         yield {**note, "associatedRule": {"id": code, "index": codes[code]}} if code in codes else note
     for hidden in report.hidden:
         yield _note("NotShown", "note", f"hidden: {hidden_findings(hidden)}")
+    if report.ros1:
+        yield _note("NotSeenThrough", "note", f"not analysed, because only ROS 2 is supported: {name_or_count(report.ros1)}")
     for spot in report.blind_spots:
         yield _note("NotSeenThrough", "note", f"not fully analysed: {spot.what} of {name_or_count(spot.packages)}")
 

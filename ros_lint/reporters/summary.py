@@ -25,8 +25,8 @@ _FEW = 10
 
 
 def summary(report: Report, style: Style) -> str:
-    """Return the summary: one or more lines."""
-    return "".join(f"{line}\n" for line in _lines(report, style))
+    """Return the summary: one or more lines; "" if the style has none."""
+    return "".join(f"{line}\n" for line in _lines(report, style)) if style.summary else ""
 
 
 def count(number: int, noun: str) -> str:
@@ -40,8 +40,10 @@ def and_list(words: Sequence[str]) -> str:
 
 
 def name_or_count(packages: Sequence[str]) -> str:
-    """Return the names of a few packages as a list, or the number of many."""
-    return and_list(packages) if len(packages) <= _NAMED else count(len(packages), "package")
+    """Return the names of a few packages as a list, or the number of many with the first names."""
+    if len(packages) <= _NAMED:
+        return and_list(packages)
+    return f"{count(len(packages), 'package')} ({', '.join(packages[:_NAMED])} ...)"
 
 
 def limits(report: Report) -> Iterator[str]:
@@ -56,6 +58,9 @@ def limits(report: Report) -> Iterator[str]:
         yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
     if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
         yield f"Hidden: {'; '.join(kinds)}"
+    if report.ros1:
+        verb = "is a package" if len(report.ros1) == 1 else "are packages"
+        yield f"Not analysed, because only ROS 2 is supported: {name_or_count(report.ros1)} {verb} of ROS 1 (build type catkin)"
     if report.blind_spots:
         facets: dict[tuple[str, ...], list[str]] = {}
         for spot in report.blind_spots:

@@ -148,6 +148,14 @@ class Package(NamedTuple):
         """Build type: ament_cmake, ament_python, cmake ..."""
         return self.type.removeprefix("ros.")
 
+    @property
+    def is_ros1(self) -> bool:
+        """True for a package of ROS 1: its build type is catkin, and CMake does not find any ``ament_cmake*`` package."""
+        mentions = self.built.mentions if self.builds_with == "catkin" else ()
+        return self.builds_with == "catkin" and not any(
+            mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in mentions
+        )
+
     def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:
         """Return the places that hide ``facet`` of the package; empty if everything is visible.
 

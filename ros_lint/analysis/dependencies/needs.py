@@ -55,7 +55,7 @@ _TEST = Role.TEST
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     """Return all needs of a package, in the order of their best evidence. Optional uses are left out.
 
-    A ROS 1 package (build type catkin) has no needs, because its dependencies are not analysed.
+    A package of ROS 1 has no needs, because its dependencies are not analysed.
     """
     return _gathered(package, workspace, [use for use in package.uses if not use.optional])
 
@@ -74,8 +74,13 @@ def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     return tuple([need for need in undeclared if not cycle_through(package, workspace, need.name)])
 
 
+def is_found_by_cmake(need: Need) -> bool:
+    """Return whether find_package() needs the package outside of tests."""
+    return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
+
+
 def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:
-    if package.builds_with == "catkin" and not _is_ament(package):
+    if package.is_ros1:
         return ()
     uses_by_package: dict[str, list[Use]] = {}
     for use in uses:
@@ -94,12 +99,6 @@ def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tu
     ]
     result.sort(key=_place)
     return tuple(result)
-
-
-def _is_ament(package: Package) -> bool:
-    """Return whether CMake finds ament_cmake, even if the manifest names no build type."""
-    mentions = package.built.mentions
-    return any(mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in mentions)
 
 
 def _needs(

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
     from ros_lint.engine.selection import Selection
+    from ros_lint.reporters import Reporter
     from ros_lint.reporters.ansi import Style
 
 
@@ -39,6 +40,8 @@ def run(options: Mapping[str, Any]) -> int:
             if request.settings["show-settings"]:
                 print(request.settings.show(), end="")
                 return 0
+            if request.settings["statistics"] and request.settings["format"] != "text":
+                raise UsageError("--statistics prints text; count the findings of --format json instead")
             known_findings = _baseline(request.settings)
             if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
@@ -145,6 +148,7 @@ def _selection(settings: Settings) -> Selection:
         severities=settings["severity"],
         per_path=settings["per-path-ignores"],
         pedantic=settings["pedantic"],
+        min_severity=settings["min-severity"],
     )
 
 
@@ -162,10 +166,8 @@ def exit_code(report: Report, fail_on: str) -> int:
 
 def _print(report: Report, request: Request) -> int:
     """Print a report or write it to a file. Returns the exit code."""
-    from ros_lint import reporters  # noqa: PLC0415
-
     settings = request.settings
-    render = reporters.reporter(settings["format"])
+    render = _reporter(settings)
     data = render(report, partial(text_of, request.disk), _style(settings)).encode("utf-8", "backslashreplace")
     if settings["output"]:
         from ros_lint.engine import edits  # noqa: PLC0415  (few runs write a file)
@@ -183,16 +185,27 @@ def _print(report: Report, request: Request) -> int:
     return exit_code(report, settings["fail-on"])
 
 
+def _reporter(settings: Settings) -> Reporter:
+    if settings["statistics"]:
+        from ros_lint.reporters import statistics  # noqa: PLC0415
+
+        return statistics.render
+    from ros_lint.reporters import reporter  # noqa: PLC0415
+
+    return reporter(settings["format"])
+
+
 def _style(settings: Settings) -> Style:
     from ros_lint.reporters.ansi import Style  # noqa: PLC0415
 
     encoding = "utf-8" if settings["output"] else (sys.stdout.encoding or "ascii")
     only_ascii = "utf" not in encoding.lower()
+    style = Style(_wants_color(settings), only_ascii, summary=not settings["quiet"])
     if sys.stdout.isatty() and not settings["output"]:
         import shutil  # noqa: PLC0415
 
-        return Style(_wants_color(settings), only_ascii, max(shutil.get_terminal_size().columns, 60), fixes=True)
-    return Style(_wants_color(settings), only_ascii)
+        return style._replace(width=max(shutil.get_terminal_size().columns, 60), fixes=True)
+    return style
 
 
 def _wants_color(settings: Settings) -> bool:

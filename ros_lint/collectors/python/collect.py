@@ -30,15 +30,16 @@ _LONGEST_NAME = 100
 
 
 def collect(source: Text, *, launch: bool = False) -> FileFacts:
-    """Return the imports and look-ups of a Python file.
+    """Return the modules that a Python file imports and the packages that it looks up.
 
-    - Absolute imports are mentions ``via="import"`` of dotted modules; relative ones are omitted.
-    - Look-ups such as ``get_package_share_directory("p")`` are mentions ``via="package"``, and opaque if the package
-      is computed.
-    - Paths of files in the share folder of a package are ``look_ups``.
+    - An absolute import is a mention of the dotted module, with ``via="import"``. Relative imports are omitted.
+    - A look-up such as ``get_package_share_directory("p")`` is a mention of ``p``, with ``via="package"``. If the name
+      of the package is computed, the look-up is opaque instead.
+    - Paths of files in the share folder of a package, such as ``get_package_share_directory("p") + "/a.yaml"``, are in
+      ``lookups``.
 
-    With ``launch``, only imports are returned, because the collectors of launch files find the rest. If the source
-    does not parse, the imports are found by line and marked optional.
+    ``launch`` is True for a launch file: only its imports are returned, because the collector of launch files returns
+    its look-ups. If the source does not parse, a regular expression finds the imports, and all of them are optional.
     """
     try:
         imports, looked_up = _found(source, launch)
@@ -72,7 +73,10 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
 
 
 def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
-    """Return imports and look-ups, by text scans if possible, else by the parser. Raises NotPythonError."""
+    """Return the imports and the package look-ups of a source. Raises NotPythonError.
+
+    The source is parsed only if the text scans cannot decide.
+    """
     imports = scan(source.text)
     looked_up = Found() if launch else literals(source)
     if imports is not None and looked_up is None:
@@ -85,7 +89,10 @@ def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
 
 
 def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[ImportedType]:
-    """Yield the classes that are imported by name from modules of generated interfaces."""
+    """Yield the generated message, service and action classes that a source imports.
+
+    ``from std_msgs.msg import String`` -> ``std_msgs/msg/String``
+    """
     for item, module in imports:
         match = _IMPORTED.match(source.text, item.start + len(item.module)) if _TYPES.fullmatch(item.module) else None
         if match is None:
@@ -102,9 +109,9 @@ def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[Imp
 
 
 def _programs(text: str) -> tuple[str, ...]:
-    """Return the names of Python files at the ends of literals.
+    """Return the file names at the ends of string literals that end with ``.py``: ``"scripts/a.py"`` -> ``a.py``.
 
-    The search goes backwards from ``.py``, so that it takes no time in unusual files.
+    The search goes backwards from ``.py``, so that its time does not depend on the length of the literals.
     """
     starts = [match.start() for match in _PROGRAM.finditer(text)]
     names = [_NAME.search(text, max(0, start - _LONGEST_NAME), start) for start in starts]
@@ -112,13 +119,16 @@ def _programs(text: str) -> tuple[str, ...]:
 
 
 def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bool:
-    """Return whether the source adds a folder of the module's name to sys.path before the import."""
+    """Return whether the source adds a path that contains the imported module to sys.path before the import.
+
+    ``sys.path.append("../utils")`` adds the path for ``import utils``; ``folders`` is the result of ``added_folders()``.
+    """
     top = item.module.partition(".")[0]
     return any(at < item.start and top in parts for at, parts in folders)
 
 
 def _remark(item: Import, added: bool) -> str:
-    """Return the remark that a message adds to the name of an import."""
+    """Return what a message adds after the name of an imported module, "" if nothing: ", with the error caught"."""
     return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
 
 

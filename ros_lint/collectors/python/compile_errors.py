@@ -1,4 +1,4 @@
-"""What the parser of Python takes and its compiler does not."""
+"""Syntax errors that the compiler of Python reports for a source that parses, such as ``break`` outside of a loop."""
 
 from __future__ import annotations
 
@@ -19,7 +19,11 @@ _LOOPS = (ast.For, ast.AsyncFor, ast.While)
 
 
 def misplaced(error: SyntaxError, tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield what the compiler refuses in a tree, in the words and at the place that all Pythons give."""
+    """Yield the problem for an error that the compiler of Python raised for ``tree``.
+
+    Every Python version gives the problem the same message and the same position. Errors that only some Python versions
+    raise are omitted.
+    """
     if error.msg.startswith(_OF_SOME_PYTHONS):
         return
     line, column = error.lineno or 1, error.offset or 1
@@ -31,7 +35,7 @@ def misplaced(error: SyntaxError, tree: ast.Module, source: Text) -> Iterator[Pr
 
 
 def _stray_jump(tree: ast.Module) -> ast.Break | ast.Continue | None:
-    """Return the first break or continue outside of loops."""
+    """Return the first ``break`` or ``continue`` statement that is outside of any loop, None if there is none."""
     waiting: list[tuple[ast.AST, bool]] = [(statement, False) for statement in reversed(tree.body)]
     while waiting:
         node, looped = waiting.pop()

@@ -1,4 +1,4 @@
-"""Matching of raised exceptions with the handlers of a try statement, for builtin classes."""
+"""Search for the handler of a try statement that catches a raised exception of a builtin class."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ import builtins
 
 
 def kind_raised(node: ast.Raise) -> str:
-    """Return the name of the builtin class that a statement raises, "" for any other class."""
+    """Return the name of the builtin exception class that a ``raise`` statement raises: ``raise OSError("a")`` -> ``OSError``.
+
+    The result is "" for any other class, and for ``raise`` alone.
+    """
     made = node.exc.func if isinstance(node.exc, ast.Call) else node.exc
     return made.id if isinstance(made, ast.Name) and hasattr(builtins, made.id) else ""
 
 
 def catching(node: ast.Try, kind: str) -> ast.ExceptHandler | None:
-    """Return the handler that catches an exception of a builtin class, None if there is none.
+    """Return the first handler of a try statement that may catch an exception, None if every handler certainly does not.
 
-    ``kind`` is the name of the class, "" if it is unknown. The first handler that may catch the exception counts.
+    ``kind`` is the name of the builtin class of the exception, "" if its class is unknown.
     """
     return next((handler for handler in node.handlers if _may_catch(handler, kind)), None)
 

@@ -1,7 +1,7 @@
-"""Python sources without the functions that say nothing about a question, so that the parser has less to read.
+"""Python sources without the bodies of irrelevant functions, so that the parser has less to read.
 
-Lines keep their numbers and functions their names, of which only the bodies are gone: what is left has the same
-bindings everywhere but in those bodies.
+A function is irrelevant to a question if its text contains none of the words that the question is about. The head of
+the function is kept, ``def f(): pass``. All lines keep their numbers.
 """
 
 from __future__ import annotations
@@ -16,14 +16,17 @@ _LEAST = 200
 
 
 class Excerpt(NamedTuple):
-    """A text that is shorter than the source, and what was left out of it."""
+    """The shortened text of a Python source, and the texts of the functions that were left out."""
 
     text: str
     omitted: tuple[str, ...]
 
 
 def excerpt(text: str, words: Collection[str]) -> Excerpt:
-    """Return a source without those functions that have none of some words in their text."""
+    """Return a Python source without the bodies of those functions whose texts contain none of ``words``.
+
+    Short functions keep their bodies.
+    """
     parts: list[str] = []
     omitted: list[str] = []
     done = 0
@@ -37,7 +40,10 @@ def excerpt(text: str, words: Collection[str]) -> Excerpt:
 
 
 def _functions(text: str) -> Iterator[tuple[int, int, str]]:
-    """Yield start, end and head of what look like functions, inner ones left out."""
+    """Yield start offset, end offset and head (``    def f``) of each function in a text.
+
+    Functions within functions are omitted. The functions are found by a regular expression, so a string may look like one.
+    """
     match = _DEF.search(text)
     while match:
         end = block_end(text, len(match[1]), match.end())
@@ -46,7 +52,11 @@ def _functions(text: str) -> Iterator[tuple[int, int, str]]:
 
 
 def block_end(text: str, width: int, head: int) -> int:
-    """Return where a compound statement ends whose head has some indentation; ``head`` is an offset in it."""
+    """Return the offset of the line after a compound statement such as ``def`` or ``try``, by the indentation of the lines.
+
+    ``width`` is the indentation of its first line, ``head`` is any offset in that line. The clauses ``except``, ``elif``,
+    ``else`` and ``finally`` belong to the statement.
+    """
     behind = text.find("\n", head) + 1
     if not behind:
         return len(text)
@@ -56,7 +66,10 @@ def block_end(text: str, width: int, head: int) -> int:
 
 
 def is_whole(statement: str) -> bool:
-    """Return whether no bracket or string goes on behind the text of a statement, as far as counting tells."""
+    """Return whether the text of a statement closes all its brackets and triple-quoted strings.
+
+    The brackets and quotes are only counted, so brackets in strings count, too.
+    """
     count = statement.count
     return (
         count("(") == count(")")

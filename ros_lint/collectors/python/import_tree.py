@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 class Import(NamedTuple):
-    """An absolute import, or an optional relative one."""
+    """One module that a source imports: by an import statement, or by a call such as ``importlib.import_module("a")``.
+
+    Relative imports are included only if their ImportError is caught.
+    """
 
     start: int
     """The offset of the module name."""
@@ -40,16 +43,17 @@ _EXITS = frozenset({"exit", "quit", "_exit", "fail"})
 
 
 def walk(source: Text, tree: ast.Module) -> list[Import]:
-    """Return the imports of a source in order.
+    """Return the imports of a source, in textual order.
 
     These imports are optional:
 
-    - Imports under TYPE_CHECKING, and imports for ROS 1.
-    - Imports in a try statement that continues after an ImportError, or under a test of the platform, unless every
+    - Imports under ``if TYPE_CHECKING``, and imports for ROS 1 only.
+    - Imports in a try statement that continues after an ImportError, or under a test of the platform. Exception: every
       branch imports from the same package.
-    - Imports in a nested try statement that raises another error instead, which explains what is missing.
-    - Calls such as ``importlib.import_module()``, because such programs usually run without the module.
-    - Imports after a call that skips the test if their module is missing.
+    - Imports in an inner try statement whose handler replaces the ImportError by another error, because that error
+      explains what to install.
+    - Calls such as ``importlib.import_module("a")``, because programs with such calls usually run without the module.
+    - Imports of ``a`` and of its submodules after ``pytest.importorskip("a")``.
     """
     walker = _Walker(tree)
     imports = [
@@ -65,7 +69,7 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
 
 
 def _off(tree: ast.Module) -> frozenset[str]:
-    """Return the names of a module that are always false: they have one binding, to a false constant."""
+    """Return the names that a module binds only once, at its top level, to a false constant: ``A`` for ``A = False``."""
     bound: dict[str, int] = {}
     off: set[str] = set()
     for statement in tree.body:
@@ -102,7 +106,7 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
 
 
 def _after_skips(imports: Iterable[Import]) -> list[Import]:
-    """Return imports, where those that follow a skip of the test without their module are optional."""
+    """Return imports in which the modules of earlier calls of ``importorskip()``, and their submodules, are optional."""
     results: list[Import] = []
     skips: tuple[str, ...] = ()
     for item in imports:
@@ -119,7 +123,7 @@ _CAUGHT = 2
 
 
 class _Walker:
-    """Walks through the statements of a module."""
+    """Finds the import statements of a module in its syntax tree, and whether each of them is optional."""
 
     def __init__(self, tree: ast.Module) -> None:
         self._tree = tree
@@ -179,7 +183,7 @@ class _Walker:
 
 
 def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
-    """Return whether a test is never true because of a name that is always false."""
+    """Return whether a condition is always false because of the names in ``off``, whose values are always false."""
     if isinstance(test, ast.BoolOp):
         return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
     return isinstance(test, ast.Name) and test.id in off
@@ -189,7 +193,10 @@ _OF_ROS = re.compile(r"ros_?version", re.IGNORECASE)
 
 
 def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
-    """Return whether a comparison of the ROS version with 1 or 2 is true in ROS 2, None for any other test."""
+    """Return whether a comparison of the ROS version with 1 or 2 is true in ROS 2, None for any other condition.
+
+    ``ROS_VERSION == 1`` -> False. ``words`` are the names and constants in the condition.
+    """
     if not (isinstance(test, ast.Compare) and isinstance(test.ops[0], (ast.Eq, ast.NotEq)) and any(map(_OF_ROS.search, words))):
         return None
     numbers = [str(side.value) for side in (test.left, *test.comparators) if isinstance(side, ast.Constant)]
@@ -199,9 +206,10 @@ def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
 
 
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
-    """Yield the imports of alternative branches: required if every branch needs them, else of ``kind``.
+    """Yield the imports of alternative branches, each with its kind: 0 (required) if every branch imports from the same package.
 
-    A relative import is required if another branch imports something, because it may replace just that module.
+    The other imports are of the given ``kind``. A relative import is required if another branch imports something, because
+    that branch may replace only the module of the relative import.
     """
     needed = [{root for statement, optional in branch if not optional for root in _roots(statement)} for branch in branches]
     always = set.intersection(*needed)
@@ -219,7 +227,7 @@ def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:
 
 
 def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
-    """Return the packages that an import needs. A relative import needs ".", whatever its module."""
+    """Return the top-level packages of an import statement: ``import a.b, c`` -> {"a", "c"}. A relative import has "."."""
     if _is_relative(statement):
         return {"."}
     names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]
@@ -245,7 +253,7 @@ def _gives_up(handler: ast.ExceptHandler) -> bool:
 
 
 def _explains(handler: ast.ExceptHandler) -> bool:
-    """Return whether the handler raises another error, which explains what to install."""
+    """Return whether the last statement of a handler raises a new error, as in ``raise RuntimeError("install a")``."""
     last = handler.body[-1]
     return isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)
 

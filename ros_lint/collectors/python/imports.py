@@ -1,7 +1,8 @@
 """The import statements of a Python source, found without parsing where that is safe.
 
-Nine files of ten have only imports that their own line decides. :func:`scan` reads these and returns None for the
-others, which need the syntax tree. Both ways give the same result where both apply.
+In nine of ten files, each import can be read from its own line. :func:`scan` returns the imports of such files, and
+None for all others, whose imports :func:`ros_lint.collectors.python.import_tree.walk` finds in the syntax tree. Where
+both functions return imports, the imports are equal.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ _NAMED = re.compile(r"([^\W\d]\w*)[ \t]*(?::[^=\n]*)?")
 
 
 def scan(text: str) -> list[Import] | None:
-    """Return the imports of a source, None if they need a parser."""
+    """Return the imports of a source in textual order, None if only a parser can find them."""
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
     off = [match.start() for match in _OFF.finditer(text)]
@@ -86,9 +87,10 @@ def scan(text: str) -> list[Import] | None:
 
 
 def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | None:
-    """Return the modules of an import, [] for a relative one or a mere word, None if it needs a parser.
+    """Return the imports at a match of the word ``import``, None if only a parser can find them.
 
-    ``before`` is the text before the word in its line.
+    The result is [] for a relative import, and where the word is no statement. ``before`` is the text of the line before
+    the word, without indentation.
     """
     if not before:
         return _names(text, match.end())
@@ -102,12 +104,15 @@ def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | No
 
 
 def _may_follow(before: str) -> bool:
-    """Return whether an import statement may follow this part of its line."""
+    """Return whether an import statement may follow the text ``before`` in the same line: ``a = 1;`` or ``if a:``."""
     return before.rstrip()[-1] in ";:" or ("from" in before and (";" in before or ":" in before))
 
 
 def _names(text: str, start: int) -> list[Import] | None:
-    """Return the modules of ``import a.b as c, d``, None if the line contains anything else."""
+    """Return the imports of ``import a.b as c, d``, None if the line contains anything else.
+
+    ``start`` is the offset after the word ``import``.
+    """
     end = text.find("\n", start)
     line = text[start : end if end >= 0 else len(text)].partition("#")[0]
     imports = []
@@ -134,7 +139,10 @@ class _Block(NamedTuple):
 
 
 class _Blocks:
-    """The blocks around lines of a text. The lines must be requested in order."""
+    """The compound statements, such as ``if`` and ``try``, that surround the lines of a text, by their indentation.
+
+    :meth:`around` must be called for the lines in their order.
+    """
 
     def __init__(self, text: str) -> None:
         self._heads = _HEAD.finditer(text)
@@ -142,7 +150,10 @@ class _Blocks:
         self._stack: list[_Block] = []
 
     def around(self, line: int, width: int) -> list[_Block]:
-        """Return the blocks around an indented line, outermost first."""
+        """Return the blocks that contain a line, outermost first.
+
+        ``line`` is the offset of the line, ``width`` its indentation.
+        """
         while self._next and self._next.start() < line:
             self._enter(self._next)
             self._next = next(self._heads, None)
@@ -150,7 +161,10 @@ class _Blocks:
         return self._stack
 
     def _leave(self, width: int) -> _Block | None:
-        """Leave the blocks that are indented at least that far. Return the outermost of them."""
+        """Remove the blocks that are indented by ``width`` columns or more.
+
+        Return the outermost of the removed blocks, None if no block is removed.
+        """
         block = None
         while self._stack and self._stack[-1].width >= width:
             block = self._stack.pop()
@@ -166,7 +180,10 @@ class _Blocks:
 
 
 def _fragment(text: str, start: int) -> list[Import] | None:
-    """Return the imports of a statement, which may be indented, None if it does not parse by itself."""
+    """Return the imports of the text of one statement, None if the text does not parse.
+
+    The statement may be indented. ``start`` is its offset in the source, and is added to the offsets of the imports.
+    """
     head = "if 1:\n" if text[0] in " \t\f" else ""
     source = Text("", head + text)
     try:
@@ -181,7 +198,10 @@ _WRITTEN = re.compile(r"""["']([^"'\n]*)["']""")
 
 
 def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
-    """Return the offsets at which a source extends sys.path, each with the names in the added paths."""
+    """Return where a source extends sys.path: the offset, and the folder names in the string literals of the added path.
+
+    ``sys.path.append("../a/b")`` -> {"..", "a", "b"}. Literals that are assigned to a name in the added path count, too.
+    """
     folders = []
     for match in _EXTENDS.finditer(text):
         added = match[1]
@@ -193,7 +213,10 @@ def added_folders(text: str) -> list[tuple[int, frozenset[str]]]:
 
 
 def outside_strings(text: str, places: list[int]) -> bool:
-    """Return whether certainly none of the places (at least one) is in a string of several lines."""
+    """Return whether all offsets in ``places`` are certainly outside of triple-quoted strings.
+
+    ``places`` must not be empty. The result is False if the text is too unusual to decide.
+    """
     places = sorted(places)
     quote = _TRIPLE.search(text, 0, places[-1])
     waiting = iter(places)

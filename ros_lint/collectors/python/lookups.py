@@ -1,4 +1,4 @@
-"""Package look-ups of a Python source, such as ``get_package_share_directory("p")``, and their files."""
+"""Package look-ups of a Python source, such as ``get_package_share_directory("p")``, and paths of files in the packages."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _CATCHES = re.compile(rf"except[ \t]*(?:[(:]|[^\n]*\b(?:{'|'.join(sorted(_NOT_FO
 
 
 class Found(NamedTuple):
-    """The package look-ups of a source."""
+    """The package look-ups of a source: the packages with known names, the look-ups of computed names, and the paths of files."""
 
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
@@ -35,7 +35,7 @@ class Found(NamedTuple):
 
 
 def literals(source: Text) -> Found | None:
-    """Return the result of :func:`look_ups`, None if it needs a syntax tree."""
+    """Return the result of :func:`look_ups` from a scan of the text, None if a syntax tree is needed."""
     text = source.text
     if "get_package_" not in text and "FindPackage" not in text:
         return Found()
@@ -61,7 +61,7 @@ def literals(source: Text) -> Found | None:
 
 
 def in_excerpt(source: Text) -> Found:
-    """Return the result of :func:`look_ups`, without parsing irrelevant functions.
+    """Return the result of :func:`look_ups` for a source, but do not parse functions that cannot change the result.
 
     Raises :class:`NotPythonError`.
     """
@@ -79,7 +79,8 @@ def in_excerpt(source: Text) -> Found:
 def look_ups(source: Text, tree: ast.Module) -> Found:
     """Return the packages that a source looks up, and the paths of files in their share folders.
 
-    Look-ups of computed names are opaque. Look-ups in a try statement that catches the error are optional.
+    A look-up is opaque if the name of its package is computed, and optional if it runs only where the package exists: a
+    condition tests for the package, or a handler catches the exception of a missing package.
     """
     return _found(source, tree, _telling(scan(tree)))
 
@@ -110,7 +111,10 @@ def _found(source: Text, tree: ast.Module, telling: Iterable[tuple[Expression, l
 
 
 def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]:
-    """Yield the expressions with package look-ups, and those that use the results of such expressions."""
+    """Yield the expressions that look up a package, and the expressions that use a name which such an expression binds.
+
+    Each expression has its look-up calls, with the argument that is the package name.
+    """
     calls = [list(_calls(expression.inner)) for expression in expressions]
     names = [{node.id for node in expression.inner if node.__class__ is ast.Name} for expression in expressions]
     names_bound: set[str] = set()
@@ -139,7 +143,7 @@ def _calls(inner: list[ast.AST]) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 
 def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple[ast.expr, str, str]]:
-    """Yield the largest expressions that are paths of files in share folders of packages."""
+    """Yield the outermost expressions in ``node`` that are paths in share folders: expression, package and path in the folder."""
     if isinstance(node, (ast.Call, ast.BinOp, ast.JoinedStr)):
         texts = evaluator.values(node, where)
         if texts != (None,):
@@ -154,7 +158,10 @@ def _paths(evaluator: Evaluator, node: ast.expr, where: Where) -> Iterator[tuple
 
 
 def _guarded(tree: ast.Module) -> list[range]:
-    """Return the lines that run only if a package exists: a condition tests it, or its exception is caught."""
+    """Return the ranges of lines that run only if a package exists.
+
+    A condition tests whether the package exists, or a handler catches the exception of a missing package.
+    """
     lines = []
     for node in nodes(tree):
         if isinstance(node, ast.Try) and any(catches_missing_package(handler) for handler in node.handlers):
@@ -173,7 +180,11 @@ def _lines(body: list[ast.stmt]) -> range:
 
 
 def _asks(test: ast.expr) -> bool | None:
-    """Return whether a test requires an installed package, None if it tests something else."""
+    """Return whether a condition is true if a package is installed, False if it is true if the package is missing.
+
+    ``has_resource("packages", "p")`` -> True, ``not has_resource("packages", "p")`` -> False. The result is None if the
+    condition tests something else.
+    """
     inner = list(ast.walk(test))
     if not any(isinstance(node, ast.Call) and callee(node) in _ASKS for node in inner):
         return None
@@ -181,12 +192,12 @@ def _asks(test: ast.expr) -> bool | None:
 
 
 def catches_missing_package(handler: ast.ExceptHandler) -> bool:
-    """Return whether a handler catches the exception of a missing package."""
+    """Return whether a handler catches the exception that the look-up of a missing package raises."""
     return _catches(handler, _NOT_FOUND)
 
 
 def catches_missing_file(handler: ast.ExceptHandler) -> bool:
-    """Return whether a handler catches the exception of a missing file."""
+    """Return whether a handler catches the exception that opening a missing file raises."""
     return _catches(handler, _NO_FILE)
 
 

@@ -1,7 +1,7 @@
-"""Methods of texts and constants of Python that every evaluator treats alike.
+"""Methods of texts and constants of Python that all evaluators treat in the same way.
 
-The results are no longer than the arguments. Each evaluator decides by itself about unknown values and about
-further methods.
+The results of the methods are no longer than their arguments. Each evaluator defines the results for unknown values,
+and for all other methods.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
-"""Rewriting of newer Python syntax, so that every Python version from 3.10 on parses a source alike.
+"""Rewriting of Python syntax newer than 3.10, so that every Python version from 3.10 on creates the same tree of a source.
 
 A construct that was added after Python 3.10 is replaced by an older one in the same place: no token changes its line,
-or its column in bytes. Where the replacement has another syntax tree, :mod:`ros_lint.collectors.python.restored_tree`
-restores the right one. Source: "What's New in Python" 3.11 to 3.14, and the PEPs named below.
+or its column in bytes. If the older construct has another syntax tree, :mod:`ros_lint.collectors.python.restored_tree`
+replaces it by the tree of the original construct. Source: "What's New in Python" 3.11 to 3.14, and the PEPs named
+below.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ _REST: Final = re.compile(r"[ \t\f]*(?:#[^\r\n]*)?(?=[\r\n]|\Z)")
 
 
 class Newer(NamedTuple):
-    """A construct between two offsets that Python versions before ``version`` reject."""
+    """A construct in a source that Python versions before ``version`` reject. ``start`` and ``end`` are its offsets."""
 
     construct: str
     """A noun in the plural."""
@@ -32,7 +33,10 @@ class Newer(NamedTuple):
 
 
 class Rewritten(NamedTuple):
-    """A source without constructs newer than Python 3.10. Places are offsets in the original source."""
+    """A source rewritten without constructs newer than Python 3.10, and where it had them.
+
+    All offsets are offsets in the original source.
+    """
 
     text: str
     newer: tuple[Newer, ...]
@@ -51,7 +55,7 @@ class _Edit(NamedTuple):
 
 
 def rewrite(text: str, tokens: Sequence[Token]) -> Rewritten:
-    """Return a source rewritten. Raises TokenError."""
+    """Return a source rewritten without constructs newer than Python 3.10. Raises TokenError."""
     return _Rewriter(text, [token for token in tokens if token.kind != "comment"]).rewritten()
 
 
@@ -103,7 +107,10 @@ class _Rewriter:
         self._newer.append(Newer(construct, version, self._code[first].start, self._code[last].end))
 
     def _name(self, index: int, word: str, *, fresh: bool) -> int:
-        """Rewrite a construct that begins with a word. Return the index of the next token to process."""
+        """Rewrite the newer construct that begins with the word at ``index``, if there is one.
+
+        Return the index of the next token to process. ``fresh`` is True if a statement may begin at the word.
+        """
         if word == "type" and fresh and self._is_name(index + 1):
             return self._alias(index)
         if word in ("def", "class") and self._word(index + 2) == "[":
@@ -121,7 +128,7 @@ class _Rewriter:
         self._edits.append(_Edit(token.start, token.end, "0  ;"))
 
     def _alias(self, index: int) -> int:
-        """Rewrite ``type X[T] = Y`` as ``typ, X    = Y`` (PEP 695)."""
+        """Rewrite ``type X[T] = Y`` as ``typ, X    = Y`` (PEP 695). Return the index of the next token to process."""
         sign = index + 2
         if self._word(sign) == "[":
             sign = self._closing.get(sign, len(self._code)) + 1
@@ -136,7 +143,10 @@ class _Rewriter:
         return sign
 
     def _type_parameters(self, index: int, opening: int, statement: int) -> int:
-        """Blank the type parameters of a function or a class (PEP 695)."""
+        """Blank the type parameters in ``def f[T](a)`` or ``class A[T]`` (PEP 695).
+
+        Return the index of the next token to process.
+        """
         closing = self._closing.get(opening)
         if closing is None or not self._is_name(index + 1) or self._word(closing + 1) not in ("(", ":"):
             return index + 1
@@ -145,7 +155,10 @@ class _Rewriter:
         return closing + 1
 
     def _blank_parameters(self, opening: int) -> tuple[str, ...]:
-        """Blank a list of type parameters, and return their names. Defaults are newer still (PEP 696)."""
+        """Replace a list of type parameters by blanks, and return their names: ``[T, *Ts]`` -> ("T", "Ts").
+
+        A default such as ``[T = int]`` is recorded as another newer construct (PEP 696).
+        """
         closing = self._closing[opening]
         names = []
         for index in self._inside(opening):
@@ -159,14 +172,14 @@ class _Rewriter:
         return tuple(names)
 
     def _inside(self, opening: int) -> Iterator[int]:
-        """Yield the indices of the tokens in a bracket, except those in nested brackets."""
+        """Yield the indices of the tokens between a bracket and its closing bracket, without those in nested brackets."""
         index, closing = opening + 1, self._closing.get(opening, len(self._code))
         while index < closing:
             yield index
             index = self._closing.get(index, index) + 1
 
     def _except(self, index: int) -> None:
-        """Rewrite ``except* A`` (PEP 654) as ``except  A``, ``except A, B:`` (PEP 758) as ``except(A, B):``."""
+        """Rewrite ``except* A`` (PEP 654) as ``except  A``, and ``except A, B:`` (PEP 758) as ``except(A, B):``."""
         star = self._word(index + 1) == "*" and self._word(index + 2) != ":"
         if star:
             self._add("except* clauses", (3, 11), index, index + 1)
@@ -185,17 +198,17 @@ class _Rewriter:
             self._edits.append(_Edit(room, room + 1, " "))
 
     def _rest(self, index: int) -> Iterator[int]:
-        """Yield the indices from ``index`` up to the end of the line, except those in brackets."""
+        """Yield the indices of the tokens from ``index`` to the end of the logical line, without those in brackets."""
         while index < len(self._code) and self._code[index].kind != "newline":
             yield index
             index = self._closing.get(index, index) + 1
 
     def _is_of_python_2(self, commas: Sequence[int], colon: int) -> bool:
-        """Return whether this is ``except Error, error:`` of Python 2, where ``error`` is a variable."""
+        """Return whether an except clause is ``except Error, error:`` of Python 2, where ``error`` is a variable."""
         return len(commas) == 1 and colon == commas[0] + 2 and self._word(colon - 1)[:1].islower()
 
     def _unpacked(self, opening: int) -> None:
-        """Blank the stars of ``[*A for A in B]`` (PEP 798)."""
+        """Blank the stars of a comprehension such as ``[*A for A in B]`` (PEP 798)."""
         if self._word(opening + 1) in ("*", "**"):
             word = next((self._words[at] for at in self._inside(opening) if self._words[at] in (",", ":", "for")), "")
             if word == "for":
@@ -203,7 +216,7 @@ class _Rewriter:
                 self._blank(opening + 1)
 
     def _subscript(self, opening: int) -> None:
-        """Blank the stars in a subscript (PEP 646)."""
+        """Blank the stars in a subscript such as ``a[*b]`` (PEP 646)."""
         before = self._word(opening - 1)
         kind = self._code[opening - 1].kind if opening else "newline"
         if before in ("match", "case") or not (before in (")", "]", "}") or kind == "string" or self._is_name(opening - 1)):
@@ -214,7 +227,7 @@ class _Rewriter:
                 self._blank(index)
 
     def _annotation(self, index: int) -> None:
-        """Blank the second star of ``*args: *Ts`` (PEP 646)."""
+        """Blank the second star of a parameter such as ``*args: *Ts`` (PEP 646)."""
         if self._word(index - 1) in ("(", ",") and self._is_name(index + 1) and self._words[index + 2 : index + 4] == [":", "*"]:
             self._add("starred annotations", (3, 11), index + 3, index + 3)
             self._blank(index + 3)
@@ -224,7 +237,10 @@ class _Rewriter:
         self._edits.append(_Edit(token.start, token.end, " " * (token.end - token.start)))
 
     def _string(self, index: int) -> int:
-        """Replace strings by a name in brackets if Python versions parse them differently (PEP 701, PEP 750)."""
+        """Replace adjacent strings from ``index`` on by ``(_)`` if Python versions parse them differently (PEP 701, PEP 750).
+
+        Return the index of the next token to process.
+        """
         end = index
         while end < len(self._code) and self._code[end].kind in ("string", "template"):
             end += 1
@@ -248,7 +264,7 @@ def _newer_in(found: Template) -> Iterator[Newer]:
 
 
 def _pairs(words: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield the indices of opening brackets with those of their closing brackets."""
+    """Yield the indices of the opening and the closing bracket, for each pair of brackets among ``words``."""
     opened: list[int] = []
     for index, word in enumerate(words):
         if word in _CLOSES:
@@ -258,9 +274,9 @@ def _pairs(words: Sequence[str]) -> Iterator[tuple[int, int]]:
 
 
 def _blanked(text: str, *, joined: bool = False) -> str:
-    """Return blanks of the width of a text in bytes, line by line.
+    """Return a text in which blanks replace all characters but line ends: one blank for each byte in UTF-8.
 
-    ``joined`` adds a backslash to each line, for lines that no bracket joins.
+    ``joined`` adds a backslash before each line end, for texts that are not in brackets.
     """
     ends = _NEWLINE.findall(text)
     lines = [" " * len(to_bytes(line)) for line in _NEWLINE.split(text)]
@@ -268,7 +284,7 @@ def _blanked(text: str, *, joined: bool = False) -> str:
 
 
 def _edited(text: str, edits: Sequence[_Edit]) -> str:
-    """Return a text with edits applied. An edit within another one is ignored."""
+    """Return a text with edits applied. An edit that begins within another edit is ignored."""
     pieces, at = list[str](), 0
     for edit in sorted(edits):
         if edit.start >= at:
@@ -278,7 +294,7 @@ def _edited(text: str, edits: Sequence[_Edit]) -> str:
 
 
 def brackets(text: str, tokens: Sequence[Token]) -> tuple[str, int] | None:
-    """Return the error and its offset if the brackets of a source are not in pairs, else None."""
+    """Return what is wrong with the first unpaired bracket of a source and its offset, None if all brackets are in pairs."""
     opened: list[Token] = []
     for token in tokens:
         word = text[token.start : token.end] if token.kind == "op" else ""

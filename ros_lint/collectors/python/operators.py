@@ -1,4 +1,4 @@
-"""Operators of Python that every evaluator applies alike to known values, and their limits."""
+"""Operators of Python that all evaluators apply in the same way to known values, and the limits of their operands."""
 
 from __future__ import annotations
 
@@ -38,5 +38,5 @@ _WIDE = re.compile(r"\d{4,}|%[-#0 +]*(?:\d*\.)?\*")
 
 
 def is_wide(template: str) -> bool:
-    """Return whether a conversion of a ``%`` template may be wider than 999 characters, or as wide as a value says."""
+    """Return whether a ``%`` template may format a value to more than 999 characters: ``%1000d``, or ``%*d``."""
     return bool(_WIDE.search(template))

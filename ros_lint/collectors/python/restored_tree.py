@@ -1,4 +1,4 @@
-"""Restoring of the syntax tree of a rewritten source to the tree of the original source."""
+"""Changes of the syntax tree of a rewritten source, so that it becomes the tree of the original source."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ _CONVERSIONS: Final = {"": -1, "a": 97, "r": 114, "s": 115}
 
 
 def restore(tree: ast.Module, source: Text, rewritten: Rewritten, expression: Callable[[str, int], ast.expr]) -> None:
-    """Restore the tree of a rewritten source to that of the original source. Raises TokenError.
+    """Change the tree of a rewritten source so that it becomes the tree of the original source. Raises TokenError.
 
-    ``expression`` parses an expression in brackets at an offset, and may raise any exception.
+    ``expression(text, offset)`` parses ``text``, an expression in brackets from the offset ``offset`` of the source. It may
+    raise any exception.
     """
     restorer = _Restorer(source, rewritten, expression)
     for node in ast.walk(tree):
@@ -35,7 +36,7 @@ def restore(tree: ast.Module, source: Text, rewritten: Rewritten, expression: Ca
 
 
 def place_of(source: Text, offset: int) -> Place:
-    """Return the place of an offset."""
+    """Return line and column of an offset, as in syntax trees."""
     line, column = source.position(offset)
     return line, len(to_bytes(source.text[offset - column + 1 : offset]))
 
@@ -49,7 +50,7 @@ class _Restorer:
         self._parameters = {place_of(source, start): names for start, names in rewritten.parameters.items()}
 
     def visit(self, node: ast.AST) -> None:
-        """Restore the direct children of a node."""
+        """Replace those direct children of a node that belong to rewritten constructs."""
         for name, value in ast.iter_fields(node):
             if isinstance(value, ast.Name):
                 setattr(node, name, self._name(value))
@@ -71,7 +72,7 @@ class _Restorer:
             yield item
 
     def _name(self, node: ast.Name) -> ast.expr:
-        """Return the strings that a name replaces, or the name itself."""
+        """Return the f-string that was replaced by the name ``node``, the name itself if it replaces nothing."""
         group = self._strings.get((node.lineno, node.col_offset - 1))
         if group is None or node.id != "_":
             return node
@@ -112,14 +113,17 @@ class _Restorer:
 
 
 def _bound(target: ast.expr, at: ast.stmt) -> ast.stmt:
-    """Return a statement that binds a name to an unknown value."""
+    """Return an assignment of None to ``target``, with the position of ``at``.
+
+    It stands for a construct that binds a name, such as a type statement.
+    """
     statement = ast.Assign([target], ast.Constant(None))
     ast.copy_location(statement, at)
     return ast.fix_missing_locations(statement)
 
 
 def _merged(parts: Iterable[ast.expr]) -> Iterator[ast.expr]:
-    """Yield the parts of a string, with adjacent texts merged."""
+    """Yield the parts of an f-string. Adjacent constant texts become one constant, empty texts are omitted."""
     text: list[str] = []
     for part in parts:
         if isinstance(part, ast.Constant):
@@ -134,7 +138,7 @@ def _merged(parts: Iterable[ast.expr]) -> Iterator[ast.expr]:
 
 
 def _literal(text: str, around: Template, start: int) -> str:
-    """Return the value of a literal part of an f-string."""
+    """Return the value of a part of an f-string between its fields: escapes are replaced, and ``{{`` becomes ``{``."""
     text = text.replace("{{", "{").replace("}}", "}")
     if around.raw:
         return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -1,4 +1,4 @@
-"""Python sources that are not plain: bounded, rewritten, parsed and set right again."""
+"""Reading of unusual Python sources: those with newer syntax, and those that nest deeply. Limits are checked first."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ _MOST_DIGITS = 1_000
 
 
 def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
-    """Return the tree of a source and what is newer than Python 3.10 in it. Raises NotPythonError, also as TooDeepError.
+    """Return the syntax tree of a source, and its constructs that are newer than Python 3.10.
 
-    ``read_inner`` reads the expressions in f-strings, as sources of their own.
+    ``read_inner`` reads an expression in an f-string as a source of its own. Raises NotPythonError; it is a TooDeepError
+    if the source exceeds a limit of ros-lint.
     """
     try:
         paired = may_be_paired(source.text)
@@ -50,7 +51,10 @@ def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
 
 
 def too_deep(text: str, found: Iterable[Token]) -> tuple[str, int] | None:
-    """Return why and where the code of a source exceeds a bound, None where it does not."""
+    """Return which limit of ros-lint a source exceeds and at which offset, None if it exceeds no limit.
+
+    ``found`` are the tokens of the source. The limits are for nested expressions, ``elif`` branches, and digits of a number.
+    """
     branches = _Branches(text)
     token = Token("newline", 0, 0)
     wrong = ""
@@ -73,7 +77,7 @@ def too_deep(text: str, found: Iterable[Token]) -> tuple[str, int] | None:
 
 
 def _kept(found: Iterable[Token], into: list[Token]) -> Iterator[Token]:
-    """Yield tokens that are noted down as they pass."""
+    """Yield tokens, and append each of them to the list ``into``."""
     for token in found:
         into.append(token)
         yield token
@@ -88,7 +92,7 @@ def _symbol(text: str, token: Token) -> str:
 
 
 class _Branches:
-    """Counts the branches of each if statement, in the order of the tokens."""
+    """Counts the ``elif`` branches of each if statement. :meth:`are_too_many` must be called for all tokens in order."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -96,7 +100,7 @@ class _Branches:
         self._fresh = True
 
     def are_too_many(self, token: Token) -> bool:
-        """Return whether a token begins a branch that exceeds the bound."""
+        """Return whether a token begins an ``elif`` branch beyond the maximum number of branches."""
         text, fresh = self._text, self._fresh
         self._fresh = token.kind in ("newline", "comment")
         if not fresh or token.kind != "name":
@@ -123,7 +127,11 @@ def _inner(text: str, offset: int, source: Text, read_inner: Callable[[Text], Pa
 
 
 def _expression(parsed: Parsed, offset: int, source: Text, newer: list[NewerSyntax]) -> ast.expr:
-    """Return the tree of an expression in brackets that begins at an offset of a source."""
+    """Return the tree of an expression in an f-string, with the positions that it has in the source.
+
+    ``parsed`` is the expression as a source of its own, and ``offset`` is its offset in ``source``. The constructs in it
+    that are newer than Python 3.10 are appended to ``newer``.
+    """
     body = parsed.tree.body
     if len(body) != 1 or not isinstance(body[0], ast.Expr):
         raise NotPythonError

@@ -22,7 +22,7 @@ _BINDING = frozenset({ast.NamedExpr, ast.Lambda, *_COMPREHENSIONS})
 
 
 class Where(NamedTuple):
-    """A point in the program."""
+    """A position in a source, with the scope and the branches that contain it."""
 
     scope: PythonScope
     block: Block
@@ -31,7 +31,10 @@ class Where(NamedTuple):
 
 
 class Binding(NamedTuple):
-    """The binding of a name. ``value`` is None if it is unknown."""
+    """A place where a name gets a value. ``value`` is the expression of the value, None if the value is unknown.
+
+    If ``steps`` is not empty, the name gets a part of that value: ``(0,)`` for ``a`` in ``a, b = value``.
+    """
 
     value: ast.expr | None
     where: Where
@@ -39,7 +42,7 @@ class Binding(NamedTuple):
 
 
 class Expression(NamedTuple):
-    """An expression that a statement evaluates."""
+    """An outermost expression of a statement, and the targets of the assignment if the statement is an assignment or a loop."""
 
     node: ast.expr
     where: Where
@@ -50,9 +53,9 @@ class Expression(NamedTuple):
 
 
 class PythonScope:
-    """The scope of a module, a function or a class.
+    """The names that a module, a class or a function binds, with their bindings.
 
-    ``shared`` is True for modules and classes, whose names the functions in them may use, and False for functions.
+    ``shared`` is True for modules and classes, and False for functions.
     """
 
     __slots__ = ("bindings", "parent", "shared")
@@ -66,7 +69,7 @@ class PythonScope:
         self.bindings.setdefault(name, []).append(Binding(value, where, steps))
 
     def find(self, name: str) -> PythonScope | None:
-        """Return the scope that binds a name."""
+        """Return the innermost scope that binds ``name``, from this scope outwards, None if no scope binds it."""
         scope: PythonScope | None = self
         while scope is not None and name not in scope.bindings:
             scope = scope.parent
@@ -74,7 +77,10 @@ class PythonScope:
 
 
 def scan(tree: ast.Module) -> list[Expression]:
-    """Return the expressions of a module in textual order. Their scopes contain all bindings."""
+    """Return the outermost expressions of all statements of a module, in textual order.
+
+    Their scopes contain all bindings of the module.
+    """
     scanner = _Scanner()
     scanner.block(tree.body, PythonScope(None), ())
     return scanner.expressions
@@ -135,7 +141,7 @@ class _Scanner:
                 self._other(statement, where)
 
     def _other(self, statement: ast.stmt, where: Where) -> None:
-        """Handle if, while, try, match, return and other statements: all their expressions and blocks."""
+        """Record the expressions and enter the blocks of a statement such as if, while, try, match or return."""
         for name, value in ast.iter_fields(statement):
             if isinstance(value, ast.expr):
                 self._expression(value, where)
@@ -149,7 +155,7 @@ class _Scanner:
                     self._part(item, where)
 
     def _part(self, item: object, where: Where) -> None:
-        """Bind the names and enter the block of an exception handler, a case, or a name of global or nonlocal."""
+        """Bind the names of an exception handler, a case of match, or a global statement, and enter the block of the part."""
         names: list[str | None] = []
         if isinstance(item, ast.ExceptHandler):
             names = [item.name]
@@ -201,7 +207,7 @@ class _Scanner:
 
 
 def nodes(node: ast.AST) -> list[ast.AST]:
-    """Return a node and all its descendants, in no order. Faster than ``ast.walk``."""
+    """Return a syntax node and all its descendants, in no particular order. The function is faster than ``ast.walk``."""
     collected = [node]
     for inner in collected:
         for name in inner._fields:
@@ -214,7 +220,7 @@ def nodes(node: ast.AST) -> list[ast.AST]:
 
 
 def reaching(name: str, where: Where) -> Iterator[Binding] | None:
-    """Return the bindings that may reach a name at a point of the program, None if nothing binds it."""
+    """Return the bindings that may give a name its value at a point of the program, None if no scope binds the name."""
     scope = where.scope.find(name)
     if scope is None:
         return None
@@ -227,7 +233,10 @@ def reaching(name: str, where: Where) -> Iterator[Binding] | None:
 
 
 def _last(bindings: Sequence[Binding], block: Block) -> list[Binding]:
-    """Return the last binding that certainly happened, and the later ones that may have happened."""
+    """Return the bindings that may hold in a block after all of ``bindings``, which are in textual order.
+
+    These are the last binding that certainly runs, and all later bindings, which run only in branches.
+    """
     possible: list[Binding] = []
     for binding in bindings:
         own = binding.where.block

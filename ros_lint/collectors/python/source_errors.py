@@ -1,4 +1,4 @@
-"""The exceptions and the result of parsing Python sources."""
+"""The result of parsing a Python source, and the exceptions that parsing raises."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from ros_lint.facts.visibility import NewerSyntax
 
 
 class NotPythonError(Exception):
-    """A source is not valid Python of any version. :func:`refusal` returns the reason."""
+    """A source is not valid Python of any version. :func:`ros_lint.collectors.python.syntax.refusal` returns the reason."""
 
 
 class TooDeepError(NotPythonError):
-    """A source exceeds a limit of ros-lint. It may still be valid Python."""
+    """A source exceeds a limit of ros-lint, such as the depth of nested expressions. It may be valid Python."""
 
     def __init__(self, message: str, span: Span) -> None:
         super().__init__(message)
@@ -23,7 +23,7 @@ class TooDeepError(NotPythonError):
 
 
 class Parsed(NamedTuple):
-    """A source that some version of Python accepts."""
+    """The syntax tree of a source, which is valid in some version of Python, and the constructs newer than Python 3.10."""
 
     tree: ast.Module
     newer: tuple[NewerSyntax, ...]

@@ -1,4 +1,4 @@
-"""Texts and paths in a Python source that can be computed from constants and package look-ups."""
+"""The texts and paths that expressions of a Python source have, computed from constants and package look-ups."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _SAME_METHODS = frozenset({"as_posix", "resolve", "absolute", "expanduser", "str
 
 
 def callee(node: ast.Call) -> str:
-    """Return the last name of the called function: ``join`` of ``os.path.join(...)``."""
+    """Return the last name of the called function: ``os.path.join(a)`` -> ``join``. It is "" if the function has no name."""
     function = node.func
     if isinstance(function, ast.Attribute):
         return function.attr
@@ -38,7 +38,7 @@ def callee(node: ast.Call) -> str:
 
 
 def dotted(node: ast.expr) -> str:
-    """Return a dotted name such as ``os.path.join``, "" for any other expression."""
+    """Return the dotted name that an expression consists of: ``os.path.join``. The result is "" for any other expression."""
     names: list[str] = []
     while isinstance(node, ast.Attribute):
         names.append(node.attr)
@@ -47,7 +47,7 @@ def dotted(node: ast.expr) -> str:
 
 
 def argument(node: ast.Call, *names: str) -> ast.expr | None:
-    """Return the argument with one of some keywords, else the first positional one."""
+    """Return the keyword argument of a call with one of ``names``, else the first positional argument, None if there is none."""
     for keyword in node.keywords:
         if keyword.arg in names:
             return keyword.value
@@ -56,16 +56,16 @@ def argument(node: ast.Call, *names: str) -> ast.expr | None:
 
 
 class Evaluator:
-    """Evaluates expressions of one file, each of them once."""
+    """Computes the possible texts of expressions of one file. The result for each expression is computed once."""
 
     def __init__(self) -> None:
         self._done: dict[int, Values] = {}
         self._depth = 0
 
     def values(self, node: ast.expr | None, where: Where) -> Values:
-        """Return the possible texts of an expression.
+        """Return the possible texts of an expression, with None for an unknown text. The result is never empty.
 
-        Install places are written as in :mod:`ros_lint.collectors.symbolic_text`.
+        Folders of installed packages are symbolic, see :mod:`ros_lint.collectors.symbolic_text`.
         """
         if node is None or self._depth > _DEEPEST:
             return ANYTHING
@@ -100,7 +100,11 @@ class Evaluator:
                 yield from self.values(node, binding.where)
 
     def _take(self, node: ast.expr, steps: tuple[Step, ...]) -> list[ast.expr]:
-        """Return the parts of a literal list that a target takes, [] if they are unknown."""
+        """Return the elements that ``steps`` select from a literal list or tuple, [] if the elements are unknown.
+
+        A number selects the element with this index, and None selects every element. Each step selects from the elements of
+        the step before.
+        """
         nodes = [node]
         for step in steps:
             following: list[ast.expr] = []

@@ -1,4 +1,4 @@
-"""Python sources as syntax trees, and what to make of those that are none."""
+"""The syntax trees of Python sources, and the reasons why a source has none."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Node = ast.expr | ast.stmt | ast.alias | ast.keyword
 
 
 class Refusal(NamedTuple):
-    """Why a source has no tree."""
+    """Why a source has no syntax tree: it is not valid Python, or exceeds a limit of ros-lint."""
 
     message: str
     """A clause."""
@@ -49,20 +49,27 @@ class Refusal(NamedTuple):
         return Problem("syntax", f"not valid Python: {self.message}", self.span)
 
     def opaque(self, hides: Facet) -> Opaque:
-        """Return what the source hides, as one that is no Python or not checked."""
+        """Return the refused source as an opaque place, which hides the facet ``hides`` of its package.
+
+        The place is marked as unchecked if the source exceeds a limit of ros-lint.
+        """
         reason = "no Python that can be read" if self.known else self.message
         return Opaque(hides, reason, self.span, unchecked=not self.known)
 
 
 def parse(source: Text) -> ast.Module:
-    """Return the tree of a source. Raises :class:`NotPythonError`, also as :class:`TooDeepError`, and nothing else."""
+    """Return the syntax tree of a source. No caller may change it, because it is shared.
+
+    Raises :class:`NotPythonError`; it is a :class:`TooDeepError` if the source exceeds a limit of ros-lint.
+    """
     return read(source).tree
 
 
 def read(source: Text) -> Parsed:
-    """Return the tree of a source, the same under every Python, and what is newer than 3.10 in it. Raises as :func:`parse`.
+    """Return the syntax tree of a source, and its constructs that are newer than Python 3.10.
 
-    The tree is shared: nobody may change it.
+    The result is the same with every Python that runs ros-lint. No caller may change the tree, because it is shared.
+    Raises the exceptions of :func:`parse`.
     """
     found = _outcome(source.path, source.text)
     if isinstance(found, Refusal):
@@ -74,7 +81,7 @@ def read(source: Text) -> Parsed:
 
 @lru_cache(maxsize=2)  # several collectors ask for the tree of one source, one after the other
 def _outcome(path: str, text: str) -> Parsed | Refusal | None:
-    """Return a source parsed, why it is not checked, or None where it is no Python."""
+    """Return the parsed source, a Refusal if it exceeds a limit of ros-lint, None if it is not valid Python."""
     source = Text(path, text)
     try:
         return read_anew(source)
@@ -85,7 +92,7 @@ def _outcome(path: str, text: str) -> Parsed | Refusal | None:
 
 
 def read_anew(source: Text) -> Parsed:
-    """Return what :func:`read` does, with a tree that nobody else has."""
+    """Return the result of :func:`read` with a new tree, which the caller may change."""
     levels = most_levels(source.text)
     if plain(source.text) and not (levels > _MOST_LEVELS and nests_too_deep(source.text)):
         try:
@@ -107,7 +114,10 @@ _MOST_LEVELS = 10_000
 
 
 def read_expression(text: str) -> ast.expr:
-    """Return the tree of an expression, the same under every Python. Raises :class:`NotPythonError`."""
+    """Return the syntax tree of the text of an expression. Raises :class:`NotPythonError`.
+
+    The result is the same with every Python that runs ros-lint.
+    """
     source = Text("", text)
     if plain(text) and not nests_too_deep(text):
         try:
@@ -121,9 +131,10 @@ def read_expression(text: str) -> ast.expr:
 
 
 def _long_statements(source: Text, tree: ast.Module) -> Iterator[str]:
-    """Yield the statements that may nest too deeply; of those with a body what stands before it.
+    """Yield the texts of statements that may nest too deeply. The text of a compound statement is its head, ``if a:``.
 
-    Raises :class:`TooDeepError` where branches are too many, each of which stands in the one before.
+    Raises :class:`TooDeepError` if an if statement has too many ``elif`` branches, because the tree nests each of them in
+    the branch before.
     """
     waiting: list[tuple[_Part, int]] = [(statement, 0) for statement in tree.body]
     while waiting:
@@ -155,24 +166,24 @@ _Part = ast.stmt | ast.ExceptHandler | ast.match_case
 
 
 def _beginning(node: ast.stmt | ast.ExceptHandler | ast.pattern) -> tuple[int, int]:
-    """Return line and column of the first decorator of a statement, or of the statement."""
+    """Return line and column where a node begins. A decorated function or class begins with its first decorator."""
     decorators = getattr(node, "decorator_list", None)
     return (decorators[0].lineno, decorators[0].col_offset) if decorators else (node.lineno, node.col_offset)
 
 
 def start_of(source: Text, node: Node) -> int:
-    """Return the offset at which a node starts. The tree counts columns in bytes of UTF-8."""
+    """Return the offset in the source, in characters, at which a node begins. The tree counts columns in bytes of UTF-8."""
     return _offset(source, node.lineno, node.col_offset)
 
 
 def range_of(source: Text, node: Node) -> tuple[int, int]:
-    """Return the offsets between which a node stands."""
+    """Return the offsets in the source, in characters, at which a node begins and ends."""
     end = _offset(source, node.end_lineno or node.lineno, node.end_col_offset or node.col_offset)
     return start_of(source, node), end
 
 
 def span_of(source: Text, node: Node) -> Span:
-    """Return the place of a node."""
+    """Return the span of a node in the source."""
     return source.span(*range_of(source, node))
 
 
@@ -185,7 +196,7 @@ def _offset(source: Text, line: int, column: int) -> int:
 
 
 def refusal(source: Text, error: NotPythonError) -> Refusal:
-    """Return why a source has no tree."""
+    """Return why a source has no syntax tree; ``error`` is the exception of :func:`parse`."""
     if isinstance(error, TooDeepError):
         return Refusal(error.message, error.span, known=False)
     from ros_lint.collectors.python.syntax_errors import reason  # noqa: PLC0415  (few sources are no Python)
@@ -195,12 +206,15 @@ def refusal(source: Text, error: NotPythonError) -> Refusal:
 
 
 def is_of_others(source: Text) -> bool:
-    """Return whether a source is a template, or of Python 2."""
+    """Return whether a source is a template of a Python file, or written for Python 2."""
     return bool(_TEMPLATE_NAME.search(source.path) or _TEMPLATE_MARK.search(source.text) or _PYTHON_2.search(source.text))
 
 
 def placed(node: _Tree, at: ast.AST) -> _Tree:
-    """Return a copy of a syntax tree with one location for all its nodes, and no constant that counts as written there."""
+    """Return a copy of a syntax tree in which all nodes have the position of ``at``.
+
+    Text constants become f-strings, so that no finding about a literal, and no fix of it, refers to that position.
+    """
     copy = type(node)(**{name: _placed_field(value, at) for name, value in ast.iter_fields(node)})
     return ast.copy_location(copy, at)
 

@@ -1,7 +1,8 @@
-"""Why a source is no Python, and where: in the same words under every interpreter.
+"""Why a source is not valid Python, and where: the same message with every Python that runs ros-lint.
 
-The messages and places of the Python that runs change from version to version. Here strings, brackets and indentation are checked
-by the tokens, and for all else the parser of libcst tells the place, which has one grammar for all.
+The messages and positions of Python's own parser change from version to version. Here strings, brackets and
+indentation are checked by their tokens. For all other errors the parser of libcst gives the position, because it has
+one grammar for all versions.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from ros_lint.collectors.python.source_errors import NotPythonError
 
 
 class SyntaxReason(NamedTuple):
-    """Why a source is refused, from an offset on."""
+    """Why a source is not valid Python, and the offset of the error."""
 
     offset: int
     message: str
@@ -45,7 +46,10 @@ _LONGEST_WORD: Final = 40
 
 
 def reason(text: str, read_expression: Callable[[str], ast.expr]) -> SyntaxReason:
-    """Return why a source is no Python. ``read_expression`` raises NotPythonError for a text that is no expression."""
+    """Return why a source is not valid Python; the parser of Python has refused it before.
+
+    ``read_expression`` raises NotPythonError for a text that is not an expression.
+    """
     if len(text) > _LONGEST_TEXT:
         return SyntaxReason(0, "Python refuses it, and it is too long to say why", known=False)
     found, reasons = list[Token](), list[SyntaxReason]()
@@ -91,7 +95,11 @@ def _logical_lines(found: Sequence[Token]) -> Iterator[tuple[Token, Token]]:
 
 
 def _indentation(text: str, found: Sequence[Token]) -> Iterator[SyntaxReason]:
-    """Yield what is wrong with the indentation. It is measured twice: with tabs up to each eighth column, and as one column."""
+    """Yield the errors in the indentation of a source, in order.
+
+    Each indentation is measured twice, with a tab as eight columns and as one column. If the comparison with other lines
+    gives different results, tabs and blanks are mixed.
+    """
     levels = [(0, 0)]
     word, line, end, opens = "", "", 0, False
     for first, last in _logical_lines(found):
@@ -126,7 +134,7 @@ def _indentation(text: str, found: Sequence[Token]) -> Iterator[SyntaxReason]:
 
 
 def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
-    """Yield what is wrong with the first statement that Python refuses."""
+    """Yield the errors in the first top-level statement that Python refuses. Only the first error is reliable."""
     try:
         code = rewrite(text, found).text
     except TokenError as error:
@@ -153,7 +161,10 @@ def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[
 
 
 def _statements(text: str, found: Sequence[Token], lines: Sequence[int]) -> Iterator[int]:
-    """Yield the first line of each top-level statement, counted from 0."""
+    """Yield the number of the first line of each top-level statement, where 0 is the first line of the source.
+
+    ``lines`` are the offsets of all lines.
+    """
     yield 0
     line, decorated = 0, False
     for first, _ in _logical_lines(found):
@@ -167,9 +178,9 @@ def _statements(text: str, found: Sequence[Token], lines: Sequence[int]) -> Iter
 
 
 def _place(statement: str) -> tuple[int, int] | None:
-    """Return the line from 1 and the column from 0 behind what libcst does not expect, (0, 0) where it names none.
+    """Return where libcst finds an error in a statement: line from 1 and column from 0.
 
-    None where it takes the statement.
+    The result is (0, 0) if the position of the error is unknown, None if libcst finds no error.
     """
     if len(statement) > _LONGEST:
         return 0, 0
@@ -186,7 +197,7 @@ def _place(statement: str) -> tuple[int, int] | None:
 
 
 def _word(text: str, code: Sequence[Token], at: int) -> SyntaxReason:
-    """Return what is wrong with the last token that begins before an offset."""
+    """Return the error message about the last token before the offset ``at``: "... is not expected here"."""
     if code[-1].kind != "newline":
         code = [*code, Token("newline", len(text), len(text))]
     index = max((index for index, token in enumerate(code) if token.start < at), default=0)
@@ -203,7 +214,7 @@ def _word(text: str, code: Sequence[Token], at: int) -> SyntaxReason:
 
 
 def _shown(written: str) -> str:
-    """Return a piece of a source as a message quotes it: its first line, cut short."""
+    """Return a piece of a source as it is quoted in a message: its first line, shortened if it is long."""
     line = written.strip().splitlines()[0]
     return line if len(line) <= _LONGEST_WORD else line[: _LONGEST_WORD - 3] + "..."
 
@@ -222,7 +233,7 @@ def _is_value(text: str, token: Token) -> bool:
 
 
 def _literals(text: str, code: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
-    """Yield what is wrong with the strings and numbers of a source."""
+    """Yield the errors in the strings and numbers of a source."""
     for before, token in pairwise([Token("newline", 0, 0), *code]):
         written = text[token.start : token.end]
         if token.kind == "number" and not _is_literal(written):
@@ -238,7 +249,7 @@ def _literals(text: str, code: Sequence[Token], read_expression: Callable[[str],
 
 
 def _are_unlike(text: str, before: Token, token: Token) -> bool:
-    """Return whether bytes and a text stand side by side."""
+    """Return whether ``token`` is a string next to a string ``before``, and only one of them is a bytes literal."""
     return before.kind in ("string", "template") and len({_is_bytes(text[one.start : one.end]) for one in (before, token)}) == 2
 
 

@@ -1,4 +1,4 @@
-"""The names that a Python module binds at its top level."""
+"""The names that a Python module defines or imports at its top level."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 
 def collect(name: str, path: str, source: Text) -> PythonModule:
-    """Return the names that a module defines or imports.
+    """Return a module with the names that it defines or imports at its top level.
 
-    ``name`` is dotted, ``path`` relative to the package. A module is open, that is, may have other names, if it
-    contains ``import *``, ``__getattr__``, ``globals()`` or ``exec()``, or does not parse.
+    ``name`` is its dotted name, ``path`` its path relative to the package. The module is marked as open, because it may
+    have more names, if it contains ``import *``, ``__getattr__``, ``globals()`` or ``exec()``, or does not parse.
     """
     try:
         tree = parse(source)

@@ -1,4 +1,4 @@
-"""Unbound names in Python, and the code in which exceptions are caught."""
+"""Names in a Python source that are used and never bound, and the code in ``try`` blocks, whose exceptions are caught."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license"
 
 
 def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
-    """Yield the names among ``met`` that certainly raise NameError, each once."""
+    """Yield the first use of each name in ``met`` that certainly raises NameError. ``met`` are uses of names in ``tree``."""
     names = [node for node in met if node.id not in _KNOWN]
     if not names:
         return
@@ -49,6 +49,6 @@ def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
 
 
 def tried(node: ast.Try) -> Iterator[ast.AST]:
-    """Yield the nodes of a try statement whose exceptions are caught."""
+    """Yield all syntax nodes in the ``try`` block of a try statement, where exceptions may be caught."""
     for statement in node.body:
         yield from ast.walk(statement)

@@ -39,7 +39,7 @@ MATH: Final = frozenset(dir(math)) | {"cbrt", "exp2", "fma", "sumprod"}
 
 
 def too_new(syntax: Iterable[NewerSyntax], distro: str) -> Iterator[Problem]:
-    """Yield the constructs that the Python of a distribution rejects, none if ``distro`` is ""."""
+    """Yield a problem for each construct that the Python version of a distribution rejects, none if ``distro`` is unknown."""
     runs = PYTHON_OF.get(distro)
     for construct, version, span in syntax:
         if runs is not None and runs < version:

@@ -30,7 +30,7 @@ def _include(run: Run, args: list[str]) -> int | None:
         if _is_from_index(run):
             return _skip(run, "a file that another package has registered")
         run.hide(ALL_FACETS, "the file of include() is unknown")
-        run.open_world = True
+        run.open_world = run.skipped_include = True
         return None
     return _include_file(run, name, optional)
 
@@ -48,6 +48,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
         parsed = run.paths.script(path) if path is not None else None
         if path is not None and parsed is not None:
             return _run_script(run, path, parsed)
+    run.skipped_include = True
     if optional:
         return None
     if is_module:
@@ -99,7 +100,7 @@ def _skip(run: Run, file: str) -> int:
 
     Like a module, it probably defines commands and installs nothing itself.
     """
-    run.open_world = True
+    run.open_world = run.skipped_include = True
     run.hide(Facet.USES | Facet.EXPORTS, f"include() of {file} cannot be evaluated")
     return NEXT
 
@@ -172,7 +173,9 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
             run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
             run.hide(_BY_SUBDIRECTORY, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
         else:
-            run.add_problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.place_of(name), path)
+            run.add_problem(
+                "missing-folder", f"add_subdirectory() fails because the folder '{path}' does not exist", run.place_of(name), path
+            )
         return None
     run.paths.enter_directory(path, _built_in(run, path, args[1:]))
     run.scopes.append(Variables())

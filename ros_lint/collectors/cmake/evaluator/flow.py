@@ -22,6 +22,7 @@ from ros_lint.collectors.cmake.evaluator.state import (
     Procedure,
     Variables,
 )
+from ros_lint.collectors.cmake.evaluator.unset import READERS, note_unset_references
 from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, MAYBE, certainly_set, elements, join, mark_maybe
 from ros_lint.collectors.cmake.syntax import QUOTED, Command
 from ros_lint.facts.visibility import ALL_FACETS
@@ -50,6 +51,8 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
                 run.command_names.add(name)
                 handler = HANDLERS.get(name)
                 args = run.arguments(node)
+                if name in READERS:
+                    note_unset_references(run, node)
                 exits = (handler(run, args) if handler is not None else run.run_external_command(run, name, args)) or NEXT
         else:
             exits = BLOCKS[type(node)](run, node)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.state import InstalledTarget, Properties
 from ros_lint.facts.build import BuildProject, Component, InstalledFile
+from ros_lint.facts.cmake import UnsetVariable
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Opaque, Problem
 
@@ -19,6 +20,8 @@ class Results:
         self.problems: dict[Problem, None] = {}
         self.errors: dict[Problem, None] = {}
         """Errors of CMake in commands whose effect is still known."""
+        self.unset_references: dict[UnsetVariable, None] = {}
+        """References to variables that have no value where they are read."""
         self.components: list[Component] = []
         self.interfaces: dict[str, None] = {}
         self.python_packages: dict[str, None] = {}

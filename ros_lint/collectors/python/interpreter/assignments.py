@@ -59,7 +59,7 @@ def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
 
 
 def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> None:
-    """Assign a value to a target."""
+    """Assign a value to a target: a name, an attribute, a subscript, or a tuple or list of targets."""
     if isinstance(target, ast.Name):
         around = frame.declared.get(target.id)
         if around is not None and machine.conditions and target.id in around.names:
@@ -116,7 +116,10 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
 
 
 def _choices(machine: Interpreter, value: Value) -> Iterator[Value]:
-    """Yield each possible value of an expression, under its conditions."""
+    """Yield each alternative of a value. While the caller uses an alternative, its conditions hold in the interpreter.
+
+    Alternatives that contradict the present conditions are omitted.
+    """
     for alternative in alternatives(value):
         if are_consistent((*machine.conditions, *alternative.conditions)):
             with machine.under(*alternative.conditions):
@@ -124,7 +127,10 @@ def _choices(machine: Interpreter, value: Value) -> Iterator[Value]:
 
 
 def _key(machine: Interpreter, node: ast.expr, frame: Frame) -> Value:
-    """Return the value of a subscript, or a slice object if all bounds of the slice are known."""
+    """Return the value of the expression in the brackets of a subscript. ``a[1:2]`` -> ``slice(1, 2)``.
+
+    The result for a slice with an unknown bound is Unknown.
+    """
     if not isinstance(node, ast.Slice):
         return plain(machine.evaluate(node, frame))
     ends = [plain(machine.evaluate(end, frame)) if end is not None else None for end in (node.lower, node.upper, node.step)]
@@ -212,7 +218,7 @@ def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
 
 
 def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
-    """Remove an item of a list or dictionary. Under conditions, the item is marked as perhaps missing."""
+    """Remove the item ``key`` of a list or dictionary. If conditions hold, the item is marked as perhaps missing instead."""
     if isinstance(owner, dict):
         key = hashable(machine, key)
         known = UNKNOWN not in owner and key != UNKNOWN

@@ -42,7 +42,7 @@ NEXT, CONTINUE, BREAK, LEAVE = range(4)
 
 
 class _Side(NamedTuple):
-    """The result of interpreting one side of a branch."""
+    """One side of a branch, such as the body of an if statement, and the state after it was interpreted."""
 
     block: Sequence[ast.stmt]
     taken: LaunchCondition
@@ -65,10 +65,10 @@ def either(
     loop: bool = False,
     test: ast.expr | None = None,
 ) -> int:
-    """Interpret both sides of a branch, and join their results.
+    """Interpret both sides of a branch, join their results, and return how the branch ends: NEXT, CONTINUE, BREAK or LEAVE.
 
-    ``test`` is the expression that decides. ``loop`` is True if the first side is the body of a loop that runs any
-    number of times.
+    ``condition`` is the condition of ``body``, its opposite that of ``other``. ``test`` is the tested expression. ``loop``
+    is True if ``body`` is the body of a loop that runs any number of times.
     """
     condition = machine.fresh(condition, test)
     before, start = machine.conditions, frame.names
@@ -132,7 +132,10 @@ def _follow(
 
 
 def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
-    """Join names that hold under conditions to those of a frame, which hold under ``held``."""
+    """Add ``names`` to the names of a frame. A name with different values gets both values as alternatives.
+
+    The values in ``names`` hold under ``conditions``, those of the frame under ``held``.
+    """
     for name, value in names.items():
         if name not in frame.names:
             frame.names[name] = value
@@ -140,19 +143,22 @@ def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str,
             frame.names[name] = machine.joined([Guarded(frame.names[name], held), Guarded(value, conditions)])
 
 
-def _join_exit(machine: Interpreter, frame: Frame, one: Exit, around: Conditions) -> None:
-    taken = _beyond(one, around)
-    _join(machine, frame, (_complement(machine, taken),), one.names, taken)
+def _join_exit(machine: Interpreter, frame: Frame, way_out: Exit, around: Conditions) -> None:
+    taken = _beyond(way_out, around)
+    _join(machine, frame, (_complement(machine, taken),), way_out.names, taken)
 
 
-def _beyond(one: Exit, around: Iterable[LaunchCondition]) -> Conditions:
-    """Return the conditions of an exit, except those that hold around it."""
+def _beyond(way_out: Exit, around: Iterable[LaunchCondition]) -> Conditions:
+    """Return the conditions of an exit that are not among the conditions ``around``."""
     known = list(around)
-    return tuple([condition for condition in one.conditions if condition not in known])
+    return tuple([condition for condition in way_out.conditions if condition not in known])
 
 
 def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
-    """Return the conditions under which no exit is taken, if ``depth`` conditions hold around them."""
+    """Return the conditions under which none of ``exits`` is taken.
+
+    The first ``depth`` conditions of each exit hold in any case, and are not considered.
+    """
     bars: list[LaunchCondition] = []
     for way_out in exits:
         bars.append(_complement(machine, _beyond(way_out, (*way_out.conditions[:depth], *bars))))
@@ -160,7 +166,7 @@ def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[Launc
 
 
 def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition:
-    """Return the condition that holds if not all of some conditions hold."""
+    """Return the condition that holds if and only if at least one of ``conditions`` does not hold."""
     if len(conditions) == 1:
         return opposite_of(conditions[0])
     parts = [_negated(condition) for condition in conditions]
@@ -170,7 +176,10 @@ def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition
 
 
 def _negated(condition: LaunchCondition) -> str | None:
-    """Return a Python expression for the opposite of a condition, None if the condition is unknown."""
+    """Return a Python expression for the opposite of a condition: ``'x' != 'a'`` for ``x`` equals ``a``.
+
+    The result is None if no such expression exists, because a value in the condition is unknown.
+    """
     text = condition.texts[0]
     if len(condition.texts) > 1 or UNKNOWN in text or package_of_presence(text):
         return None
@@ -180,9 +189,10 @@ def _negated(condition: LaunchCondition) -> str | None:
 
 
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
-    """Return whether a block stops the whole launch file, so that the code after it is unconditional.
+    """Return whether a block of an if or try statement ends the launch file, so that the code after it is unconditional.
 
-    Raising an error in a branch does not count: its message says what users of that branch have to install.
+    ``everywhere`` is True if no conditions hold around the statement. If it is False, ``raise Error("...")`` does not
+    count, because the message says what users of that branch have to install.
     """
     last = body[-1] if body else None
     return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
@@ -215,7 +225,7 @@ class _Loop:
         """True if an exit is certainly taken."""
 
     def turn(self, body: Sequence[ast.stmt], guards: Conditions = ()) -> None:
-        """Interpret an iteration, which runs under the conditions ``guards``."""
+        """Interpret the body for one iteration, which runs only under the conditions ``guards``."""
         machine, frame = self._machine, self._frame
         around = machine.conditions = (*self._before, *self._bars, *guards)
         before = dict(frame.names) if guards else {}
@@ -237,7 +247,10 @@ class _Loop:
         machine.conditions = (*self._before, *self._bars)
 
     def end(self, orelse: Sequence[ast.stmt]) -> int:
-        """Interpret the else block after the last iteration, and join the results of the exits."""
+        """Interpret the else block after the last iteration, join the names at all exits, and return how the loop ends.
+
+        The result is NEXT, CONTINUE, BREAK or LEAVE, because the else block may contain statements that end an outer loop.
+        """
         machine, frame = self._machine, self._frame
         breaks = [way_out for way_out in self.exits if way_out.signal == BREAK]
         leaves = [way_out for way_out in self.exits if way_out.signal == LEAVE]
@@ -258,7 +271,7 @@ class _Loop:
 
 
 def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
-    """Interpret a for loop. Raises ProgramRaised and BudgetExceeded."""
+    """Interpret a for loop, and return how it ends: NEXT, CONTINUE, BREAK or LEAVE. Raises ProgramRaised and BudgetExceeded."""
     of = machine.evaluate(node.iter, frame)
     values: Iterable[Value] | None = plain(of)
     if type(values) is not list and not isinstance(values, Iterator):  # these may change in the body
@@ -282,7 +295,7 @@ def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame)
 
 
 def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
-    """Interpret a while loop. Raises ProgramRaised and BudgetExceeded."""
+    """Interpret a while loop, and return how it ends: NEXT, CONTINUE, BREAK or LEAVE. Raises ProgramRaised and BudgetExceeded."""
     loop = _Loop(machine, frame)
     for _ in range(machine.most_turns):
         machine.spend(1)
@@ -299,5 +312,5 @@ def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
 
 
 def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame, test: ast.expr) -> int:
-    """Interpret a block that may run any number of times."""
+    """Interpret the body of a loop that runs an unknown number of times, and return how the loop ends: NEXT or LEAVE."""
     return either(machine, body, (), PERHAPS, frame, loop=True, test=test)

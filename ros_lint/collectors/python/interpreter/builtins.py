@@ -1,4 +1,4 @@
-"""Models of the functions of Python and of common libraries."""
+"""Models of Python's builtin functions, and of functions of common libraries."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def _pair(index: int, value: Value) -> Value:
 
 
 def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
-    """Apply a function to a value, and keep the conditions around it."""
+    """Return the result of a function for a value. If the value is guarded, the result is guarded by its conditions."""
     if isinstance(value, Guarded):
         return Guarded(_keep(value.value, function), value.conditions)
     return function(value)
@@ -155,9 +155,9 @@ def _isinstance(call: LibraryCall) -> Value:
 
 
 def _is_of(value: Value, name: str) -> bool:
-    """Return whether a known value is an instance of a builtin or abstract class, by the class name.
+    """Return whether a known value is an instance of the class ``name``: ``_is_of([1], "Sequence")`` -> True.
 
-    The name is one of builtins, collections.abc, numbers or typing.
+    The class is a class of builtins, collections.abc, numbers or typing.
     """
     if name == "NoneType":
         return value is None
@@ -176,7 +176,7 @@ def _getattr(call: LibraryCall) -> Value:
 
 
 def _fields(call: LibraryCall) -> Value:
-    """Return objects with the names of the fields, as ``dataclasses.fields()`` does."""
+    """Model of ``dataclasses.fields()``: return an object with the attribute ``name`` for each field of a class."""
     owner = plain(call.get(0))
     cls = owner.cls if isinstance(owner, Instance) else owner
     if not isinstance(cls, Class):
@@ -237,7 +237,10 @@ def _copied_whole(call: LibraryCall) -> Value:
 
 
 def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
-    """Return a copy with new lists and dictionaries at all levels; shared ones remain shared."""
+    """Return a copy of a value, as ``copy.deepcopy()`` does, with new lists and dictionaries at all levels.
+
+    ``done`` has the copies made so far, by the id of the original. A list that occurs twice has one copy.
+    """
     if isinstance(value, Guarded):
         return Guarded(_deep(machine, value.value, done), value.conditions)
     if isinstance(value, Union):

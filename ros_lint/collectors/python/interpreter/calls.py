@@ -1,4 +1,4 @@
-"""Calls of library functions, as their models receive them."""
+"""The call of a library function, as it is passed to the model of the function."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class LibraryCall:
-    """A call of a library function: its name, arguments and place."""
+    """A call of a library function: the name of the function, the values of its arguments, and the call in the source."""
 
     __slots__ = ("arguments", "frame", "keywords", "machine", "name", "node")
 
@@ -38,7 +38,10 @@ class LibraryCall:
         return self.arguments[position] if position < len(self.arguments) else None
 
     def texts(self, position: int, *names: str) -> tuple[str, ...]:
-        """Return the texts of an argument. Alternatives that are None are ignored, as Python would fail there."""
+        """Return the possible texts of the argument with a position or one of ``names``, (UNKNOWN,) if it is missing.
+
+        Alternatives that are None are omitted, because Python would fail there.
+        """
         value = self.get(position, *names)
         if isinstance(value, Union):
             value = union(alternative for alternative in alternatives(value) if alternative.value is not None)
@@ -48,7 +51,10 @@ class LibraryCall:
         return texts_made(found, self.node, self.frame)
 
     def like(self, position: int, elements: list[Value]) -> list[Value]:
-        """Return elements of an argument as the result of a glob, if the argument is one."""
+        """Return ``elements`` as a glob result if the argument at ``position`` is a glob result, else unchanged.
+
+        So ``sorted(glob("*.py"))`` keeps its pattern.
+        """
         value = self.get(position)
         return globbed(value.pattern, elements) if isinstance(value, Globbed) else elements
 
@@ -60,16 +66,16 @@ Rule = Callable[[LibraryCall], Value]
 
 
 def unknown(call: LibraryCall) -> Value:
-    """Return the unknown result of an unknown function. Its arguments escape."""
+    """Model of a function whose effects are unknown: return an unknown value, and mark the arguments as escaped."""
     call.machine.escape([call.arguments, call.keywords])
     return Unknown(f"{call.name.rpartition('.')[2]}()")
 
 
 def unknown_text(call: LibraryCall) -> Value:
-    """Return an unknown text."""
+    """Model of a function that returns a text which only a run of the program determines: return an unknown text."""
     return written(UNKNOWN, call.node, call.frame.source)
 
 
 def nothing(_: LibraryCall) -> Value:
-    """Return None."""
+    """Model of a function that returns None."""
     return None

@@ -28,7 +28,10 @@ def _zip(call: LibraryCall) -> Value:
 
 
 def _rows(call: LibraryCall, start: int) -> list[tuple[list[Value], Conditions]] | None:
-    """Return the rows of zip() over the arguments from ``start`` on with their conditions, or None."""
+    """Return the tuples that ``zip()`` makes of the arguments from position ``start`` on, each with its conditions.
+
+    The result is None if the elements of an argument are unknown.
+    """
     columns = [items(call.machine, argument) for argument in call.arguments[start:]]
     if any(column is None for column in columns):
         return None
@@ -44,7 +47,7 @@ def _under(conditions: Conditions, value: Value) -> Value:
 
 
 def _extreme(function: Callable[..., int]) -> Rule:
-    """Return the model of min() or max()."""
+    """Return the model of the function ``min`` or ``max``."""
 
     def rule(call: LibraryCall) -> Value:
         values = call.items(0) if len(call.arguments) == 1 else call.arguments
@@ -113,7 +116,11 @@ def _any_all(wanted: bool) -> Rule:
 
 
 def _answer(machine: Interpreter, value: Value, wanted: bool) -> bool | None:
-    """Return the truth of an element, None if it is unknown or the element may be missing and would decide."""
+    """Return the truth of an element of any() or all(), None if it is unknown.
+
+    ``wanted`` is the truth that decides the result: True for any(), False for all(). The truth of an element that may be
+    missing is unknown if it would decide.
+    """
     answer, _ = truth(machine, value)
     return None if answer is wanted and isinstance(value, Guarded) else answer
 

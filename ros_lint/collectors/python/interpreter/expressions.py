@@ -184,9 +184,9 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
 
 
 def _together(values: list[Value], word: str) -> Value:
-    """Combine the results of comparisons of unknown texts into one unknown value with a condition.
+    """Return an unknown value whose condition combines the comparisons ``values`` with ``word``: "and" or "or".
 
-    ``word`` is the operator between them, "and" or "or". None if any value is not the result of such a comparison.
+    The result is None if a value is not the result of comparing a text that is known at launch with a known text.
     """
     parts: list[str] = []
     for value in values:
@@ -295,7 +295,10 @@ def _lambda(machine: Interpreter, node: ast.Lambda, frame: Frame) -> Value:
 
 
 def _inside(node: ast.expr, frame: Frame) -> Frame:
-    """Return the frame of a comprehension. A ``:=`` in it binds its name in the surrounding function."""
+    """Return a new frame for the names of a comprehension.
+
+    A name that ``:=`` binds in the comprehension belongs to the outer frame.
+    """
     inner = Frame(frame.source, frame, {})
     if frame.source.assigns_inside:
         names = [node_inside.target.id for node_inside in ast.walk(node) if isinstance(node_inside, ast.NamedExpr)]
@@ -328,7 +331,10 @@ def _dict_comprehension(machine: Interpreter, node: ast.DictComp, frame: Frame) 
 def _generate(
     machine: Interpreter, generators: list[ast.comprehension], of: Value, frame: Frame, produce: Callable[[], None]
 ) -> None:
-    """Call ``produce`` for every combination of elements; ``of`` is the iterable of the first generator."""
+    """Call ``produce`` for each iteration of a comprehension, while the names of its targets are bound in ``frame``.
+
+    ``generators`` are the ``for`` parts of the comprehension, and ``of`` is the value that the first of them iterates over.
+    """
     first, rest = generators[0], generators[1:]
     values = items(machine, of)
     guards: list[tuple[Value, Conditions]] = []

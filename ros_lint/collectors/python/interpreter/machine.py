@@ -58,13 +58,13 @@ _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
 class Machine(Interpreter):
-    """Interprets one program and the modules that it imports."""
+    """Interprets one program, that is, a launch file or a setup.py, and the modules of the workspace that it imports."""
 
     def __init__(self, modules: Modules, files: Callable[[str], Value], library: Library) -> None:
-        """Start an interpreter.
+        """Create an interpreter for one program.
 
-        ``modules`` finds modules of the workspace, ``files`` returns the texts of its files, ``library`` interprets
-        all other modules.
+        ``modules`` returns the syntax tree of a module of the workspace, ``files`` the content of a file of the workspace.
+        ``library`` has the models of all other modules.
         """
         super().__init__(library)
         self._modules = modules
@@ -77,18 +77,18 @@ class Machine(Interpreter):
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
     def spend(self, steps: int) -> None:
-        """Count steps. Raises BudgetExceeded."""
+        """Take steps from the budget of the program. Raises BudgetExceeded if fewer are left."""
         self._left -= steps
         if self._left < 0:
             raise BudgetExceeded
 
     def grant(self) -> None:
-        """Grant additional steps, for the work that remains after the budget is exceeded."""
+        """Replace the budget by a smaller one, for the evaluation of results after the program exceeded its budget."""
         self._left = STEPS // 4
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Interpret a block under conditions."""
+        """Return a context manager that adds conditions to the present ones while its ``with`` block runs."""
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:
@@ -99,7 +99,7 @@ class Machine(Interpreter):
     # --- modules --------------------------------------------------------------------------------------------------
 
     def run(self, tree: ast.Module, source: Source) -> Frame:
-        """Interpret the statements of a module."""
+        """Interpret the statements of a module, and return its frame with the names that they bind."""
         frame = Frame(source, None, source.names)
         source.names.setdefault("__name__", "launch_file")
         with suppress(ProgramRaised):
@@ -108,7 +108,11 @@ class Machine(Interpreter):
         return frame
 
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
-        """Return a module of the workspace or a model of a released one, interpreted once; None for others."""
+        """Return the interpreted module that the import statement ``at`` names, None if the module cannot be interpreted.
+
+        A module of the workspace is interpreted once. For a released module, the model of its effects is interpreted, if the
+        library has a model.
+        """
         top = name.partition(".")[0]
         known = top in STANDARD_LIBRARY or self.library.describes(top)
         key = f"{importer.text.path}:{name}" if name.startswith(".") else name
@@ -130,7 +134,11 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return a helper of a released package with all nodes placed at the call, and the source of the call."""
+        """Return a copy of the definition of a function, and the module of the copy.
+
+        The function belongs to the model of a released module. All nodes of the copy have the position of ``call``, so that
+        findings about the function are reported at the call.
+        """
         key = id(function.node), id(call)
         if key not in self._placed:
             self.spend(100)
@@ -152,11 +160,14 @@ class Machine(Interpreter):
         return EVALUATE[type(node)](self, node, frame)
 
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Interpret statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
+        """Interpret statements, and return how the last of them ends: NEXT, CONTINUE, BREAK or LEAVE.
+
+        Raises ProgramRaised and BudgetExceeded.
+        """
         return execute(self, body, frame)
 
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
-        """Return the value of a function definition."""
+        """Return the function that a definition or a lambda creates, with the values of its default arguments."""
         function = Function(node, frame)
         function.defaults = [self.evaluate(default, frame) for default in node.args.defaults]
         for argument, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
@@ -167,7 +178,7 @@ class Machine(Interpreter):
     # --- calls ----------------------------------------------------------------------------------------------------
 
     def builtin(self, node: ast.Name, frame: Frame) -> Value:
-        """Return the value of a name that the program does not bind."""
+        """Return the value of a name that the program does not bind, and record the name as unbound if it is not builtin."""
         if node.id == "__file__":
             return BUILTINS["__file__"]
         if node.id in BUILTINS:
@@ -177,7 +188,7 @@ class Machine(Interpreter):
         return LibraryName(node.id)
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        """Return the result of a call."""
+        """Return the result of calling ``function``, which may be a function, class or method of the program or of a library."""
         self.spend(1)
         if isinstance(function, LibraryName):
             return self.library.call(self, function.name, arguments, keywords, node, frame)
@@ -270,7 +281,10 @@ class Machine(Interpreter):
     # --- what the library needs -----------------------------------------------------------------------------------
 
     def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
-        """Return the result of ``/`` or joinpath: a path of pathlib, or a substitution."""
+        """Return the joined path of ``left / right`` or ``left.joinpath(*right)``.
+
+        The result is a PathJoinSubstitution if a part is a substitution of launch, else a path of pathlib.
+        """
         if isinstance(left, LaunchObject) or any(isinstance(plain(part), LaunchObject) for part in right):
             call = node if isinstance(node, ast.Call) else ast.Call(node, [], [])
             ast.copy_location(call, node)
@@ -280,7 +294,10 @@ class Machine(Interpreter):
         return union(guarded_text(text, FilePath(text)) for text in texts)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the text of a file of the workspace, Unknown for any other file."""
+        """Return the content of a file of the workspace, which represents the opened file.
+
+        The result is Unknown for any other file.
+        """
         if not self.guarded and not path.isascii():
             self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")

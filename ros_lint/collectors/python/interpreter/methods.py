@@ -1,4 +1,4 @@
-"""Attributes and methods of values."""
+"""Models of the attributes and methods of values."""
 
 from __future__ import annotations
 
@@ -64,7 +64,10 @@ if TYPE_CHECKING:
 
 
 def items(machine: Interpreter, value: Value) -> list[Value] | None:
-    """Return the elements of a value in a new list, conditional ones guarded; None if they are unknown."""
+    """Return the elements of a value in a new list, None if they are unknown.
+
+    An element that exists only under conditions is guarded by them.
+    """
     value = plain(value)
     if isinstance(value, Union):
         elements: list[Value] = []
@@ -88,12 +91,12 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
 
 
 def more(value: Value, reason: str = "elements that are not known") -> Value:
-    """Return the element that represents all elements of an unknown value."""
+    """Return the guarded unknown element that stands for all elements of a value whose elements are unknown."""
     return Guarded(cause(value, reason), (PERHAPS,))
 
 
 def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
-    """Return an attribute of a value."""
+    """Return the value of the attribute ``node.attr`` of ``owner``. It is a Method for methods of texts and collections."""
     name = node.attr
     if isinstance(owner, LibraryName):
         return machine.library.member(f"{owner.name}.{name}", node, frame.source)
@@ -117,7 +120,7 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
 
 
 def of_instance(owner: Instance, name: str) -> Value:
-    """Return an attribute of an object whose class is defined in the program."""
+    """Return the attribute ``name`` of an object whose class is defined in the program."""
     if name in owner.attributes:
         return owner.attributes[name]
     member = owner.cls.find(name)
@@ -140,7 +143,7 @@ _OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
 def call_method(
     machine: Interpreter, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
-    """Return the result of a method."""
+    """Return the result of calling a method of a text, a collection or a path. Methods of collections change their owner."""
     owner, name = method.owner, method.name
     if isinstance(owner, (list, dict)):
         machine.spend(1 + len(owner) // 8)
@@ -207,7 +210,7 @@ def _of_text(
 
 
 def _grows(text: str, name: str, values: list[Value]) -> bool:
-    """Return whether a method would exceed the maximum length of a text."""
+    """Return whether ``text.replace()`` or ``text.zfill()`` may return a text longer than the limit LONGEST."""
     if name == "zfill":
         return any(isinstance(width, int) and width > LONGEST for width in values)
     old, new = values[:2] if name == "replace" and len(values) > 1 else ("", "")
@@ -244,7 +247,7 @@ _OPERATOR_OF = {"difference": ast.Sub(), "intersection": ast.BitAnd(), "symmetri
 
 
 def _of_set(machine: Interpreter, owner: SetOf, name: str, arguments: list[Value]) -> Value:
-    """Return a new set: a copy, or a set with the elements of the arguments added or removed."""
+    """Return the result of a set method that creates a new set: copy, union, difference and so on."""
     result: Value = SetOf(owner)
     for argument in arguments:
         elements = items(machine, argument)
@@ -256,7 +259,7 @@ def _of_set(machine: Interpreter, owner: SetOf, name: str, arguments: list[Value
 
 
 def _position(owner: Sequence[Value], name: str, arguments: list[Value]) -> Value:
-    """Return the position or the number of the elements that equal an argument."""
+    """Return the result of ``owner.index(argument)`` or ``owner.count(argument)``, Unknown if any value is unknown."""
     wanted = plain(arguments[0]) if arguments else None
     if len(arguments) != 1 or not is_small(owner) or not all(is_small(value) and is_known(value) for value in (owner, wanted)):
         return Unknown(f"{name}() in what is not known")
@@ -330,9 +333,10 @@ def _popped(machine: Interpreter, owner: list[Value], position: Value) -> Value:
 
 
 def replace(machine: Interpreter, owner: list[Value], key: int | slice, values: list[Value]) -> None:
-    """Replace the elements at an index or slice under the present conditions. Raises IndexError and ValueError.
+    """Replace the elements of a list at an index or slice by ``values``. Raises IndexError and ValueError.
 
-    If an element may be missing, each element may be at another position.
+    If conditions hold, the old and the new elements are guarded by them. If an element may be missing, the positions are
+    unknown, so any element may be the replaced element.
     """
     present = machine.present(owner)
     if isinstance(key, int):

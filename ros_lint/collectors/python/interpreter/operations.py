@@ -57,7 +57,10 @@ _MOST_ITEMS = 5_000
 
 
 def each(value: Value, function: Callable[[Value], Value]) -> Value:
-    """Apply a function to every alternative of a value."""
+    """Return the union of the results of a function for every alternative of a value.
+
+    Alternatives for which the function raises ProgramRaised are omitted. If none is left, ProgramRaised is raised.
+    """
     if isinstance(value, Guarded):
         value = value.value
     if not isinstance(value, Union):
@@ -75,7 +78,11 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
 
 
 def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondition]:
-    """Return whether a value is true, None with the condition for it if that is unknown."""
+    """Return whether a value is true, and a condition.
+
+    If the first item is None, the truth is unknown, and the value is true under the condition. Else the condition is
+    meaningless.
+    """
     value = plain(value)
     if isinstance(value, Unknown):
         return None, value.condition or PERHAPS
@@ -93,7 +100,10 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 
 
 def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
-    """Return whether any element exists, if elements may exist only under conditions."""
+    """Return the truth of a list with guarded elements, and a meaningless condition.
+
+    The truth is False if all elements are missing, True if any element exists, None if that is unknown.
+    """
     elements = machine.present(values)
     if not elements:
         return False, PERHAPS
@@ -113,7 +123,7 @@ def _truth_of_several(machine: Interpreter, value: Union) -> tuple[bool | None, 
 
 
 def text_of(value: Value) -> tuple[str, ...]:
-    """Return the alternatives of str() of a value."""
+    """Return the possible texts of ``str(value)``, UNKNOWN for an unknown text."""
     if isinstance(value, str):
         return (value,)
     return distinct(
@@ -132,7 +142,7 @@ def _str(value: Value) -> str:
 
 
 def _shown(value: Any) -> str:
-    """Return str() of a collection, UNKNOWN if it is large or contains anything but texts and numbers."""
+    """Return the text of ``str(value)`` for a collection, UNKNOWN if it is large or has elements other than texts and numbers."""
     stack, count = [value], 0
     while stack:
         item = stack.pop()
@@ -149,7 +159,10 @@ def _shown(value: Any) -> str:
 
 
 def hashable(machine: Interpreter, key: Value) -> Any:
-    """Return a value as a dictionary key: a text if it is not hashable in Python or not known."""
+    """Return the key under which the interpreter stores an item of a dictionary: texts, numbers and None are unchanged.
+
+    The key is the symbolic text of a collection or launch object, and UNKNOWN for any other value.
+    """
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
     if isinstance(key, (list, tuple, LaunchObject)):
@@ -159,7 +172,10 @@ def hashable(machine: Interpreter, key: Value) -> Any:
 
 
 def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
-    """Return a formatted value; ``text`` is its str(), ``conversion`` as in :class:`ast.FormattedValue`."""
+    """Return the result of ``format(value, spec)``, UNKNOWN if it cannot be computed.
+
+    ``text`` is the result of ``str(value)``. ``conversion`` is the code of ``!r`` or ``!a`` as in :class:`ast.FormattedValue`.
+    """
     if not isinstance(spec, str) or not is_plain(spec) or not is_plain(text) or len(spec) > 8:
         return UNKNOWN
     try:
@@ -173,7 +189,7 @@ def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
 
 
 def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
-    """Return the text of an expression, or its alternatives."""
+    """Return the possible texts ``found`` of an expression as one value, which records ``node`` as their expression."""
     if len(found) == 1:
         return written(found[0], node, frame.source)
     return union(guarded_text(text, written(text, node, frame.source)) for text in found)
@@ -185,7 +201,7 @@ _ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 
 def operation(machine: Interpreter, op: ast.operator, left: Value, right: Value, node: ast.expr, frame: Frame) -> Value:
-    """Return the result of an operator on two values."""
+    """Return the result of a binary operator: ``left op right``, for all alternatives of both operands."""
     if isinstance(op, ast.Add):
         for side, opposite_side in ((left, right), (right, left)):
             if isinstance(opposite_side, (str, list, tuple, LaunchObject)):
@@ -256,7 +272,7 @@ _KNOWN = (str, *_NUMBERS, list, tuple, dict, type(None))
 
 
 def of_sets(op: ast.operator, left: Sequence[Value], right: Sequence[Value]) -> Value:
-    """Return the union, difference or intersection of sets, Unknown if their elements are unknown."""
+    """Return the result of ``|``, ``-``, ``&`` or ``^`` for two sets, Unknown if an element that matters is unknown."""
     if isinstance(op, ast.BitOr):
         return SetOf(unique([*left, *right]))
     if not all(map(is_known, (*left, *right))):
@@ -294,7 +310,7 @@ def _is_scalar(value: Value) -> bool:
 
 
 def negated(machine: Interpreter, value: Value) -> Value:
-    """Return the opposite of the truth of a value."""
+    """Return the result of ``not value``."""
     answer, condition = truth(machine, value)
     if answer is not None:
         return not answer
@@ -303,7 +319,7 @@ def negated(machine: Interpreter, value: Value) -> Value:
 
 
 def compared(op: ast.cmpop, left: Value, right: Value) -> Value:
-    """Return the result of a comparison."""
+    """Return the result of a comparison ``left op right``, for all alternatives of both operands."""
     return each(left, lambda left_value: each(right, lambda right_value: _one_compare(op, left_value, right_value)))
 
 
@@ -368,7 +384,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def _asked(question: str) -> Unknown:
-    """Return an unknown truth, whose condition is a Python expression of launch configurations."""
+    """Return an unknown truth whose condition is ``question``, a Python expression that launch can evaluate."""
     if UNKNOWN in question:
         return Unknown("comparison with what is not known")
     return Unknown("a truth", LaunchCondition((expression(question),), None))
@@ -380,7 +396,7 @@ def opposite_of(condition: LaunchCondition) -> LaunchCondition:
 
 
 def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
-    """Return a slice of a value; ``parts`` are start, stop and step."""
+    """Return the slice ``owner[start:stop:step]``; ``parts`` are the values of start, stop and step."""
     known = all(part is None or isinstance(part, int) for part in parts)
     if isinstance(owner, (list, tuple)):
         owner = machine.present(owner) if isinstance(owner, list) else owner
@@ -397,19 +413,25 @@ def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
 
 
 def waits(text: str) -> bool:
-    """Return whether a text is known once the configurations and environment variables in it are."""
+    """Return whether launch can compute a symbolic text, because it depends only on configurations and environment variables.
+
+    True for the text of ``LaunchConfiguration("a")``. False for UNKNOWN, and for a plain text such as ``robot.yaml``.
+    """
     return UNKNOWN not in text and bool(named_in(text))
 
 
 def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
-    """Return the values of a dictionary under an unknown key, each under the condition of its own key."""
+    """Return the values of a dictionary for a key that is known only at launch.
+
+    Each value is guarded by the condition that the key of its item equals ``key``, if all keys are known texts.
+    """
     if not _is_choice(owner, key):
         return list(owner.values())
     return [Guarded(value, (LaunchCondition((str(key),), str(name)),)) for name, value in owner.items()]
 
 
 def without(owner: dict[Any, Value], key: str) -> Conditions:
-    """Return the conditions under which a dictionary does not contain an unknown key."""
+    """Return the conditions under which a dictionary has no item ``key``, which is known only at launch."""
     if not _is_choice(owner, key):
         return ()
     return tuple([LaunchCondition((str(key),), str(name), wanted=False) for name in owner])
@@ -420,15 +442,15 @@ def _is_choice(owner: dict[Any, Value], key: str) -> bool:
 
 
 def may_have_more(values: Sequence[Value]) -> bool:
-    """Return whether a collection may have more elements than are known.
+    """Return whether the number of elements of a collection is unknown.
 
-    A guarded or unknown element represents any number of elements.
+    It is unknown if an element is guarded or unknown, because such an element represents any number of elements.
     """
     return any(isinstance(value, (Guarded, Unknown)) for value in values)
 
 
 def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:
-    """Return an element of a value."""
+    """Return the value of ``owner[key]``, where ``key`` is not a slice."""
     if isinstance(owner, dict):
         if isinstance(key, str) and not is_plain(key):
             return union(chosen(owner, key)) if owner else Unknown("element of an empty dictionary")

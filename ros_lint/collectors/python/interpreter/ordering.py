@@ -1,4 +1,4 @@
-"""Order and equality of values, for sorted(), min(), max() and sets."""
+"""The order and equality of values, for sorted(), min(), max() and sets."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_COMPARED = 500
 def arranged(
     machine: Interpreter, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame
 ) -> list[Value]:
-    """Return values as list.sort() with its keywords orders them, unchanged if their order is unknown."""
+    """Return values in the order of ``list.sort(**keywords)``, unchanged if their order is unknown."""
     keys = sort_keys(machine, values, keywords, node, frame)
     if keys is None:
         return values
@@ -31,7 +31,10 @@ def arranged(
 def sort_keys(
     machine: Interpreter, values: list[Value], keywords: Mapping[str, Value], node: ast.Call, frame: Frame
 ) -> list[Any] | None:
-    """Return the sort keys of values, None if they are unknown."""
+    """Return the keys by which values are sorted: the results of ``keywords["key"]``, else the values themselves.
+
+    The result is None if any key is unknown.
+    """
     key = keywords.get("key")
     keys = [plain(value if key is None else machine.call(key, [plain(value)], {}, node, frame)) for value in values]
     return keys if all(is_small(key) and is_known(key) for key in keys) else None
@@ -47,7 +50,7 @@ def is_known(value: Value) -> bool:
 
 
 def is_small(value: Any) -> bool:
-    """Return whether a collection has few elements, with those of nested collections."""
+    """Return whether a value has few elements; the elements of nested collections are counted, too."""
     stack, count = [value], 0
     while stack:
         item = stack.pop()
@@ -62,7 +65,7 @@ def is_small(value: Any) -> bool:
 
 
 def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
-    """Return the positions of keys in their order. Raises ProgramRaised if they cannot be compared."""
+    """Return the positions of the sorted keys: ``["b", "a"]`` -> ``[1, 0]``. Raises ProgramRaised if keys cannot be compared."""
     try:
         return sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
     except TypeError:
@@ -70,7 +73,7 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
 
 
 def unique(values: Iterable[Value]) -> list[Value]:
-    """Return the elements of a set: values without those that certainly equal an earlier one."""
+    """Return ``values`` without those that certainly equal an earlier value, as the elements of a set."""
     elements: list[Value] = []
     seen: set[Any] = set()
     for value in values:

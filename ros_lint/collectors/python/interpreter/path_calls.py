@@ -19,7 +19,7 @@ def _join(call: LibraryCall) -> Value:
 
 
 def on_path(function: Callable[[str], str]) -> Rule:
-    """Return the model of a function from a path to a text."""
+    """Return the model of a function that takes a path and returns a text, such as ``os.path.dirname``."""
     return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
 
 
@@ -28,7 +28,7 @@ def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
 
 
 def new_path(call: LibraryCall) -> Value:
-    """Return a path of pathlib."""
+    """Model of ``pathlib.Path()``: return the path that joins all arguments."""
     rows = [call.texts(position) for position in range(len(call.arguments))]
     paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
     return union(guarded_text(text, FilePath(text)) for text in paths)

@@ -1,4 +1,4 @@
-"""Functions of os.path and pathlib on symbolic texts."""
+"""Models of the functions of os.path and the attributes of pathlib paths, for symbolic texts."""
 
 from __future__ import annotations
 
@@ -20,10 +20,12 @@ _MOST_PARENTS = 12
 
 
 def split(path: str) -> tuple[str, str]:
-    """Return the folder and the name of a path, as os.path.split does.
+    """Return the folder and the last name of a path, as ``os.path.split()`` does: ``a/b.py`` -> ``("a", "b.py")``.
 
-    A part that is known only at launch counts as one name, unless its default contains a slash or nothing precedes
-    it.
+    A part that is known only at launch counts as one name. Exceptions, for which the result is not known before launch:
+
+    - The default of the part contains a slash.
+    - Nothing precedes the part.
     """
     if is_plain(path):
         return posixpath.split(path)
@@ -47,7 +49,10 @@ def split_suffix(path: str) -> tuple[str, str]:
 
 
 def _last_outside(path: str, character: str) -> int:
-    """Return the last offset of a character outside of marked parts, -1 if there is none."""
+    """Return the last offset of a character in a symbolic path, -1 if there is none.
+
+    Characters in parts that are known only at launch do not count.
+    """
     position, start, depth = -1, 0, 0
     for mark in BRACKETS.finditer(path):
         if not depth:
@@ -58,7 +63,7 @@ def _last_outside(path: str, character: str) -> int:
 
 
 def of_path(owner: FilePath, name: str) -> Value:
-    """Return an attribute of a path of pathlib."""
+    """Return the attribute ``name`` of a path of pathlib: ``parent``, ``name``, ``stem`` and so on, else a Method."""
     folder, last = split(owner.text)
     match name:
         case "parent":
@@ -82,7 +87,7 @@ def of_path(owner: FilePath, name: str) -> Value:
 
 
 def _split_name(name: str) -> tuple[str, str]:
-    """Return the stem and the suffix of a name. For pathlib, a dot at its end is not a suffix."""
+    """Return stem and suffix of a file name as pathlib does: ``a.py`` -> ``("a", ".py")``, ``a.`` -> ``("a.", "")``."""
     stem, suffix = split_suffix(name)
     return (name, "") if suffix == "." else (stem, suffix)
 
@@ -96,7 +101,7 @@ def call_of_path(
     node: ast.Call,
     frame: Frame,
 ) -> Value:
-    """Return the result of a method of a path of pathlib."""
+    """Return the result of calling the method ``name`` of a path of pathlib."""
     match name:
         case "joinpath":
             return machine.join_paths(owner, arguments, node, frame)

@@ -1,4 +1,4 @@
-"""The interfaces of the Python interpreter: to its handlers, and to models of libraries."""
+"""The interfaces between the Python interpreter, its handlers of statements and expressions, and the models of libraries."""
 
 from __future__ import annotations
 
@@ -14,22 +14,25 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 class Library(Protocol):
-    """The models of the libraries that a program imports, and of their objects."""
+    """The models of the modules that are not interpreted, such as launch and setuptools, and of their objects."""
 
     def describes(self, module: str) -> bool:
-        """Return whether there is a model of a top-level module. If so, its source is not interpreted."""
+        """Return whether the library has a model of a top-level module, whose source is then not interpreted."""
         ...
 
     def model(self, module: str, at: ast.stmt) -> ast.Module | None:
-        """Return a program with the effects of a module, located at ``at``; None for any other module."""
+        """Return a short program with the effects of a released module, None if there is no such program.
+
+        All its nodes have the position of ``at``, the statement that imports the module.
+        """
         ...
 
     def member(self, name: str, node: ast.AST, source: Source) -> Value:
-        """Return the value of a dotted name of a library; ``node`` is the expression or import."""
+        """Return the value of a dotted name such as ``os.path.join``; ``node`` is the expression or import with that name."""
         ...
 
     def is_substitution(self, name: str) -> bool:
-        """Return whether a name is a class of substitutions, whatever module it is imported from."""
+        """Return whether ``name`` is the name of a substitution class of launch, from whatever module it is imported."""
         ...
 
     def call(
@@ -41,30 +44,33 @@ class Library(Protocol):
         node: ast.Call,
         frame: Frame,
     ) -> Value:
-        """Return the result of a library function (by its full name), or of a method of a library object or a path."""
+        """Return the result of a call.
+
+        ``callee`` is the dotted name of a library function, or a method of a path or of an object of the library.
+        """
         ...
 
     def attribute(self, owner: LaunchObject, name: str) -> Value:
-        """Return an attribute of a library object."""
+        """Return the value of the attribute ``name`` of an object of the library."""
         ...
 
     def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:
-        """Return an item of a library object."""
+        """Return the value of ``owner[key]``, where ``owner`` is neither a known collection nor a known text."""
         ...
 
     def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
-        """Return every text that a value can become.
+        """Return every symbolic text that a value can become at launch.
 
-        ``spend`` is called with the number of steps and may raise BudgetExceeded.
+        The function calls ``spend`` with the number of its steps; ``spend`` may raise BudgetExceeded.
         """
         ...
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
-        """Return the values of a symbolic text if all arguments declared so far have their defaults."""
+        """Return the possible values of a symbolic text if every launch argument declared so far has its default."""
         ...
 
     def misuse(self, made: LaunchObject, how: How) -> How | None:
-        """Return how an operation misuses a library object, None if it does not."""
+        """Return how an operation misuses an object of the library, None if the operation is correct for the object."""
         ...
 
 
@@ -82,15 +88,15 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def spend(self, steps: int) -> None:
-        """Count steps. Raises BudgetExceeded."""
+        """Take steps from the budget of the program. Raises BudgetExceeded if fewer are left."""
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:
-        """Interpret a block under conditions."""
+        """Return a context manager that adds conditions to the present ones while its ``with`` block runs."""
 
     @abstractmethod
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
-        """Return a module of the workspace, or a model of a released module; None for any other module."""
+        """Return the interpreted module that the import statement ``at`` names, None if the module cannot be interpreted."""
 
     @abstractmethod
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
@@ -98,36 +104,51 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Interpret statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
+        """Interpret statements, and return how the last of them ends: NEXT, CONTINUE, BREAK or LEAVE.
+
+        Raises ProgramRaised and BudgetExceeded.
+        """
 
     @abstractmethod
     def function(self, node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda, frame: Frame) -> Function:
-        """Return the value of a function definition."""
+        """Return the function that a definition or a lambda creates, with the values of its default arguments."""
 
     @abstractmethod
     def builtin(self, node: ast.Name, frame: Frame) -> Value:
-        """Return the value of a name that the program does not bind."""
+        """Return the value of a name that the program does not bind, and record the name as unbound if it is not builtin."""
 
     @abstractmethod
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        """Return the result of a call. Raises ProgramRaised and BudgetExceeded."""
+        """Return the result of calling ``function``. Raises ProgramRaised and BudgetExceeded."""
 
     @abstractmethod
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
-        """Return the result of an operation; in place of an unknown one its cause, if the interpreter notes origins."""
+        """Return the value of an operation on ``operands``.
+
+        If the value is unknown and the interpreter records origins, the result is the unknown operand that is the cause.
+        """
 
     @abstractmethod
     def join_paths(self, left: Value, right: Sequence[Value], node: ast.expr, frame: Frame) -> Value:
-        """Return the result of ``/`` or joinpath: a path of pathlib, or a substitution."""
+        """Return the joined path of ``left / right`` or ``left.joinpath(*right)``.
+
+        The result is a PathJoinSubstitution if a part is a substitution of launch, else a path of pathlib.
+        """
 
     @abstractmethod
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the text of a file of the workspace, Unknown for any other file."""
+        """Return the content of a file of the workspace, which represents the opened file.
+
+        The result is Unknown for any other file.
+        """
 
     @abstractmethod
     def texts(self, value: Value) -> tuple[str, ...]:
-        """Return every text that a value can become. Raises BudgetExceeded."""
+        """Return every symbolic text that a value can become at launch. Raises BudgetExceeded."""
 
     @abstractmethod
     def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
-        """Note an operation on a value if it misuses an object of a library and is certain to run."""
+        """Record that an operation misuses ``value``, if it is an object of the library and the operation certainly runs.
+
+        Correct operations are not recorded.
+        """

@@ -1,4 +1,4 @@
-"""Side effects recorded while a launch file is interpreted: look-ups, files, conditions, variables."""
+"""Side effects that are recorded while a program is interpreted: package look-ups, read files, conditions, variables."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
 
 
 class Misused(NamedTuple):
-    """A place where a substitution is used as a text."""
+    """An operation that uses a substitution of launch as a text."""
 
     how: How
     made: LaunchObject
@@ -42,7 +42,10 @@ def are_unknown(conditions: Conditions) -> bool:
 
 
 class Recorder:
-    """The recorded effects of a launch file and its imports, and the conditions that hold at present."""
+    """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present.
+
+    The program is a launch file or a setup.py with the modules that it imports.
+    """
 
     def __init__(self) -> None:
         self._branches = 0
@@ -88,9 +91,10 @@ class Recorder:
     # --- conditions -----------------------------------------------------------------------------------------------
 
     def fresh(self, condition: LaunchCondition, test: ast.expr | None = None) -> LaunchCondition:
-        """Return a condition; instead of PERHAPS a new one, so that it differs from its own opposite.
+        """Return ``condition``, or a new unknown condition in place of PERHAPS.
 
-        ``test`` is the expression that is true under the condition.
+        A new condition differs from all others, so that it can be distinguished from its opposite. ``test`` is the expression
+        that is true under the condition.
         """
         if condition is PERHAPS:
             condition = LaunchCondition((self.another(),), None)
@@ -99,12 +103,15 @@ class Recorder:
         return condition
 
     def another(self) -> str:
-        """Return a new text that is unknown and differs from all others."""
+        """Return an unknown text that differs from all earlier unknown texts."""
         self._branches += 1
         return f"{UNKNOWN}{self._branches}"
 
     def guard(self, value: Value) -> Value:
-        """Return a value guarded by the present conditions, to be added to a collection."""
+        """Return a value that exists only under the present conditions, as an element for a collection.
+
+        If no conditions hold, the value is returned unchanged.
+        """
         return Guarded(value, self.conditions) if self.conditions else value
 
     def is_here(self, value: Value) -> bool:
@@ -118,21 +125,21 @@ class Recorder:
         )
 
     def present(self, values: Sequence[Value]) -> list[Value]:
-        """Return the elements that may exist under the present conditions."""
+        """Return those of the elements ``values`` that may exist under the present conditions."""
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
 
     def any_perhaps(self, values: Iterable[Value]) -> bool:
-        """Return whether any element may be missing under the present conditions."""
+        """Return whether any of the elements ``values`` may be missing under the present conditions."""
         return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
 
     def is_at(self, values: Sequence[Value], key: int | slice) -> bool:
-        """Return whether it is certain which of some elements are at an index or slice."""
+        """Return whether it is certain which elements of a list are at an index or slice, although elements may be missing."""
         if isinstance(key, slice):
             return not self.any_perhaps(values)
         return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
 
     def removed(self, value: Value) -> Value:
-        """Return an element that is removed under the present conditions. It remains if any of them does not hold."""
+        """Return an element guarded so that it no longer exists if all present conditions hold, as after its removal."""
         first, *others = self.conditions
         remains = first._replace(wanted=not first.wanted)
         if others:
@@ -141,14 +148,14 @@ class Recorder:
         return Guarded(value, (remains,))
 
     def joined(self, values: Sequence[Guarded]) -> Value:
-        """Return the union of values. If these are too many, they escape."""
+        """Return the union of values. If there are too many, the result is Unknown and the values escape."""
         joined_value = union(values)
         if isinstance(joined_value, Unknown):
             self.escape(values)
         return joined_value
 
     def escape(self, value: Value) -> None:
-        """Note that a value escapes to code that is not interpreted: the objects in it may be launched."""
+        """Mark the launch objects in a value as escaped: code that is not interpreted gets the value, and may launch them."""
         waiting, count = [value], 0
         while waiting and count < 1_000:
             item = waiting.pop()
@@ -171,13 +178,16 @@ class Recorder:
     # --- what is asked for, and set -------------------------------------------------------------------------------
 
     def ask(self, paths: tuple[str, ...]) -> Value:
-        """Return the unknown truth whether a file exists."""
+        """Return the unknown truth whether a file exists, and record its possible paths as tested."""
         answer = LaunchCondition((self.another(),), None)
         self.asked[answer.texts] = paths
         return Unknown("whether a file is there", answer)
 
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
-        """Note a package look-up; ``conditions`` are those under which ``package`` is the name."""
+        """Record that the program looks up a package.
+
+        ``eager`` is True if the program, not launch, looks it up. ``conditions`` are those under which the name is ``package``.
+        """
         if UNKNOWN not in package and not source.lent:
             known = self.named.get(package)
             if known is None or (_says(at, package) and not _says(known[0], package)):
@@ -188,18 +198,18 @@ class Recorder:
             self.lazily.add(package)
 
     def set_variable(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
-        """Note that an environment variable is set for everything after it."""
+        """Record that the call ``at`` sets an environment variable, for all code that is interpreted after the call."""
         made = LaunchObject("SetEnvironmentVariable", [name, value], {}, at, source)
         made.conditions = self.conditions
         self.variables.append(made)
         self._variables[name] = union([self.variable(name), self.guard(value)]) if self.conditions else value
 
     def variable(self, name: str, default: str | None = None) -> Value:
-        """Return the value of an environment variable."""
+        """Return the value of an environment variable: the value that the program set, else a symbolic text."""
         return self._variables[name] if name in self._variables else environment(name, default)
 
     def sets(self, names: Iterable[str]) -> bool:
-        """Return whether any of some environment variables has been set."""
+        """Return whether the program has set any of the environment variables ``names``."""
         return not self._variables.keys().isdisjoint(names)
 
 

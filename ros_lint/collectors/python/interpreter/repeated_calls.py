@@ -1,4 +1,4 @@
-"""Detection of recursive calls that repeat a call which is being interpreted.
+"""Detection of a recursive call that repeats a call which is still being interpreted.
 
 A function that searches a nested dictionary calls itself for each element. If the dictionary is unknown, the inner
 call does the same as the outer call, on the same unknown values. Interpreting the inner call would add no result and
@@ -37,7 +37,7 @@ _DEEPEST = 12
 
 
 class UnderWay(NamedTuple):
-    """A call of a function that is being interpreted."""
+    """A function call that has begun and has not ended yet."""
 
     node: ast.AST
     """The definition of the function."""
@@ -48,13 +48,13 @@ class UnderWay(NamedTuple):
 
 
 def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value], recorder: Recorder) -> bool:
-    """Record a call that begins, and return True; return False if it repeats a recorded one.
+    """Append a call to ``under_way`` and return True, or return False if the call repeats a call in ``under_way``.
 
-    A repeating call must not be interpreted. A call repeats a call around it if both read the same values and an
-    undecided branch led from one to the other. Without such a branch the program ends the recursion by itself.
+    A repeating call must not be interpreted. A call repeats an outer call of the same function if both read the same
+    values, and if the inner call is under more conditions. Without more conditions the program ends the recursion itself.
 
     ``names`` are the values of the parameters, ``recorder`` has the conditions that hold. Most functions are not
-    recursive, so outlines are computed from the second call on.
+    recursive, so values are compared from the second nested call on.
     """
     outline, conditions = None, len(recorder.conditions)
     outer = [call for call in under_way if call.node is function.node and call.conditions < conditions]
@@ -67,7 +67,10 @@ def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value]
 
 
 def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
-    """Return the outer names that a function, and the functions that it may call, read, with their values."""
+    """Return the values of the outer names that a function reads, by name and frame.
+
+    Names that are read by the functions which it may call are included.
+    """
     values: dict[tuple[str, Frame], Value] = {}
     waiting, seen = [function], {function.node}
     while waiting:
@@ -86,14 +89,14 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
 
 
 def _outline(names: dict[Any, Value], recorder: Recorder) -> Any:
-    """Return a value that is equal for names which differ only in unknown values, None if too large."""
+    """Return the outline of names with their values, see :class:`_Outliner`, None if there are too many values."""
     outliner = _Outliner(recorder)
     made = outliner.of(names)
     return None if outliner.too_much else made
 
 
 class _Outliner:
-    """Creates hashable values that are equal for values which differ only in unknown parts."""
+    """Creates the outline of a value: a hashable value that is equal for all values which differ only in unknown parts."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
@@ -103,7 +106,7 @@ class _Outliner:
         """The number of unknown values so far."""
 
     def of(self, value: Value, depth: int = 0) -> Any:
-        """Return the outline of a value that is nested in ``depth`` others."""
+        """Return the outline of a value that is nested ``depth`` levels deep in collections and objects."""
         self._left -= 1
         if self._left < 0 or depth > _DEEPEST:
             self.too_much = True
@@ -134,7 +137,7 @@ class _Outliner:
         return type(value), value
 
     def _text(self, text: str) -> Any:
-        """Return a text, or only its known beginning and end if a part of it is unknown."""
+        """Return the outline of a text: the text, or its known beginning and end if a part of it is unknown."""
         start, mark, rest = text.partition(UNKNOWN)
         if not mark:
             return str(text)
@@ -142,7 +145,10 @@ class _Outliner:
         return start, rest.rpartition(UNKNOWN)[2]
 
     def _elements(self, values: Iterable[Value], depth: int) -> Any:
-        """Return the outlines of elements. An unknown or conditional element represents any number of them."""
+        """Return the outlines of the elements of a list. Equal unknown or guarded elements have one outline.
+
+        An unknown or guarded element represents any number of elements.
+        """
         outlines: dict[Any, None] = {}
         for value in filter(self._recorder.is_here, values):
             before = self.unknown

@@ -45,7 +45,10 @@ _Node = TypeVar("_Node", bound=ast.AST)
 
 
 def execute(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
-    """Interpret statements, and return how they end. Raises ProgramRaised and BudgetExceeded."""
+    """Interpret statements, and return how the last of them ends: NEXT, CONTINUE, BREAK or LEAVE.
+
+    Raises ProgramRaised and BudgetExceeded.
+    """
     for statement in body:
         handler = _STATEMENTS.get(type(statement))
         if handler is not None:
@@ -122,7 +125,10 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
 
 
 def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditions) -> int:
-    """Interpret the finally block, which runs however the try statement is left."""
+    """Interpret the finally block of a try statement, and return how it ends: NEXT, CONTINUE, BREAK or LEAVE.
+
+    The block runs under the conditions ``before`` the statement, because it runs however the statement ends.
+    """
     after, machine.conditions = machine.conditions, before
     signal = execute(machine, node.finalbody, frame)
     machine.conditions = (*after, *machine.conditions[len(before) :])
@@ -171,7 +177,10 @@ def _match(machine: Interpreter, node: ast.Match, frame: Frame) -> int:
 
 
 def _fits(pattern: ast.pattern) -> ast.expr:
-    """Return the test of the subject that corresponds to a pattern."""
+    """Return an expression that tests whether the subject of a match statement fits a pattern.
+
+    ``case 1`` -> ``subject == 1``
+    """
     subject: ast.expr = _at(ast.Name(_SUBJECT), pattern)
     match pattern:
         case ast.MatchValue(value=value):
@@ -208,7 +217,7 @@ _LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_test
 
 
 def _decorated(machine: Interpreter, function: Function, decorator: ast.expr, frame: Frame) -> Value:
-    """Return a decorated function; the function itself, marked as changed, if the decorator is unknown."""
+    """Return the value of a function with a decorator. If the decorator is unknown, the function is marked as changed."""
     name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
     if isinstance(name, LibraryName) and name.name.partition(".")[0] in _LEAVING:
         return function

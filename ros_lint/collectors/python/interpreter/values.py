@@ -1,7 +1,8 @@
-"""The values of names while a program is interpreted: a launch file, or a setup.py.
+"""The values that the names of a program have while it is interpreted. The program is a launch file or a setup.py.
 
-Texts, numbers, lists and dictionaries are Python's own. This module has classes for the other values: objects of the
-launch libraries, functions and classes of the program, alternatives, and unknown values.
+Texts, numbers, lists and dictionaries are those of Python. This module has classes for the other values: objects of
+the launch libraries, functions and classes of the program, alternatives, and unknown values. A text may be symbolic:
+marks stand for its parts that are known only at launch, see :mod:`ros_lint.collectors.symbolic_text`.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
 
 
 class Module(NamedTuple):
-    """A module of the workspace."""
+    """The source and the syntax tree of a module of the workspace."""
 
     text: Text
     tree: ast.Module
@@ -36,7 +37,7 @@ Modules = Callable[[str, Text], "Module | None"]
 
 
 class Source:
-    """A module: its text, and the names that it binds."""
+    """An interpreted module: its source, and the values of the names that it binds at its top level."""
 
     __slots__ = ("ascii", "assigns_inside", "lent", "names", "text", "yields")
 
@@ -51,7 +52,7 @@ class Source:
 
 
 class Written(str):
-    """A text with the expression that produced it."""
+    """A text, the expression that produced it, and the module of that expression."""
 
     __slots__ = ("node", "source")
 
@@ -60,7 +61,7 @@ class Written(str):
 
 
 def written(text: str, node: ast.expr, source: Source) -> Written:
-    """Return a text with the expression that produced it."""
+    """Return ``text`` with the expression that produced it, and the module of that expression."""
     made = Written(text)
     made.node = node
     made.source = source
@@ -68,9 +69,10 @@ def written(text: str, node: ast.expr, source: Source) -> Written:
 
 
 class Unknown:
-    """Any value.
+    """An unknown value; ``reason`` says what is unknown.
 
-    ``condition`` is the condition of its truth, if known. ``node`` is its origin, if the interpreter notes origins.
+    The value is true under ``condition``, if that is known. ``node`` is the origin of the value, if the interpreter
+    records origins.
     """
 
     __slots__ = ("condition", "node", "reason")
@@ -82,7 +84,7 @@ class Unknown:
 
 
 class Guarded:
-    """A value that exists only under conditions."""
+    """A value that exists only if all its conditions hold, such as a list element that a branch appends."""
 
     __slots__ = ("conditions", "value")
 
@@ -92,7 +94,7 @@ class Guarded:
 
 
 class Union:
-    """One of several values."""
+    """A value with several alternatives, each under its conditions."""
 
     __slots__ = ("values",)
 
@@ -101,18 +103,21 @@ class Union:
 
 
 class SetOf(list[Value]):
-    """A set: a list of distinct elements in the order of insertion, because unknown elements are not hashable."""
+    """A set of Python, represented by a list of distinct elements in order of insertion.
+
+    It is a list, because unknown elements are not hashable.
+    """
 
 
 class Globbed(list[Value]):
-    """The list that one call of glob() returns. A list made from it by an operation is no longer of this type."""
+    """The list of files that a call of ``glob(pattern)`` returns. A list that is made from it by an operator is a plain list."""
 
     __slots__ = ("pattern",)
     pattern: str
 
 
 def globbed(pattern: str, paths: Iterable[Value]) -> Globbed:
-    """Return paths as the result of a glob pattern."""
+    """Return paths as the result of ``glob(pattern)``."""
     result = Globbed(paths)
     result.pattern = pattern
     return result
@@ -131,7 +136,7 @@ class FilePath:
 
 
 class LibraryName:
-    """A name of a library: a module, a class, a function."""
+    """A dotted name of a module, class, function or constant of a library, such as ``os.path.join``."""
 
     __slots__ = ("name",)
 
@@ -144,7 +149,7 @@ class LibraryName:
 
 
 def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
-    """Return the expression of an argument of a call, or the whole call."""
+    """Return the expression of the argument of a call with a position or one of ``names``, the call itself if there is none."""
     for keyword in call.keywords:
         if keyword.arg in names:
             return keyword.value
@@ -154,7 +159,7 @@ def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
 
 
 class LaunchObject:
-    """An object of a class of the launch libraries: an action, a substitution, a description."""
+    """An object of a class of the launch libraries, such as an action, a substitution or a launch description."""
 
     __slots__ = ("arguments", "conditions", "entities", "escaped", "keywords", "name", "node", "seen", "source")
 
@@ -173,19 +178,19 @@ class LaunchObject:
         """True if it escaped to code that is not interpreted."""
 
     def get(self, position: int, *names: str) -> Value:
-        """Return an argument by its name or position, None if it is missing."""
+        """Return the value of the argument with a position or one of ``names``, None if it is missing."""
         for name in names:
             if name in self.keywords:
                 return self.keywords[name]
         return self.arguments[position] if 0 <= position < len(self.arguments) else None
 
     def written(self, position: int, *names: str) -> ast.expr:
-        """Return the expression of an argument, or the whole call."""
+        """Return the expression of the argument with a position or one of ``names``, the call itself if it is missing."""
         return argument_of(self.node, position, *names)
 
 
 class Function:
-    """A function of the program. ``frame`` is the one in which it was defined."""
+    """A function that the program defines. ``frame`` has the names of the module or function around the definition."""
 
     __slots__ = ("changed", "defaults", "frame", "keyword_defaults", "node", "owner")
 
@@ -198,7 +203,7 @@ class Function:
         self.changed = False  # True if an unknown decorator may replace it
 
     def yields(self) -> bool:
-        """Return whether it is a generator, disregarding ``yield`` in nested functions."""
+        """Return whether the function is a generator. ``yield`` in nested functions does not count."""
         waiting: list[ast.AST] = list(self.node.body) if isinstance(self.node.body, list) else []
         while waiting:
             inner = waiting.pop()
@@ -209,7 +214,10 @@ class Function:
         return False
 
     def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
-        """Return the values of the parameters at the beginning of a call."""
+        """Return the values of the parameters, by name, if the function is called with these arguments.
+
+        A parameter without argument has its default value, or is unknown if it has no default.
+        """
         spec = self.node.args
         names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
         values: dict[str, Value] = dict(self.keyword_defaults)
@@ -230,7 +238,7 @@ class Function:
 
 
 class Bound:
-    """A function with some of its arguments: a method, or a partial."""
+    """A function and values of its first arguments: a bound method, or the result of ``functools.partial()``."""
 
     __slots__ = ("arguments", "function", "keywords")
 
@@ -241,7 +249,7 @@ class Bound:
 
 
 class Method:
-    """A method of a value of Python or of a library object."""
+    """A method of a text, a collection, a path or an object of a library: ``a.append``."""
 
     __slots__ = ("name", "owner")
 
@@ -251,7 +259,7 @@ class Method:
 
 
 class Class:
-    """A class of the program."""
+    """A class that the program defines."""
 
     __slots__ = ("bases", "fields", "name", "names")
 
@@ -269,12 +277,12 @@ class Class:
         return None
 
     def every_field(self) -> dict[str, None]:
-        """Return the fields of the class and its base classes; those of base classes come first."""
+        """Return the names of the fields of the class and its base classes; those of base classes come first."""
         line = [cls for cls in self._line() if isinstance(cls, Class)]
         return dict.fromkeys(name for cls in reversed(line) for name in cls.fields)
 
     def library_base(self) -> LibraryName | None:
-        """Return the first base class that a library defines."""
+        """Return the first direct or indirect base class that a library defines, None if there is none."""
         return next((cls for cls in self._line() if isinstance(cls, LibraryName)), None)
 
     def _line(self) -> Iterator[Value]:
@@ -291,7 +299,10 @@ class Class:
 
 
 class Instance:
-    """An object of a class of the program. ``made`` is its launch object if a launch class is its base."""
+    """An object of a class that the program defines.
+
+    If a launch class is the base of that class, ``made`` is the launch object that the object represents.
+    """
 
     __slots__ = ("attributes", "cls", "made")
 
@@ -302,7 +313,7 @@ class Instance:
 
 
 class Context:
-    """The launch context that is passed to functions."""
+    """The launch context that launch passes to functions, for example to the function of an OpaqueFunction."""
 
     __slots__ = ()
 
@@ -319,7 +330,7 @@ class Exit(NamedTuple):
 
 
 class Frame:
-    """The names of a running function, or of a module."""
+    """The names of a running function, class body or module, with their values."""
 
     __slots__ = ("declared", "exits", "names", "outer", "returned", "source", "yielded")
 
@@ -336,9 +347,9 @@ class Frame:
 
 
 class ProgramRaised(Exception):  # noqa: N818  (it represents any exception of the program)
-    """The program raises an exception of the class ``kind``, "" if unknown.
+    """The program raises an exception. ``kind`` is the name of its class, "" if unknown.
 
-    It is deliberate if a raise statement or a function such as sys.exit() raises it.
+    ``deliberate`` is True if a raise statement, or a function such as sys.exit(), raises the exception.
     """
 
     def __init__(self, kind: str = "", *, deliberate: bool = False) -> None:
@@ -352,7 +363,10 @@ class BudgetExceeded(Exception):  # noqa: N818
 
 
 def union(values: Iterable[Value]) -> Value:
-    """Return a value that is one of several; the value itself if all are the same."""
+    """Return a Union of all alternatives of values. If all alternatives are the same, the result is the value itself.
+
+    The result is Unknown if there are too many alternatives, or none.
+    """
     results: list[Guarded] = []
     for value in values:
         for alternative in alternatives(value):
@@ -370,7 +384,10 @@ def union(values: Iterable[Value]) -> Value:
 
 
 def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
-    """Yield every alternative of a value with its conditions."""
+    """Yield every alternative of a value with its conditions; a value without alternatives is yielded itself.
+
+    ``conditions`` are added to those of each alternative.
+    """
     if isinstance(value, Union):
         for alternative in value.values:
             yield from alternatives(alternative, conditions)
@@ -381,31 +398,34 @@ def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]
 
 
 def guarded_text(text: str, made: Value) -> Value:
-    """Return a value that was computed from an alternative of a text, under the conditions of the text."""
+    """Return the value ``made``, which was computed from the symbolic text ``text``, under the conditions of the text."""
     conditions = conditions_of(text)
     return Guarded(made, conditions) if conditions else made
 
 
 def under(texts: Iterable[str], conditions: Conditions) -> Iterator[str]:
-    """Yield texts under further conditions."""
+    """Yield symbolic texts with ``conditions`` added to the conditions of each text."""
     for text in texts:
         yield conditional(text, (*conditions, *conditions_of(text))) if conditions else text
 
 
 def plain(value: Value) -> Value:
-    """Return a value without the conditions around it."""
+    """Return the value in a guarded value, that is, without its conditions. Other values are returned unchanged."""
     while isinstance(value, Guarded):
         value = value.value
     return value
 
 
 def cause(value: Value, reason: str) -> Unknown:
-    """Return the unknown value that makes another one unknown: ``value``, if its origin is noted."""
+    """Return the value that is reported as the cause if an unknown ``value`` makes the result of an operation unknown.
+
+    This is ``value`` itself, if the interpreter recorded its origin, else a new unknown value with ``reason``.
+    """
     return value if isinstance(value, Unknown) and value.node is not None else Unknown(reason)
 
 
 def around(value: Value) -> Conditions:
-    """Return the conditions around a value."""
+    """Return the conditions of a guarded value, () for any other value."""
     conditions: Conditions = ()
     while isinstance(value, Guarded):
         conditions += value.conditions
@@ -413,16 +433,16 @@ def around(value: Value) -> Conditions:
     return conditions
 
 
-def same(one: Value, other: Value) -> bool:
-    """Return whether two values are certainly the same."""
-    if one is other:
+def same(left: Value, right: Value) -> bool:
+    """Return whether two values are certainly equal."""
+    if left is right:
         return True
-    if isinstance(one, str) and isinstance(other, str):
-        return one == other
+    if isinstance(left, str) and isinstance(right, str):
+        return left == right
     simple = (int, float, bool, type(None), tuple)
-    return type(one) is type(other) and isinstance(one, simple) and bool(one == other)
+    return type(left) is type(right) and isinstance(left, simple) and bool(left == right)
 
 
 def environment(name: str, default: str | None) -> str:
-    """Return the symbolic text of an environment variable."""
+    """Return the symbolic text for the value of the environment variable ``name``, which is known only at launch."""
     return configuration(f"${name}", default)

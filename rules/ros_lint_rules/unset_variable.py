@@ -1,0 +1,160 @@
+"""
+## What it finds
+
+A variable that is a whole argument of a command of CMake and that nothing sets. These commands are checked:
+
+- `ament_export_dependencies()` and the other `ament_export_*()` commands;
+- `ament_target_dependencies()` and `target_link_libraries()`;
+- `install()`;
+- `add_executable()`, `add_library()`, `target_sources()` and the like;
+- `rosidl_generate_interfaces()`.
+
+## Why it matters
+
+CMake replaces such a reference by nothing, without a warning. `ament_export_dependencies(${dependencies})` then exports nothing,
+and packages that find this one do not find its dependencies. Mostly the variable was renamed, or its name is misspelled.
+
+## How to fix it
+
+Write the name of the variable that is set, or set the variable before the command. If nothing is missing, remove the reference.
+If exactly one variable of the package has a similar name, the fix writes its name. It is unsafe, because the command then has
+an effect.
+
+Findings that are probably consequences are not shown as long as this one is: for example, what `unexported-dependency` reports
+if the variable is an argument of `ament_export_dependencies()`.
+
+## Limitations
+
+Not reported:
+
+- Variables whose name is an argument of any command of the package: `set(x ...)`, `option(x ...)`, `if(x)`, `foreach(x ...)`,
+  `find_library(x ...)`, or an own function that sets the variable for its caller. The name may also be computed:
+  `set(${prefix}_files ...)`.
+- Scripts that include files or call commands that cannot be read, because these may set any variable.
+- Variables that packages set when they are found: `x_LIBRARIES`, `x_INCLUDE_DIRS`, `x_TARGETS` and the like, and all names that
+  begin with the name of a package that the script searches.
+- Variables of CMake and of build tools: `CMAKE_...`, `PROJECT_...`, `BUILD_...`, `CATKIN_...`.
+- Commands in functions, macros and conditions, except conditions for tests.
+- References within a longer argument: `${folder}/launch`.
+
+Reported with medium confidence: the variable resembles no variable that is set, and the script finds a package that may provide
+CMake code. The names of such packages contain `build`, `cmake`, `common`, `config`, `macros`, `modules` or `tools`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from ros_lint.api import (
+    Confidence,
+    Consequence,
+    Edit,
+    Finding,
+    Fix,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    UnsetVariable,
+    Workspace,
+    dependencies,
+    first_related,
+    names,
+)
+
+
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    script = package.script
+    if script is None or package.builds_with != "ament_cmake":
+        return
+    references: dict[str, list[UnsetVariable]] = {}
+    for reference in script.cmake.unset_variables:
+        references.setdefault(reference.name, []).append(reference)
+    if not references:
+        return
+    searched = dependencies.names_searched(package, script)
+    certain = not any(_PROVIDES_CODE.search(name) and not _WITHOUT_VARIABLES.match(name) for name in searched)
+    for name, places in references.items():
+        yield _finding(name, places, _similar(package, name), certain)
+
+
+_PROVIDES_CODE = re.compile("build|cmake|common|config|macros|modules|tools")
+_WITHOUT_VARIABLES = re.compile("ament_|rosidl_|python_cmake_module|eigen3_cmake_module|tinyxml2?_|generate_parameter_library")
+
+
+def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str], certain: bool) -> Finding:
+    first, *others = places
+    advice = names.did_you_mean(similar) or f"; set it, or remove ${{{name}}}"
+    fix = [Edit(reference.span, similar[0]) for reference in places] if len(similar) == 1 else []
+    return Finding(
+        f"'{name}' is never set, so {first.command}() {_effect(first.command)} for it{advice}",
+        first.span,
+        name,
+        first_related(Related("also read here", reference.span) for reference in others),
+        Fix.of(f"write '{similar[0]}'", *fix, safe=False) if fix else None,
+        Confidence.HIGH if similar or certain else Confidence.MEDIUM,
+        explains=tuple(map(Consequence, dict.fromkeys(rule for reference in places for rule in _explained(reference.command)))),
+    )
+
+
+def _effect(command: str) -> str:
+    """Return the part of the message that says what happens if an argument of the command is an unset variable."""
+    return next(effect for prefix, effect in _EFFECTS.items() if command.startswith(prefix))
+
+
+_EFFECTS = {
+    "ament_export_": "exports nothing",
+    "ament_target_": "links nothing",
+    "target_link_": "links nothing",
+    "install": "installs nothing",
+    "rosidl_": "generates nothing",
+    "rclcpp_": "registers nothing",
+    "": "adds no source",
+}
+"""The effect of an empty argument, by the beginning of the command."""
+
+
+def _explained(command: str) -> tuple[str, ...]:
+    """Return the names of the rules that report the consequence of an empty argument of the command; () if there are none."""
+    return next((rules for prefix, rules in _CONSEQUENCES.items() if command.startswith(prefix)), ())
+
+
+_CONSEQUENCES = {
+    "ament_export_": ("unexported-dependency", "unexported-headers"),
+    "ament_target_": ("unlinked-dependency", "unexported-dependency"),
+    "target_link_": ("unlinked-dependency",),
+    "install": (
+        "uninstalled-component", "uninstalled-executable", "uninstalled-headers", "uninstalled-launch", "uninstalled-library",
+        "uninstalled-resource", "uninstalled-script",
+    ),
+    "rosidl_": ("ungenerated-interface",),
+}  # fmt: skip
+
+
+def _similar(package: Package, name: str) -> list[str]:
+    """Return the variables that the CMake files set and whose names resemble ``name``, the most similar first."""
+    all_names: dict[str, None] = {}
+    for command, index in _SETTING.items():
+        for call in package.calls(command, anywhere=True):
+            if len(call.args) > index and _NAME.fullmatch(call.texts[index]):
+                all_names[call.texts[index]] = None
+    by_case = [candidate for candidate in all_names if candidate.lower() == name.lower()]
+    return by_case[:1] or names.similar_names(name, all_names, 2, 0.75)
+
+
+_SETTING = {"set": 0, "list": 1, "file": 1, "find_library": 0, "find_path": 0}
+"""Commands that set a variable, with the index of its name."""
+_NAME = re.compile(r"[A-Za-z_]\w*")
+
+
+RULE = Rule(
+    name="unset-variable",
+    code="ROS322",
+    summary="variables that decide what is built, linked, installed or exported are set",
+    severity=Severity.WARNING,
+    since="0.1",
+    doc=__doc__,
+    fixable=True,
+    package=check,
+)
