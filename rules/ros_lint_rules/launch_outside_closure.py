@@ -152,7 +152,7 @@ def _needs(workspace: Workspace, name: str, package: Package) -> bool:
 
 
 def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
-    """Yield the other places, one for each line."""
+    """Yield the places of the package names in ``others``: the first on each line, except for the line of ``best``."""
     lines = {(best.path, best.line)}
     for span in [reference.package_span for reference in others]:
         if (span.path, span.line) not in lines:

@@ -123,7 +123,7 @@ _PLACES = {
 
 
 def _installed_for(provided: InstalledFile) -> tuple[str, str]:
-    """Return the package that an installed file is installed for and its kind, a key of _PLACES; ("", "") for other files."""
+    """Return the package name in the path of an installed file, and the kind of the file, a key of _PLACES; else ("", "")."""
     folder, _, rest = provided.path.partition("/")
     name, _, file = rest.partition("/")
     if provided.path.startswith(_MARKERS):

@@ -173,7 +173,7 @@ def _purpose(role: Role) -> Role:
 
 @cached_by_package
 def _declared_names(package: Package, workspace: Workspace) -> Mapping[Role, Mapping[str, None]]:
-    """Return the declared names that serve each purpose, in the order of the manifest."""
+    """Return the declared names for each purpose (to build, to run, to test), in the order of the manifest."""
     return {
         purpose: dict.fromkeys(declared.name for declared in package.declared if declared.role & purpose) for purpose in _PURPOSES
     }

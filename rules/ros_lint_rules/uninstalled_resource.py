@@ -247,7 +247,7 @@ def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
 
 
 def _makes_nothing(package: Package, script: BuildScript) -> bool:
-    """Return whether a package provides nothing, so that its files must be its purpose.
+    """Return whether the script builds and installs nothing, so that the package can only exist for its files.
 
     Packages named after tests or examples may use their files in the sources.
     """

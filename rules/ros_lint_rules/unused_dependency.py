@@ -163,7 +163,7 @@ def _lacks_programs(package: Package, script: BuildScript) -> bool:
 
 
 def _is_used(package: Package, name: str) -> bool:
-    """Return whether the package uses a name at all, in tests or elsewhere: removing a tag would break it."""
+    """Return whether the package uses the dependency ``name`` at all, in tests or elsewhere."""
     return any(use.package == name for use in package.uses)
 
 

@@ -106,7 +106,7 @@ class Refused(NamedTuple):
 
 
 class Circle(NamedTuple):
-    """An include of a file that is already being included with the same arguments, so that the recursion never ends."""
+    """An include of a file that is being included with equal launch configurations, so that the recursion never ends."""
 
     path: str
     """The path of the included file, as :attr:`LaunchFile.path`."""

@@ -360,7 +360,7 @@ def _is_verbatim(child: Element | Depend) -> bool:
 
 
 def _longest_ascent(ranks: list[int]) -> frozenset[int]:
-    """Return the indexes of a longest subsequence of ``ranks`` that never decreases: [1, 3, 2] -> {0, 1} or {0, 2}."""
+    """Return the indexes of a longest subsequence of ``ranks`` that never decreases: [5, 1, 2] -> {1, 2}."""
     chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, previous index
     longest: dict[int, int] = {}  # by rank: the index at which the longest run with this last rank ends
     for at, rank in enumerate(ranks):

@@ -33,7 +33,10 @@ class Newer(NamedTuple):
 
 
 class Rewritten(NamedTuple):
-    """A source rewritten without constructs newer than Python 3.10, and where they were. Offsets are of the original source."""
+    """A source rewritten without constructs newer than Python 3.10, and where it had them.
+
+    All offsets are offsets in the original source.
+    """
 
     text: str
     newer: tuple[Newer, ...]

@@ -41,7 +41,7 @@ NO_VALUE: Final = object()
 
 
 class Entity:
-    """An XML element, or the YAML mapping for it, with attributes and children. ``start`` and ``end`` are offsets of its tag."""
+    """An XML element, or a YAML key with its value: attributes and children. ``start`` and ``end`` are offsets of its tag."""
 
     __slots__ = (
         "_read_children",
@@ -281,7 +281,7 @@ def _is_valid(value: Any) -> bool:
 def _is_instance(value: Any, kind: Type) -> bool:
     """Return whether a YAML value has the type ``kind`` (``is_instance_of``).
 
-    A text is accepted for every type, because it may contain substitutions.
+    A text is accepted for every scalar type, and as an element for every list type, because it may contain substitutions.
     """
     if kind == "any":
         return _is_valid(value)

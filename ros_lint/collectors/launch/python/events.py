@@ -55,7 +55,10 @@ def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction
 
 
 def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[LaunchAction]:
-    """Return the actions that run at an event, which the arguments ``names`` of an object contain: ``on_exit=[action]``."""
+    """Return the actions in the arguments ``names`` of an object, which run at an event: ``on_exit=[action]``.
+
+    Each argument may also be a function that returns the actions.
+    """
     actions: list[LaunchAction] = []
     for name in names:
         for alternative in alternatives(launch_object.get(-1, name)) if name in launch_object.keywords else ():

@@ -278,7 +278,10 @@ def _remappings(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[Laun
 
 
 def nested(walker: Walker, launch_object: LaunchObject) -> list[LaunchAction]:
-    """Return the actions in the arguments of a call of an unknown class or function. They are under an unknown condition."""
+    """Return the actions in the arguments of a call of an unknown class or function.
+
+    The actions are under an unknown condition, because the class or function may not start them.
+    """
     result: list[LaunchAction] = []
     for value in (*launch_object.arguments, *launch_object.keywords.values()):
         for alternative in alternatives(value):

@@ -417,9 +417,9 @@ def plain(value: Value) -> Value:
 
 
 def cause(value: Value, reason: str) -> Unknown:
-    """Return the cause of a value that is unknown because ``value`` is.
+    """Return the value that is reported as the cause if an unknown ``value`` makes the result of an operation unknown.
 
-    The cause is ``value``, if the interpreter recorded its origin, else a new unknown value with ``reason``.
+    This is ``value`` itself, if the interpreter recorded its origin, else a new unknown value with ``reason``.
     """
     return value if isinstance(value, Unknown) and value.node is not None else Unknown(reason)
 

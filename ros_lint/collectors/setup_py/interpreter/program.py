@@ -80,7 +80,7 @@ class Program(Machine):
         return self._with_origin(value, node, frame)
 
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
-        """Return the value of an operation. If it is unknown because of an unknown operand, the operand is returned instead."""
+        """Return the value of an operation, or the unknown operand because of which the value is unknown."""
         fresh = isinstance(value, Unknown) and value.node is None and value.reason != TOO_LARGE
         if not fresh and not (isinstance(value, str) and UNKNOWN in value):
             return value

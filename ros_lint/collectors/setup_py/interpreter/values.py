@@ -1,4 +1,4 @@
-"""The values of the options of setup(): alternatives are decided as far as possible.
+"""The values of the options of setup(). Where conditions decide between alternative values, only the valid one is kept.
 
 Texts and unknown values keep their origins in the source.
 """
