@@ -46,7 +46,7 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
         if provider and run.runs_own_code():
             purpose: Purpose = "interfaces" if name == _GENERATES else ""
             run.add_mention(provider, "macro", run.current_place(), f"{name}()", purpose=purpose)
-        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions):
+        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions or run.testing):
             run.export_scopes.append((run.scopes[-1], CommandPlace(name, run.current_place())))
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
