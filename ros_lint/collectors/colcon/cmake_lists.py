@@ -81,7 +81,7 @@ def _modules(content: str) -> Iterator[tuple[str, int, int]]:
 
 
 class _PlainText:
-    """A text without comments, and without quotes that are not closed on their line."""
+    """The content of a CMake file without comments and unclosed quotes; converts offsets in it to spans of the file."""
 
     def __init__(self, text: Text) -> None:
         self._text = text
@@ -103,7 +103,10 @@ class _PlainText:
         self.content = "".join(pieces)
 
     def closed(self) -> str:
-        """Return the content up to its last closing parenthesis, because each unclosed one costs a search."""
+        """Return the content up to its last closing parenthesis.
+
+        The rest has no complete command, and each unclosed parenthesis in it would cost a search to the end.
+        """
         return self.content[: self.content.rfind(")") + 1]
 
     def span(self, start: int, end: int) -> Span:
