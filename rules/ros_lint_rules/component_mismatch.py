@@ -88,7 +88,7 @@ def _forgets_macro(package: Package) -> bool:
 
 
 def _alike(component: Component, macros: list[Registration]) -> list[Registration]:
-    """Return the macros with the same class in another namespace, or else the macro with the most similar class."""
+    """Return the macros that register the class in another namespace, else the macro with the most similar class, else []."""
     last = component.name.rpartition("::")[2]
     alike = [macro for macro in macros if macro.name.rpartition("::")[2] == last]
     if alike:

@@ -80,7 +80,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 class _Missing(NamedTuple):
-    """A missing executable."""
+    """An executable that a package does not install, and the hint for the message."""
 
     hint: str
     """The end of the message."""
@@ -130,7 +130,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
 
 
 def _is_lost(package: Package, name: str) -> bool:
-    """Return whether the build script installs a file that is not in the sources (see missing-file), or that git ignores."""
+    """Return whether the script would install a file called ``name`` that is missing from the sources: see missing-file."""
     lost = [problem.subject.rpartition("/")[2] for problem in package.built.problems if problem.kind == "missing-file"]
     return name in lost
 
@@ -168,7 +168,7 @@ def _named_by_module(package: Package, name: str, all_names: Collection[str]) ->
 
 
 def _uninstalled_script(package: Package, name: str) -> _Missing | None:
-    """Return the hint for a script of that name which is not installed to lib/<package> under any name."""
+    """Return the hint for a script with this file name that is not installed to lib/<package>; None if there is none."""
     script = package.built
     own = f"lib/{package.name}/"
     programs_of = {provided.source for provided in script.products.installs if provided.path.startswith(own)}
@@ -201,7 +201,7 @@ _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")
 
 
 def _meant(name: str, all_names: tuple[str, ...]) -> str:
-    """Return the only executable that differs in nothing but its suffix, dashes and underscores, or capitals, or ""."""
+    """Return the only executable that differs from ``name`` just in its suffix, dashes, underscores or capitals; else ""."""
 
     def plain(text: str) -> str:
         text = text.lower().replace("-", "_")

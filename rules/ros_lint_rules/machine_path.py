@@ -261,9 +261,10 @@ def _is_of_container(path: str) -> bool:
 
 
 def _inside(path: str, workspace: Workspace) -> _Inside | None:
-    """Return the place in the workspace: below a folder with the name of a package, a path that this package has.
+    """Return the package of the workspace that a path leads to, None if there is none.
 
-    Below ``src`` the package need not have the path, because a program may create the file.
+    A folder of the path has the name of the package, and the package has the rest of the path. Below ``src`` the package need
+    not have the rest, because a program may create the file.
     """
     folders = _folders(workspace)
     parts = path.split("/")

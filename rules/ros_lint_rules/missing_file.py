@@ -111,7 +111,7 @@ def _only_prints(call: Call) -> bool:
 
 
 def _is_installed(package: Package, problem: Problem) -> bool:
-    """Return whether the file is needed by install(), not while CMake configures."""
+    """Return whether install() needs the missing file of a problem, so that only the installation fails."""
     return any(call.extent.covers(problem.span) for call in package.calls("install", anywhere=True))
 
 

@@ -99,7 +99,10 @@ def _gives_commands(name: str) -> bool:
 
 
 def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the declared packages whose headers compiled sources include, but for which there is certainly no find_package()."""
+    """Yield findings for declared packages whose headers the sources include without a find_package().
+
+    ``along``: the packages that find_package() finds, directly or through other packages; None if unknown.
+    """
     if along is None:
         return
     folders = (text for call in package.calls(*_INCLUDING, anywhere=True) for text in call.texts)

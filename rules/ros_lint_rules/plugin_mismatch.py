@@ -69,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 @cached_by_workspace
 def _registered_classes(workspace: Workspace) -> frozenset[str]:
-    """Return the classes that the packages register."""
+    """Return the names of the classes that packages of the workspace register in C++."""
     return frozenset([macro.name for package in workspace.packages for macro in package.registrations])
 
 
@@ -106,7 +106,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
 
 
 def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]) -> Iterator[Finding]:
-    """Compare the described base class of a plugin with those of its registrations."""
+    """Yield a finding if every registration of a plugin has a base class other than the described one."""
     if all(_differ(entry.base, macro.base) for macro in macros):
         yield Finding(
             f"'{entry.type}' is described as '{entry.base}', but registered as '{macros[0].base}'; "
