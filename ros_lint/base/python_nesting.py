@@ -1,4 +1,4 @@
-"""Fast checks of a Python source without its strings and comments: is it plain, and how deep do its expressions nest?
+"""Fast checks of a Python source without its strings and comments: whether it is plain, and how deep it nests.
 
 A source is plain if each Python from 3.10 on parses it to the same tree. Nearly all sources are plain; sources that are
 not need the slower :mod:`ros_lint.collectors.python.newer_syntax`.
