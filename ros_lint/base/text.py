@@ -50,7 +50,7 @@ class Span(NamedTuple):
         return self._replace(column=self.column + quotes, end_column=self.end_column - quotes)
 
     def covers(self, span: Span) -> bool:
-        """Return whether a span is within this one, or equal to it."""
+        """Return whether this span contains ``span`` or is equal to it."""
         return self.path == span.path and self[1:3] <= span[1:3] and span[3:5] <= self[3:5]
 
 

@@ -148,7 +148,7 @@ def command(text: str) -> str:
 
 
 def presence(package: str) -> str:
-    """Return a text that stands for "true" or "false": whether a package is installed, as a condition may ask."""
+    """Return a text that stands for the answer to "is this package installed?", for use as a launch condition."""
     return f"{_PRESENT}{package}"
 
 

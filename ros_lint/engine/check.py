@@ -68,6 +68,7 @@ def _blind_spots(workspace: Workspace) -> tuple[BlindSpot, ...]:
         Facet.LIBRARIES: "libraries",
         Facet.INTERFACES: "interfaces",
         Facet.COMPONENTS: "components",
+        Facet.EXPORTS: "exported dependencies",
     }
     names_by_word = {
         word: tuple([_name(package) for package in workspace.packages if package.hidden(facet) and not package.is_ros1])

@@ -200,7 +200,7 @@ class BuildFiles(NamedTuple):
 
 
 class BuildExports(NamedTuple):
-    """What the CMake script passes on to each package that finds this one."""
+    """What a package passes on by its CMake script to each package that calls find_package() for it."""
 
     config_extras: tuple[str, ...] = ()
     """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""

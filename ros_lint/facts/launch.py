@@ -111,7 +111,7 @@ class LaunchAction(NamedTuple):
 
     @property
     def has_scope(self) -> bool:
-        """True if what the children set ends with the action, as in a group without ``scoped=False``."""
+        """True for a group without ``scoped=False``: launch configurations and remappings in it end with the group."""
         return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 

@@ -29,9 +29,11 @@ class Facet(Sealed, Flag):
     """Messages, services and actions of the package."""
     COMPONENTS = auto()
     """Component and plugin classes of the package."""
+    EXPORTS = auto()
+    """Packages that CMake finds for the dependents of the package."""
 
 
-ALL_FACETS = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+ALL_FACETS = ~Facet(0)
 """All parts of a package."""
 
 
@@ -86,6 +88,6 @@ class Problem(NamedTuple):
     subject: str = ""
     """Subject of the problem, if a rule needs it.
 
-    A path relative to the package, the pattern of a glob, a key, the manifest format that has a tag or attribute,
-    or the new name of a keyword.
+    A path relative to the package (that of a missing folder to install ends with a slash), the pattern of a glob, a key,
+    the manifest format that has a tag or attribute, or the new name of a keyword.
     """

@@ -23,7 +23,7 @@ as this finding is.
 
 Not reported:
 
-- Calls in conditions, except conditions for tests.
+- Calls in conditions and for tests only.
 - Packages that pass the variables of ament to the scope of `ament_package()` themselves.
 - Calls in macros, which run in the scope of their caller, and in files of `include()`.
 """

@@ -64,16 +64,12 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     return at_end(package.built, f"install(DIRECTORY {_word(folder)} DESTINATION share/${{PROJECT_NAME}})")
 
 
-def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
-    """Return the edit that exports a dependency by ament_export_dependencies().
-
-    It extends the existing call, or else adds a call with ``all_names``, all names that are not exported. Then the edit
-    is the same for each of these names.
-    """
+def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
+    """Return the edit that exports dependencies by ament_export_dependencies(): by the existing call, or else by a new one."""
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
-        return add_argument(call, name)
-    return at_end(package.built, f"ament_export_dependencies({' '.join(all_names)})")
+        return add_argument(call, *names)
+    return at_end(package.built, f"ament_export_dependencies({' '.join(names)})")
 
 
 LINKED = "link to the targets of the packages"
@@ -107,16 +103,17 @@ def exports_targets(name: str, workspace: Workspace) -> bool:
 _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})
 
 
-def add_argument(call: Call, text: str) -> Edit:
-    """Return the edit that adds an argument at the end of a call. The call must have arguments."""
-    return _append(call, len(call.args) - 1, text)
+def add_argument(call: Call, *texts: str) -> Edit:
+    """Return the edit that adds arguments at the end of a call. The call must have arguments."""
+    return _append(call, len(call.args) - 1, *texts)
 
 
-def _append(call: Call, last: int, text: str) -> Edit:
-    """Add an argument after the argument ``last``, on its own line if that argument is on its own line."""
+def _append(call: Call, last: int, *texts: str) -> Edit:
+    """Add arguments after the argument ``last``, each on its own line if that argument is on its own line."""
     span = call.span(last)
     above = call.span(last - 1).line if last else call.line
-    return Edit(span.end(), f" {text}" if span.line == above else f"\n{' ' * (span.column - 1)}{text}")
+    separator = " " if span.line == above else f"\n{' ' * (span.column - 1)}"
+    return Edit(span.end(), "".join(f"{separator}{text}" for text in texts))
 
 
 def _beside(package: Package) -> Call | None:

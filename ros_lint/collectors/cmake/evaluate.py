@@ -267,21 +267,28 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
     """Return the mentions of other packages, after those in find_package(X) without REQUIRED are classified.
 
-    Such a mention becomes optional if a condition tests X_FOUND. It becomes a mention for tests if only tests use the
-    targets, variables or macros of X. ``used`` is the result of :func:`_used_packages`.
+    Such a mention becomes optional if a condition tests X_FOUND, unless the script stops when X is not found. It becomes a
+    mention for tests if only tests use the targets, variables or macros of X. ``used`` is the result of
+    :func:`_used_packages`.
     """
     if not run.packages.optional_finds:
         return tuple(run.results.mentions)
+    checked = run.packages.required_by_check
+    required = {name for name in run.packages.optional_finds if name in checked or name.upper() in checked}
+    quiet = {span for name in required for span in run.packages.optional_finds[name]} & run.packages.quiet_finds
     guarded = {
         span
         for name in run.packages.optional_finds
-        if f"{name}_FOUND" in run.tested_variables
+        if name not in required and f"{name}_FOUND" in run.tested_variables
         for span in run.packages.optional_finds[name]
     }
     tests = {span for name in run.packages.optional_finds if used.get(folded(name)) for span in run.packages.optional_finds[name]}
     return tuple(
         [
-            mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
+            mention._replace(
+                optional=(mention.optional and mention.span not in quiet) or mention.span in guarded,
+                test=mention.test or mention.span in tests,
+            )
             if mention.via == "cmake"
             else mention
             for mention in run.results.mentions
@@ -337,19 +344,15 @@ def _missing_files(run: Run) -> list[Problem]:
         if not unsure and run.paths.generated.isdisjoint((source, path)) and not run.paths.is_folder(source):
             empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
             message = f"'{source}' does not exist" if source == path else empty
-            problems.append(Problem("missing-file", message, span, subject=source))
+            problems.append(Problem("missing-file", message, span, subject=path))
     return list(dict.fromkeys(problems))
 
 
 def _undefined_targets(run: Run) -> list[Problem]:
-    if run.any_variable_may_be_set or any(
-        opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.results.opaques
-    ):
-        return []
     return [
-        Problem("undefined-target", f"install() fails because '{name}' is not a target", span)
-        for name, span, conditional in run.results.undefined_targets
-        if not conditional and "__rosidl" not in name
+        Problem("undefined-target", f"install() fails because '{name}' is not a target", span, subject=name)
+        for name, span, certain in run.results.undefined_targets
+        if certain and "__rosidl" not in name
     ]
 
 

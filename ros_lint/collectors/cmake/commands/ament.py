@@ -30,6 +30,11 @@ _TESTER = re.compile(
     r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
 )
 """Names of unknown commands that define tests and install nothing."""
+_OF_LIBRARY = re.compile(
+    r"(?:boost|catch2?|clang|cuda|doctest|doxygen|ecm|flex|bison|gettext|grpc|hip|itk|kde|ki18n|nanobind|protobuf|pybind11"
+    r"|python[23]?|qt[4-6]?|sdl|sphinx|swig|vtk|xsdcxx)_"
+)
+"""Names of unknown commands of libraries and tools without ROS, which export nothing by the macros of ament."""
 _GENERATES: Final = "rosidl_generate_interfaces"
 
 
@@ -44,18 +49,20 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
         if provider and run.runs_own_code():
             purpose: Purpose = "interfaces" if name == _GENERATES else ""
             run.add_mention(provider, "macro", run.current_place(), f"{name}()", purpose=purpose)
-        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions):
+        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions or run.testing):
             run.export_scopes.append((run.scopes[-1], CommandPlace(name, run.current_place())))
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command
     run.open_world = True
     hidden = Facet.USES
+    if not (_TESTER.search(name) or _OF_LIBRARY.match(name)):
+        hidden |= Facet.EXPORTS
     if not _TESTER.search(name):
         run.any_variable_may_be_set = True
         run.may_define_targets = run.may_define_targets or _BUILDER.search(name) is not None
         if _PRODUCER.search(name):
-            hidden = ALL_FACETS
+            hidden |= ALL_FACETS & ~Facet.EXPORTS
         elif _is_given_data(run, args):
             hidden |= Facet.SHARE
     run.hide(hidden, f"the effects of {name}() are unknown")

@@ -66,6 +66,8 @@ def find_package(run: Run, args: list[str]) -> int | None:
             run.add_mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
         if not required and not run.muted:
             run.packages.optional_finds.setdefault(name, []).append(span)
+            if certain and "QUIET" in args and not run.conditional:
+                run.packages.quiet_finds.add(span)
         if (
             name == run.paths.sources.name
             and required
@@ -119,7 +121,7 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
             include_of_package(run, name, source)
         else:
             run.skipped_include = True
-            run.hide(Facet.USES, f"the CMake code of '{name}' was not found")
+            run.hide(Facet.USES | Facet.EXPORTS, f"the CMake code of '{name}' was not found")
 
 
 def _find_all(run: Run, args: list[str]) -> None:
@@ -155,7 +157,8 @@ def _packages_used(run: Run, args: list[str]) -> None:
             _packages_used(run, [*args[:2], *map(mark_maybe, run.paths.sources.build_depends)])
         if HOLE in name:
             if _may_be_package_name(name):
-                run.hide(Facet.USES, "the name of a package is unknown")
+                exports = Facet.EXPORTS if purpose in ("export", "interfaces") else Facet(0)
+                run.hide(Facet.USES | exports, "the name of a package is unknown")
         elif is_known(name) and not run.is_bundled(name):
             if certain:
                 certainly[name] = run.place_of(arg)
@@ -269,7 +272,7 @@ def _include_directories(run: Run, args: list[str]) -> None:
 
 
 def _link_all(run: Run, args: list[str]) -> None:
-    """Run ``link_libraries(names...)``: record the packages whose targets all later targets are linked with."""
+    """Run ``link_libraries(names...)``: record packages with whose targets all later targets are linked."""
     record_header_sources(run, ALL_TARGETS, args)
     link(run, args)
 

@@ -70,7 +70,7 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
 
 
 def include_own(run: Run, path: str) -> int | None:
-    """Run a script of the package in the current scope."""
+    """Run the script of the package at ``path``, relative to the package, in the current scope; return its possible exits."""
     return _run_script(run, path, run.paths.sources.scripts[path])
 
 
@@ -101,7 +101,7 @@ def _skip(run: Run, file: str) -> int:
     The file probably installs nothing itself, like a CMake module.
     """
     run.open_world = run.skipped_include = True
-    run.hide(Facet.USES, f"include() of {file} cannot be evaluated")
+    run.hide(Facet.USES | Facet.EXPORTS, f"include() of {file} cannot be evaluated")
     return NEXT
 
 
@@ -116,7 +116,7 @@ _BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
 
 
 def include_of_package(run: Run, package: str, source: str) -> int | None:
-    """Run a script of another package of the workspace in the current scope."""
+    """Run the script ``source`` of another package of the workspace in the current scope; return its possible exits."""
     helper = run.helpers[package]
     install_path = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
     install_path = next((file.path for file in helper.script.products.installs if file.source == source), install_path)
@@ -162,7 +162,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     parsed = run.paths.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
         run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-        run.hide(ALL_FACETS, "the folder of add_subdirectory() was not found")
+        run.hide(_BY_SUBDIRECTORY, "the folder of add_subdirectory() was not found")
         return None
     if not (run.uncertain_conditions or run.muted or is_outside(path)):
         run.results.subdirectories[path] = None
@@ -174,7 +174,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     if parsed is None:
         if run.paths.is_folder(path):
             run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-            run.hide(ALL_FACETS, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
+            run.hide(_BY_SUBDIRECTORY, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
         else:
             run.add_problem(
                 "missing-folder", f"add_subdirectory() fails because the folder '{path}' does not exist", run.place_of(name), path
@@ -192,6 +192,8 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
 
 
 _TOP: Final = "CMakeLists.txt"
+_BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
+"""What a subdirectory can hide: ament_package() does not see what the macros of ament export there."""
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:

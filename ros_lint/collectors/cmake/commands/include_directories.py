@@ -55,7 +55,7 @@ _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 
 
 def record_include_directories(run: Run, target: str, args: Iterable[str]) -> None:
-    """Record the include directories of a target."""
+    """Record that a target has the include directories ``args``, which are evaluated arguments of a command."""
     folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
     directory = run.path_variables["CMAKE_CURRENT_SOURCE_DIR"]
     record_header_sources(run, target, [f"{directory}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])

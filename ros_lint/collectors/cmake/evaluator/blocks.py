@@ -16,21 +16,21 @@ class If(NamedTuple):
 
 
 class Loop(NamedTuple):
-    """``foreach()`` or ``while()``."""
+    """A loop by ``foreach()`` or ``while()``: its first command, and the commands up to its end."""
 
     command: Command
     body: Body
 
 
 class Definition(NamedTuple):
-    """``function()`` or ``macro()``."""
+    """A definition by ``function()`` or ``macro()``: its first command, and the commands up to its end."""
 
     command: Command
     body: Body
 
 
 class ScopeBlock(NamedTuple):
-    """``block()``, which has its own scope of variables."""
+    """A ``block()``, which has its own scope of variables: its first command, and the commands up to its end."""
 
     command: Command
     body: Body

@@ -35,6 +35,10 @@ class FoundPackages:
         """Packages of the workspace whose CMake code has run."""
         self.optional_finds: dict[str, list[Span]] = {}
         """Places of find_package() calls without REQUIRED, by package."""
+        self.quiet_finds: set[Span] = set()
+        """Places of these calls that certainly run with QUIET."""
+        self.required_by_check: set[str] = set()
+        """Names X for which the script stops with an error unless X_FOUND is true."""
         self._folded_prefixes: tuple[str, ...] = ()
 
     def may_set(self, variable: str) -> bool:

@@ -184,7 +184,7 @@ class Run(State):
         return name in self.settable or (name in CONFIGURABLE_VARIABLES and self.value_or_missing(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
-        """Return whether the user, or code that cannot be read, may have set a variable that seems known."""
+        """Return whether the user, or code that cannot be read, may have set a variable that the read scripts do not set."""
         if self.is_configurable(name):
             return True
         return self.open_world and self.value_or_missing(name) is MISSING and name not in self.path_variables
@@ -367,10 +367,10 @@ class Run(State):
         """Record that code cannot be evaluated and which facet of the package it hides.
 
         ``below`` limits what is hidden to a folder of the install prefix, ``inside`` to the build of a source folder. Code that
-        does not run with default options hides only possible uses of packages.
+        does not run with default options hides only possible uses and exports of packages.
         """
         if self.non_default_conditions:
-            facet &= Facet.USES
+            facet &= Facet.USES | Facet.EXPORTS
         if facet and not self.muted:
             self.results.opaques[Opaque(facet, reason, span or self.current_place(), below=below, inside=inside)] = None
 

@@ -336,6 +336,8 @@ class InstalledTarget(NamedTuple):
     """The export set of the target."""
     headers: tuple[tuple[str, str | None], ...] = ()
     """Destinations of the headers of the target, by artifact."""
+    undefined: bool = False
+    """True if the target is certainly not defined where install() is called, which is when CMake looks for it."""
 
 
 class CallFrame:
