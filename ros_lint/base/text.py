@@ -129,7 +129,7 @@ class Text:
         return line, offset - starts[line - 1] + 1
 
     def line(self, number: int) -> str:
-        """Return a line without its line end. Raises IndexError if the line does not exist."""
+        """Return the line ``number`` (from 1) without its line end. Raises IndexError if the line does not exist."""
         starts = self._line_starts()
         end = starts[number] if number < len(starts) else None
         return self.text[starts[number - 1] : end].rstrip("\r\n")

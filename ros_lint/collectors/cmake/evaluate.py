@@ -326,7 +326,7 @@ They provide commands, find modules or settings."""
 
 
 def _unmentioned(run: Run, names: Iterable[str]) -> list[str]:
-    """Return those of ``names`` that occur in no command of the package except find_package()."""
+    """Return the elements of ``names`` that occur in no command of the package except find_package()."""
     candidates = list(names)
     if not candidates:
         return candidates

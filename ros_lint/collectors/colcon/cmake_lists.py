@@ -45,7 +45,7 @@ class Project(NamedTuple):
 
 
 def project(text: Text) -> Project:
-    """Return the name that colcon gives to the folder of a ``CMakeLists.txt``."""
+    """Return the data that colcon reads from a ``CMakeLists.txt``: the project name, which names the package."""
     match = _PROJECT.search(_PlainText(text).closed())
     name = match[2] if match else ""
     toplevel = name == "Project" and "catkin_workspace()" in text.text.splitlines()
@@ -67,7 +67,7 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
 
 
 def subdirectories(text: Text) -> frozenset[str]:
-    """Return the literal folders that a ``CMakeLists.txt`` adds to its build, relative to it.
+    """Return the folders that a ``CMakeLists.txt`` adds by add_subdirectory() with a literal path, relative to its folder.
 
     Calls of functions that wrap add_subdirectory() count if their name is add_subdirectory with a word inserted.
     """

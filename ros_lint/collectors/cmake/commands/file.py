@@ -59,8 +59,8 @@ _SAME_EVERYWHERE: Final = re.compile(rf"[/{ATOM}]?(?:[^/:;\\ \0\2\3]+/)*[^/:;\\ 
 def _copy(run: Run, copied: list[str], destination: str) -> None:
     """Run ``file(COPY)``: record the copies as generated files, if ``destination`` is absolute.
 
-    A path that ends with a slash is copied without its name. A relative destination is in the build folder, which does not
-    matter.
+    ``copied`` are paths; a path that ends with a slash is copied without its name. A relative destination is in the build
+    folder, whose files are not recorded.
     """
     for path in copied if destination.startswith("/") else ():
         source = run.paths.source(path)

@@ -92,9 +92,9 @@ class Paths:
         return ".." in plain if path is None else is_outside(path)
 
     def destination(self, value: str) -> str | None:
-        """Return an install destination relative to the prefix.
+        """Return an install destination relative to the install prefix: ``${CMAKE_INSTALL_PREFIX}/lib`` -> ``lib``.
 
-        None if it is unknown or outside of the prefix.
+        None if the destination is unknown or outside of the prefix.
         """
         return _destination(value) if len(value) <= LONGEST else None
 

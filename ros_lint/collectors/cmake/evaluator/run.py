@@ -338,9 +338,9 @@ class Run(State):
             self.results.mentions[mention] = None
 
     def note_test_elements(self, name: str, elements: Iterable[str]) -> None:
-        """Record the elements that a list is about to gain only if tests are enabled.
+        """Record ``elements`` that a command adds to the list ``name`` only if tests are enabled.
 
-        The list must already exist outside of the branch for tests.
+        Nothing is recorded if the list does not exist outside of the branch for tests.
         """
         if not self.testing:
             self.test_elements.pop(name, None)
