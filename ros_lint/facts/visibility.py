@@ -10,7 +10,10 @@ from ros_lint.base.text import Span
 
 
 class Facet(Sealed, Flag):
-    """A part of a package that something unresolved can hide."""
+    """A part of a package that a place without a known value can hide.
+
+    Example: ``install(FILES ${UNKNOWN} DESTINATION lib/robot)`` hides EXECUTABLES.
+    """
 
     USES = auto()
     """Packages that this package uses."""
@@ -56,7 +59,7 @@ class Opaque(NamedTuple):
     """True if a limit or a bug of ros-lint is the reason, so that the file counts as not checked."""
 
     def reaches(self, path: str) -> bool:
-        """Return whether the hidden files may include ``path`` in the install prefix, or a file below it."""
+        """Return whether this place may hide ``path``, a file or folder in the install prefix, or a file below ``path``."""
         return not self.below or f"{path}/".startswith(f"{self.below}/") or self.below.startswith(f"{path}/")
 
 

@@ -96,7 +96,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
 
 
 def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[InstalledFile]:
-    """Yield the files of an installed target that builds files."""
+    """Yield the installed files of an executable or a library: the file that is built, and its versioned links."""
     name, span, kind = installed.target, installed.span, target["KIND"]
     destination = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
     file = output_name(target)

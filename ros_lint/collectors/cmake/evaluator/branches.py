@@ -16,7 +16,7 @@ from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIK
 
 
 class _Branch(NamedTuple):
-    """A branch that may run."""
+    """A branch of an if() that may run."""
 
     body: Body
     by_default: bool
