@@ -31,6 +31,7 @@ from ros_lint.base.diff import unified
 from ros_lint.base.text import Text, read, to_bytes
 from ros_lint.base.tree import MemoryTree, OverlayTree, Tree
 from ros_lint.engine import edits, registry
+from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.report import Issue
 from ros_lint.engine.run import find_issues
 from ros_lint.knowledge.underlays import in_tree
@@ -159,7 +160,7 @@ def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
     checked = find_issues(loader.load(), rules, loader.suppressions(), all_rules)
     if checked.crashes:
         raise AssertionError(checked.crashes[0].traceback)
-    return tuple(issue for issue in checked.issues if issue.rule is rule)
+    return without_explained([issue for issue in checked.issues if issue.rule is rule])
 
 
 def differences(case: Case, rule: Rule) -> Iterator[str]:

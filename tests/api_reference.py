@@ -19,7 +19,7 @@ Assignment = ast.Assign | ast.AnnAssign
 
 VOCABULARY = {
     "Rules and findings": (
-        "Rule", "Finding", "Fix", "Edit", "Related", "Severity", "Confidence", "Span",
+        "Rule", "Finding", "Consequence", "Fix", "Edit", "Related", "Severity", "Confidence", "Span",
         "first_related", "cached_by_package", "cached_by_workspace",
     ),
     "Packages": ("Workspace", "Package", "TargetDistro"),

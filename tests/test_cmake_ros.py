@@ -136,7 +136,7 @@ def test_plugins_use_the_package_of_their_base_class() -> None:
     script = run("pluginlib_export_plugin_description_file(nav2_core plugins.xml)\n", ("plugins.xml",))
     assert paths(script).keys() >= {"share/pkg/plugins.xml"}
     loader = mentioned(script)[("target", "nav2_core")]
-    assert (loader.what, loader.purpose) == ("plugins for nav2_core", "plugins")
+    assert (loader.what, loader.purpose) == ("pluginlib_export_plugin_description_file(nav2_core)", "plugins")
 
 
 def helper(name: str, files: Mapping[str, str], script: str) -> Helper:

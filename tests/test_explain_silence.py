@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from ros_lint.cli.commands import explain_silence as silence
@@ -75,3 +77,16 @@ def test_the_reason_for_each_rule_is_given(workspace: Workspace, name: str, unde
 
 def test_an_unknown_package_gives_exit_code_2(workspace: Workspace) -> None:
     assert silence.run(workspace, "listener", "rclcpp")[2] == 2
+
+
+def test_a_finding_that_another_one_explains_is_named() -> None:
+    files = {
+        "talker/package.xml": re.sub(r"<(build_)?depend.*\n", "", FILES["talker/package.xml"]),
+        "talker/CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+        "install(DIRECTORY launch DESTINATION share/talker)\nament_package()\n",
+        "talker/launch/a.launch.py": "from ament_index_python import get_package_prefix\n"
+        "from launch_ros.actions import Node\ndef generate_launch_description():\n  return LaunchDescription([])\n",
+    }
+    output, _, code = silence.run(loaded(files), "talker", "ament_index_python")
+    assert code == 0
+    assert "undeclared-dependency: not shown, because the finding about 'launch_ros' explains it\n" in output

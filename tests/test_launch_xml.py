@@ -97,10 +97,13 @@ def test_an_escaped_value_is_not_exact() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("<launch><node></launch>", "mismatched tag"),
-        ("<launch>", "no element found"),
-        ('<launch a="1" a="2"/>', "duplicate attribute"),
-        ("<launch>\ud800</launch>", "not well-formed (invalid token)"),
+        (
+            "<launch><node></launch>",
+            "not valid XML: this closing tag does not belong to the open element; close that element first",
+        ),
+        ("<launch>", "not valid XML: no element found"),
+        ('<launch a="1" a="2"/>', "not valid XML: duplicate attribute"),
+        ("<launch>\ud800</launch>", "not valid XML: not well-formed (invalid token)"),
         ('<!DOCTYPE launch [<!ENTITY a "b">]><launch>&a;</launch>', "declares an entity, which is not resolved here"),
         (
             '<!DOCTYPE launch [<!ENTITY a SYSTEM "f">]><launch>&a;</launch>',

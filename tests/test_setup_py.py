@@ -223,12 +223,14 @@ def test_imports_are_mentions() -> None:
         ("data_files=[('share/pkg', ['nope.txt'])]", [("missing-file", "'nope.txt' does not exist", "'nope.txt'")]),
         (
             "data_files=[('share/pkg', glob('models/*'))]",
-            [("directory-in-data-files", "'models/robot' is a folder, but data_files can only copy files: the build fails",
+            [("directory-in-data-files", "'models/robot' is a folder, but data_files can only copy files, "
+                    "so the build fails; list only files",
               "glob('models/*')")],
         ),
         (
             "data_files=[('share/' + package_name, sorted(glob('nope/*.py')))]",
-            [("empty-glob", "no file matches 'nope/*.py', so nothing is installed to share/pkg", "'share/' + package_name")],
+            [("empty-glob", "no file matches 'nope/*.py', so nothing is installed to share/pkg; "
+                    "correct or remove the pattern", "'share/' + package_name")],
         ),
         (
             "data_files=[['share/pkg', ['package.xml']]]",
@@ -236,7 +238,8 @@ def test_imports_are_mentions() -> None:
         ),
         (
             "data_files=[('/etc', ['package.xml'])]",
-            [("absolute-destination", "'/etc' is outside the install prefix", "'/etc'")],
+            [("absolute-destination", "data_files cannot install to '/etc', which is outside the install prefix; "
+                    "write a relative folder", "'/etc'")],
         ),
         (
             "packages=['pkg', 'pkg.none']",

@@ -67,6 +67,15 @@ class Related(NamedTuple):
     """The place."""
 
 
+class Consequence(NamedTuple):
+    """Findings that another finding of the same package explains."""
+
+    rule: str
+    """Name of their rule."""
+    subject: str = ""
+    """Their subject; "" means all findings of the rule in the package."""
+
+
 class Finding(NamedTuple):
     """A problem at a place. The engine adds the rule and the package."""
 
@@ -91,3 +100,8 @@ class Finding(NamedTuple):
     """Name of the package that has to change. Only checks of a workspace set it."""
     steps: bool = False
     """True if the related places are the steps of a path, such as a cycle or a dependency chain."""
+    explains: tuple[Consequence, ...] = ()
+    """Findings that probably disappear with this one, or become milder.
+
+    They are not shown beside it if their confidence is not greater.
+    """

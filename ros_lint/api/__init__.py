@@ -1,6 +1,6 @@
 """Everything that a rule may import: types of rules, findings and the model, and namespaces of functions."""
 
-from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severity
+from ros_lint.analysis.finding import Confidence, Consequence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import first_related
@@ -26,7 +26,7 @@ from ros_lint.facts.build import (
     SetupScript,
     UninstalledImport,
 )
-from ros_lint.facts.cmake import BuildTarget, Call, UnsetVariable
+from ros_lint.facts.cmake import BuildTarget, Call, CommandPlace, UnsetVariable
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile, LaunchReference, LaunchValue
 from ros_lint.facts.manifest import Depend, Element, Manifest, Role
 from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule
@@ -49,8 +49,10 @@ __all__ = [
     "CMakeBuild",
     "CMakeCommands",
     "Call",
+    "CommandPlace",
     "Component",
     "Confidence",
+    "Consequence",
     "Declared",
     "Depend",
     "Edit",

@@ -10,9 +10,17 @@ from ros_lint.analysis.dependencies.find_package import (
 )
 from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
 from ros_lint.analysis.dependencies.misplaced import Misplaced, misplaced
-from ros_lint.analysis.dependencies.needs import Need, needs, optional_needs
+from ros_lint.analysis.dependencies.needs import Need, is_found_by_cmake, needs, optional_needs
 from ros_lint.analysis.dependencies.remedy import Remedy, availability_remark, is_unresolvable_key, naming_fix, remedy
-from ros_lint.analysis.dependencies.tags import TEST_LIBRARIES, add_dependency, change_dependency, remove_dependency, tag_for
+from ros_lint.analysis.dependencies.tags import (
+    TEST_LIBRARIES,
+    TEST_MODULES,
+    TEST_TOOLS,
+    add_dependency,
+    change_dependency,
+    remove_dependency,
+    tag_for,
+)
 from ros_lint.analysis.dependencies.traceless import (
     PYTHON_LIKE,
     has_programs,
@@ -48,6 +56,8 @@ from ros_lint.workspace.usage.visibility import is_build_visible, is_fully_visib
 __all__ = [
     "PYTHON_LIKE",
     "TEST_LIBRARIES",
+    "TEST_MODULES",
+    "TEST_TOOLS",
     "LostProvision",
     "Misplaced",
     "Need",
@@ -66,6 +76,7 @@ __all__ = [
     "intended_names",
     "is_build_visible",
     "is_declared_misspelled",
+    "is_found_by_cmake",
     "is_fully_visible",
     "is_library",
     "is_mostly_runtime",

@@ -91,7 +91,9 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
-        message = expat.ErrorString(error.code) or "not well-formed"
+        message = f"not valid XML: {expat.ErrorString(error.code) or 'not well-formed'}"
+        if error.code == expat.errors.codes[expat.errors.XML_ERROR_TAG_MISMATCH]:
+            message = "not valid XML: this closing tag does not belong to the open element; close that element first"
         raise XmlError(message, offset(parser.ErrorByteIndex)) from None
     return root[0]
 

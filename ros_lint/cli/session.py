@@ -143,7 +143,7 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
 
 def _fact_cache_key(request: Request) -> str:
-    """Return the key under which facts of files are cached. They depend on the folders that links may lead into."""
+    """Return the cache key of the facts: the base, and the folders that links may lead into if there are more."""
     return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
 
 

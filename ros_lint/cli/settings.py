@@ -208,7 +208,7 @@ def _place(path: str, text: str, name: str) -> str:
 
 
 def _relative(option: CliOption, value: Any, path: str) -> Any:
-    """Return a value of a configuration file. Paths in it are relative to the folder of the file."""
+    """Return the value, and for an option with paths the paths joined to the folder of the configuration file ``path``."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value

@@ -31,7 +31,7 @@ class BaselineError(UserError):
 
 
 class KnownFindings(NamedTuple):
-    """The known findings that share a key."""
+    """The number of known findings that have the same rule, package and subject."""
 
     number: int
     sure: bool

@@ -214,7 +214,7 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
 
 
 def _indented(replacement: str, text: str, start: int) -> str:
-    """Return a replacement indented with tabs if the line before it is, because edits are indented with spaces."""
+    """Return the text to insert at ``start``, its spaces replaced by tabs if the line there is indented with tabs."""
     line = text[text.rfind("\n", 0, start) + 1 : start]
     indent = line[: len(line) - len(line.lstrip(" \t"))]
     return replacement.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else replacement

@@ -52,7 +52,7 @@ class Trials(Protocol):
         """Return the issues that have a fix of the selected kind."""
 
     def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
-        """Return the changes with the fixes of a group. Raises EditError if they cannot be combined."""
+        """Return ``changed`` with the fixes of a group applied to it. Raises EditError if they cannot be combined."""
 
     def regressions(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[Regression, ...]:
         """Return the reasons not to apply the fixes of a group, () if there are none."""
@@ -95,7 +95,7 @@ class _Round:
             self._try(self._groups.pop())
 
     def _try(self, identities: frozenset[str]) -> None:
-        """Apply some of the fixes, and postpone the others in smaller groups.
+        """Apply or skip the fixes with these issue identities, and postpone those that need a trial in a smaller group.
 
         Most groups are large, and few of their fixes cause a regression. So the suspects are postponed first. If the others
         cause none, a suspect with a regression of its own needs no further trial. Otherwise the group is halved.

@@ -12,6 +12,17 @@ if TYPE_CHECKING:
 
     from ros_lint.analysis.finding import Finding, Severity
     from ros_lint.analysis.rule import Rule
+    from ros_lint.base.text import Span
+
+
+class ExplainedFinding(NamedTuple):
+    """A finding that is not shown, because another one explains it."""
+
+    rule: str
+    """The name of its rule."""
+    subject: str
+    message: str
+    span: Span
 
 
 class Issue(NamedTuple):
@@ -20,6 +31,8 @@ class Issue(NamedTuple):
     rule: Rule
     package: str
     finding: Finding
+    explained: tuple[ExplainedFinding, ...] = ()
+    """Findings that are not shown, because this one explains them."""
 
     @property
     def severity(self) -> Severity:
@@ -32,6 +45,7 @@ class Issue(NamedTuple):
 
 
 UNSURE = "of lower confidence (shown with --pedantic)"
+EXPLAINED = "explained by other findings"
 OFF = "of rules that are off (shown with --pedantic)"
 MINOR = "of lower severity than --min-severity"
 
@@ -49,7 +63,7 @@ class HiddenCount(NamedTuple):
 
     @classmethod
     def of(cls, reason: str, issues: Iterable[Issue]) -> HiddenCount:
-        """Return the number of some issues, by rule."""
+        """Return the counts of the issues, in total and for each rule, with the reason why they are hidden."""
         rules = Counter(issue.rule.name for issue in issues)
         return cls(reason, rules.total(), tuple(sorted(rules.items())))
 

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.analysis.rule import Rule
+from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.registry import matching, unknown_rule_message
-from ros_lint.engine.report import MINOR, UNSURE, HiddenCount, Issue
+from ros_lint.engine.report import EXPLAINED, MINOR, UNSURE, HiddenCount, Issue
 from ros_lint.errors import UserError
 
 
@@ -95,7 +96,10 @@ def select(
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
-    """Return the issues to show, with the severities of the settings, and counts of hidden issues."""
+    """Return the issues to show, with the severities of the settings, and counts of hidden issues.
+
+    Issues that another shown issue explains are hidden.
+    """
     shown: list[Issue] = []
     unsure: list[Issue] = []
     ignored = minor = 0
@@ -111,12 +115,14 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
             shown.append(issue)
         else:
             shown.append(issue._replace(finding=issue.finding._replace(severity=severity)))
+    causes = without_explained(shown, selection.severities)
     hidden = [
         HiddenCount.of(UNSURE, unsure),
         HiddenCount("ignored by per-path-ignores", ignored),
         HiddenCount(MINOR, minor),
+        HiddenCount(EXPLAINED, len(shown) - len(causes)),
     ]
-    return tuple(shown), tuple(entry for entry in hidden if entry.count)
+    return causes, tuple(entry for entry in hidden if entry.count)
 
 
 def matches(path: str, pattern: str) -> bool:

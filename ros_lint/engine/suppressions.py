@@ -91,7 +91,7 @@ class _LineIndex:
         self._reach = list(accumulate([math.inf if mark.lines is None else mark.lines[1] for mark, _ in self._entries], max))
 
     def matching(self, issue: Issue) -> list[tuple[Suppression, Name]]:
-        """Return the suppressions that apply to the place of an issue."""
+        """Return the suppressions that apply to the place of an issue, each with the name by which it names the rule."""
         first, last = lines_of(issue.finding.span)
         near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
         return [entry for entry in near if entry[0].covers(issue.finding.span)]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 from ros_lint.base.text import Span
-from ros_lint.facts.cmake import BuildTarget, Call, UnsetVariable
+from ros_lint.facts.cmake import BuildTarget, Call, CommandPlace, UnsetVariable
 from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule, WrittenText
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet, NewerSyntax, Opaque, Problem
@@ -245,6 +245,8 @@ class CMakeBuild(NamedTuple):
     The kind is "undefined-target" for a missing target and "no-package" for a missing package; the subject is the
     name of the target or package.
     """
+    lost_exports: tuple[CommandPlace, ...] = ()
+    """Calls of ament_export_...() in a function or subfolder, whose variables ament_package() does not see."""
     unset_variables: tuple[UnsetVariable, ...] = ()
     """References to variables that nothing sets, in commands that build, link, install or export."""
     interpreted_tests: tuple[str, ...] | None = None

@@ -38,6 +38,15 @@ class BuildTarget(NamedTuple):
     """
 
 
+class CommandPlace(NamedTuple):
+    """A call of a command that runs."""
+
+    name: str
+    """Name of the command, in lower case."""
+    span: Span
+    """Place of the name in the file."""
+
+
 class UnsetVariable(NamedTuple):
     """A reference to a variable that nothing sets, as an argument of a command that certainly runs."""
 

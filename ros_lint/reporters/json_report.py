@@ -63,6 +63,10 @@ def _finding(issue: Issue) -> dict[str, Any]:
         "confidence": str(finding.confidence),
         "related": [{"message": related.message, **_place(related.span)} for related in finding.related],
         "steps": finding.steps,
+        "explains": [
+            {"rule": explained.rule, "subject": explained.subject, "message": explained.message, **_place(explained.span)}
+            for explained in issue.explained
+        ],
         "fix": _fix(finding.fix) if finding.fix else None,
     }
 

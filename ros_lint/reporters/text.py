@@ -6,15 +6,16 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Confidence, Severity
+from ros_lint.base.suggestions import shorten_list
 from ros_lint.reporters.ansi import Style, paint, safe
 from ros_lint.reporters.frames import Mark, frame
-from ros_lint.reporters.summary import count, summary
+from ros_lint.reporters.summary import and_list, count, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from ros_lint.analysis.finding import Fix
-    from ros_lint.engine.report import Issue, Report
+    from ros_lint.engine.report import ExplainedFinding, Issue, Report
     from ros_lint.reporters import SourceTexts
 
 _PLAIN = Style()
@@ -91,6 +92,8 @@ def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
         notes.append(f"note: and {count(len(finding.related) - _RELATED, 'more place')}")
     if finding.confidence is not Confidence.HIGH:
         notes.append(f"note: {finding.confidence} confidence")
+    if issue.explained:
+        notes.append(f"note: {safe(_explanation(issue.explained), style)}")
     if finding.fix:
         title = safe(finding.fix.title, style)
         notes.append(f"{paint(style, 'good', 'fix')}: {title} ({_HOW_TO_FIX[finding.fix.safe]})")
@@ -104,6 +107,16 @@ def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
         *(f"{equals} {note}" for note in notes),
         *preview,
     ]
+
+
+def _explanation(explained: Sequence[ExplainedFinding]) -> str:
+    """Return which findings an issue explains: "explains 1 finding of undeclared-dependency: 'launch'"."""
+    subjects: dict[str, list[str]] = {}
+    for finding in explained:
+        subjects.setdefault(finding.rule, []).append(finding.subject)
+    return "explains " + and_list(
+        [f"{count(len(names), 'finding')} of {rule}: {shorten_list(names)}" for rule, names in subjects.items()]
+    )
 
 
 def _preview(fixes: Sequence[Fix], texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:

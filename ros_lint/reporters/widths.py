@@ -49,7 +49,7 @@ fe30-fe6b ff01-ff60 ffe0-ffe6 16fe0-16fe3 17000-1b2fb 1f004 1f0cf 1f18e 1f191-1f
 
 
 def columns(character: str) -> int | None:
-    """Return how many columns a character takes, None for one that is not shown as it is. No character is of ASCII."""
+    """Return how many columns a character outside ASCII takes; None for a character that must be shown as an escape."""
     starts, ends, widths = _table()
     code = ord(character)
     index = bisect_right(starts, code) - 1

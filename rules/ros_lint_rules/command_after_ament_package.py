@@ -61,7 +61,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             if ends[-1:] == [call]:  # duplicate-ament-package reports the earlier ones
                 end = call
         elif end is not None and (effect := _effect(call)):
-            related = Related("the package ends here", end.name_span)
+            related = Related(f"{end.name}() is called here", end.name_span)
             yield Finding(f"{_quoted(call)} after {end.name}() {effect}; call it earlier", call.name_span, call.name, (related,))
 
 

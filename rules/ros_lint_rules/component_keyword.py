@@ -48,7 +48,7 @@ def _strays(call: Call) -> list[tuple[int, int]]:
 def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
     words = " and ".join([call.texts[first] for first, _ in strays])
     return Finding(
-        f"rclcpp_components_register_nodes() accepts only class names, not {words}; remove that or call "
+        f"rclcpp_components_register_nodes() accepts only class names, not {words}; remove {words}, or call "
         "rclcpp_components_register_node()",
         call.span(strays[0][0]),
         call.texts[0],

@@ -88,7 +88,7 @@ def _forgets_macro(package: Package) -> bool:
 
 
 def _alike(component: Component, macros: list[Registration]) -> list[Registration]:
-    """Return the macros with the same class in another namespace, or else the macro with the most similar class."""
+    """Return the macros that register the class in another namespace, else the macro with the most similar class, else []."""
     last = component.name.rpartition("::")[2]
     alike = [macro for macro in macros if macro.name.rpartition("::")[2] == last]
     if alike:
@@ -115,11 +115,11 @@ def _unregistered(package: Package, macro: Registration, *, loaded: bool) -> Fin
     script = package.script
     assert script is not None
     library = build.library_registering(package, macro)
-    command = f'rclcpp_components_register_nodes({library or "..."} "{macro.name}")'
+    command = f'rclcpp_components_register_nodes({library or "<library>"} "{macro.name}")'
     usable = library and "rclcpp_components" in dependencies.names_searched(package, script)
     fix = Fix.of(f"register '{macro.name}'", edits.cmake.at_end(script, command), safe=False) if usable else None
     return Finding(
-        f"CMake does not register the component '{macro.name}'; add {command}",
+        f"CMakeLists.txt does not register the component '{macro.name}', so it cannot be loaded; add {command}",
         macro.span,
         macro.name,
         fix=fix,

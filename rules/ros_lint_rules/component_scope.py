@@ -32,10 +32,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if not outside:
         return
     first, *others = outside.values()
-    more = f" and {len(others)} more" if others else ""
+    are, them = (f" and {len(others)} more are", "them") if others else (" is", "it")
     yield Finding(
-        f"'{first.name}'{more}: registered in the scope of a function or subfolder, so ament_package() does not write it to the "
-        "index; register it in the top CMakeLists.txt",
+        f"'{first.name}'{are} registered in a function or subfolder, so ament_package() does not write {them} to the index; "
+        f"register {them} in the top CMakeLists.txt, outside functions",
         first.span,
         first.name,
         first_related(Related("also registered in a function or subfolder", other.span) for other in others),

@@ -45,7 +45,9 @@ _ALWAYS = {
     ),
     "ament_export_interfaces": ("ament_export_targets", "use ament_export_targets()"),
 }
-_SINCE_KILTED = {"ament_target_dependencies": ("target_link_libraries", "use target_link_libraries() with p::p or ${p_TARGETS}")}
+_SINCE_KILTED = {
+    "ament_target_dependencies": ("target_link_libraries", "use target_link_libraries() with targets such as rclcpp::rclcpp")
+}
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:

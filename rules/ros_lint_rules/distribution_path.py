@@ -73,7 +73,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if leads is None:
             continue
         differs = target.explicit and first.distribution != target.distro
-        where = f"exists only in {first.distribution}, but the target is {target.distro}" if differs else _SOMEWHERE
+        where = (
+            f"exists only where {first.distribution} is installed, but the workspace is checked for {target.distro}"
+            if differs
+            else _SOMEWHERE
+        )
         sure = differs and any(package.relative(place.span.path) in used for place in (first, *others))
         yield Finding(
             f"'{path}' {where}; {_remedy(leads, first, package)}",

@@ -29,7 +29,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for call in build.unconditional_calls(package, "find_package"):
         earlier = first.setdefault(call.texts, call)
         if earlier is not call:
-            message = f"'{call.texts[0]}' is already found with the same arguments; remove one of the two calls"
+            message = f"find_package({call.texts[0]}) was already called with the same arguments; remove one of the two calls"
             yield Finding(message, call.name_span, call.texts[0], (Related("the first call", earlier.name_span),))
 
 

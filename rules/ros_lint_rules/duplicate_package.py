@@ -65,7 +65,7 @@ _BUILT_SEPARATELY = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
 
 
 def _workspace(path: str) -> str:
-    """Return the folder above the ``src`` of a package, else a folder that is built separately, else ""."""
+    """Return the workspace of a package by its path: the folder above ``src``, else a course step, else "" (the root)."""
     top, inside, _ = f"/{path}/".partition("/src/")
     if inside:
         return top.removeprefix("/")

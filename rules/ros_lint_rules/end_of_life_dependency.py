@@ -55,7 +55,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspace: Workspace) -> str:
-    """Return the rosdep key of a Python module with the declared name that the package imports, or ""."""
+    """Return the rosdep key of the imported Python module that has the declared name; "" if none is imported."""
     uses = [use for use in unresolved_dependency.matching_uses if use.package != unresolved_dependency.name]
     if not unresolved_dependency.runs_python or not uses or any(use.via != "import" for use in uses):
         return ""
@@ -63,7 +63,7 @@ def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspac
 
 
 def _is_unused(package: Package, name: str, successor: str) -> bool:
-    """Return whether a package that can be fully analysed uses neither a build dependency nor its successor."""
+    """Return whether a fully analysed package uses neither the package ``name`` of ROS 1 nor its ``successor``."""
     if not package.declares(name) & Role.BUILD or not dependencies.is_fully_visible(package) or name in package.textual_mentions:
         return False
     return not any(successor in use.providers for use in package.uses)

@@ -31,7 +31,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         # A mention is optional if a condition checks whether the package was found.
         if call.texts not in seen and not _WORDS.intersection(call.texts) and call.span(0) in required:
             name = call.texts[0]
-            message = f"find_package({name}) without REQUIRED: CMake goes on if it is missing; add REQUIRED or QUIET"
+            message = f"find_package({name}) has no REQUIRED, so CMake continues if '{name}' is missing; add REQUIRED or QUIET"
             yield Finding(message, call.name_span, name)
         seen.add(call.texts)
 

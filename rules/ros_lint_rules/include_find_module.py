@@ -30,7 +30,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for call in build.unconditional_calls(package, "include"):
         name = call.texts[0]
         if re.fullmatch(r"Find\w+", name) and name[4:] != "PkgConfig":
-            yield Finding(f"use find_package({name[4:]}) instead of include({name})", call.name_span, name[4:])
+            yield Finding(
+                f"include({name}) does not stop if '{name[4:]}' is missing; use find_package({name[4:]} REQUIRED)",
+                call.name_span,
+                name[4:],
+            )
 
 
 RULE = Rule(

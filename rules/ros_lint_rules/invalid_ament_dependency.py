@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield arguments that are certainly not packages: targets, and typos of found packages.
+    """Yield findings for arguments that are certainly not packages: targets, and typos of found packages.
 
     Exported packages need not be found here; declared ones and those with a find module are accepted. Another rule reports
     misspelt names in the manifest, and once they are fixed, their packages are found.
@@ -118,7 +118,7 @@ def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
 
 
 def _is_plain(name: str) -> bool:
-    """Return whether an argument is a plain name: not a variable, not text, and not a target of another package."""
+    """Return whether an argument is an identifier in which dashes are allowed; false for ${variables} and a::b."""
     return bool(name) and name.replace("-", "_").isidentifier()
 
 

@@ -129,11 +129,14 @@ def _finding(name: str, started: launch.Started, earlier: launch.Started, here: 
     related = [Related("the first node", earlier.span)] if earlier.span != started.span else []
     if here is started:
         return Finding(
-            f"{what} is the second node named '{name}'; give it another name or namespace", here.span, name, tuple(related)
+            f"{what} is the second node named '{name}', but node names must be unique; give it another name or namespace",
+            here.span,
+            name,
+            tuple(related),
         )
     others = f"; {more} more {'name is' if more == 1 else 'names are'} also used twice" if more else ""
     return Finding(
-        f"the included file starts {what}, the second node named '{name}'{others}",
+        f"the included file starts {what}, the second node named '{name}', but node names must be unique{others}",
         here.span,
         name,
         (Related("the second node", started.span), *related),

@@ -104,7 +104,7 @@ def _is_for_old(path: str) -> bool:
 
 
 def _newer(problems: Iterable[Problem], target: TargetDistro) -> Iterator[Problem]:
-    """Yield what was added after the chosen distribution; names of distributions are in alphabetical order."""
+    """Yield the problems of features that the chosen distribution lacks. A later distribution is later in the alphabet."""
     if target.explicit and target.distro != "rolling":
         for problem in problems:
             if target.distro < problem.kind:

@@ -83,7 +83,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the missing files that installed models, displays and parameters look up in packages of the workspace."""
+    """Yield findings for missing files that installed models, displays and parameter files look up in workspace packages."""
     if not package.lookups:
         return
     share = f"share/{package.name}/"
@@ -123,7 +123,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the missing files that launch files name themselves."""
+    """Yield findings for missing files that launch files name without the help of arguments."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
@@ -153,7 +153,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
-    """Yield the missing files that included launch files name with the arguments that they are passed."""
+    """Yield findings for missing files whose paths included launch files form from the arguments that they are passed."""
     links = launch.include_resolver(workspace)
     paths = [
         (package, launch_file.file) for package in workspace.packages for launch_file in launch.package_launch_files(package)
@@ -192,7 +192,8 @@ class _Missing:
     def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, launch.PassedFile]:
         """Return the files that are missing when ``file`` is launched, see :func:`passed_files`.
 
-        Files that a launch file names without the help of arguments are left out.
+        Files that a launch file names without the help of arguments are left out. ``settled``: also leave out files that depend
+        on the launch arguments of ``file`` itself.
         """
         key = file.path, settled
         if key not in self._passed:
@@ -221,16 +222,16 @@ _Key = tuple[Span, str, str]
 
 
 def _message(owner: str, path: str, more: int = 0) -> str:
-    """Return the beginning of a message about a missing file, and the number of further ones in its folder."""
+    """Return the beginning of a message: ``path`` and ``more`` other files of its folder do not exist in the package."""
     if not more:
         return f"'{path}' does not exist in '{owner}'"
-    return f"'{path}' and {more} other file{'s' if more > 1 else ''} of this folder that are named here do not exist in '{owner}'"
+    return f"'{path}' and {more} other file{'s' if more > 1 else ''} of its folder that this file names do not exist in '{owner}'"
 
 
 def _twin(path: str, all_names: tuple[str, ...]) -> str:
     """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
     folder, _, base = path.rpartition("/")
-    siblings = [name.rpartition("/")[2] for name in all_names if _kind(name) == _kind(path)]
+    siblings = [name.rpartition("/")[2] for name in all_names if _folder_and_suffix(name) == _folder_and_suffix(path)]
     near = names.similar_names(base, siblings, 1, 0.8)
     return f"{folder}/{near[0]}".lstrip("/") if near else ""
 
@@ -241,16 +242,18 @@ def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 
 
-def _kind(path: str) -> tuple[str, str]:
+def _folder_and_suffix(path: str) -> tuple[str, str]:
     """Return the folder and the suffix of a file."""
     folder, _, base = path.rpartition("/")
     return folder, base.rpartition(".")[2]
 
 
 def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: Workspace) -> bool:
-    """Return whether a file is not looked up, but others of its folder and suffix are: then the file is the one to suggest."""
+    """Return whether nothing looks up ``file`` of package ``owner``, but other files of its folder and suffix are looked up."""
     wanted = {look_up.path for look_up in launch.files_looked_up(workspace).get(owner, ())}
-    return file not in wanted and any(_kind(other) == _kind(file) for other in wanted.intersection(all_names))
+    return file not in wanted and any(
+        _folder_and_suffix(other) == _folder_and_suffix(file) for other in wanted.intersection(all_names)
+    )
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
@@ -289,15 +292,15 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return the hint that another package has the file: the package that names it, or else the only one of the workspace."""
+    """Return the hint that ``package``, or else the only package of the workspace with the file, installs it; "" if none."""
     owners = {
         other.name
         for other in workspace.packages
         if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.products.installs)
     }
     if package.name in owners:
-        return f"; '{package.name}' has it"
-    return f"; '{owners.pop()}' has it" if len(owners) == 1 else ""
+        return f"; it exists in '{package.name}'"
+    return f"; it exists in '{owners.pop()}'" if len(owners) == 1 else ""
 
 
 def _hint(path: str, all_names: tuple[str, ...]) -> str:

@@ -106,7 +106,10 @@ def _declares(package: Package, name: str) -> str:
 
 
 def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[LaunchReference]]]:
-    """Yield the packages outside the closure that launch files need and no other rule reports, with the references."""
+    """Yield each package that launch files use but that is no direct or indirect run-time dependency, with the references.
+
+    Packages that another rule reports are left out.
+    """
     manifest = package.manifest
     if manifest is None or manifest.problems:
         return
@@ -125,9 +128,9 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
 
 
 def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the declared names that wrong-dependency-kind reports: their uses need another tag.
+    """Return the names that the rule wrong-dependency-kind may report, because the declared tag may not cover their uses.
 
-    These are uses at run time other than starting and including, and uses in what the package exports.
+    They are exported, or code uses them at run time for more than launching.
     """
     names: set[str] = set()
     for need in dependencies.needs(package, workspace):
@@ -149,7 +152,7 @@ def _needs(workspace: Workspace, name: str, package: Package) -> bool:
 
 
 def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
-    """Yield the other places, one for each line."""
+    """Yield the places of the package names in ``others``: the first on each line, except for the line of ``best``."""
     lines = {(best.path, best.line)}
     for span in [reference.package_span for reference in others]:
         if (span.path, span.line) not in lines:

@@ -64,7 +64,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         # The finding is at an installed launch file, if there is one.
         (installed, first), *others = sorted(places, key=lambda place: not place[0])
         yield Finding(
-            f"'{path}' is only found if launched in the folder of '{package.name}'; {install}look it up in the share directory",
+            f"'{path}' is only found if ros2 launch runs in the folder of '{package.name}'; "
+            f"{install}look it up in the share directory",
             first,
             path,
             tuple(Related("also named here", span) for _, span in others),

@@ -54,7 +54,7 @@ def _undeclared(arguments: launch.ArgumentUse, *, included: bool) -> Iterator[Fi
     for name, span in arguments.undeclared.items() if len(arguments.undeclared) <= _MOST_MISSING else ():
         near = names.similar_names(name, sorted(arguments.declared), 1, 0.85)
         yield Finding(
-            f"launch configuration '{name}' is read, but nothing declares or sets it{names.did_you_mean(near)}",
+            f"launch configuration '{name}' is read, but nothing declares or sets it{names.did_you_mean(near) or '; declare it'}",
             span,
             name,
             confidence=Confidence.HIGH if near and not included else Confidence.MEDIUM,

@@ -61,7 +61,7 @@ def _of_include(include: launch.PlacedInclude, source: LaunchFile, workspace: Wo
 
 
 def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, sure: bool, alone: bool) -> Finding:
-    """Return the finding for an argument without effect. If it resembles an argument that is not passed, it was renamed.
+    """Return the finding for an argument that the included ``file`` does not use, with a similar unpassed one as suggestion.
 
     ``alone``: no file includes the passing file and later contains something that may read the argument.
     """

@@ -80,7 +80,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 class _Missing(NamedTuple):
-    """A missing executable."""
+    """An executable that a package does not install, and the hint for the message."""
 
     hint: str
     """The end of the message."""
@@ -130,7 +130,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
 
 
 def _is_lost(package: Package, name: str) -> bool:
-    """Return whether the build script installs a file that is not in the sources (see missing-file), or that git ignores."""
+    """Return whether the script would install a file called ``name`` that is missing from the sources: see missing-file."""
     lost = [problem.subject.rpartition("/")[2] for problem in package.built.problems if problem.kind == "missing-file"]
     return name in lost
 
@@ -141,7 +141,7 @@ def _uninstalled_target(package: Package, name: str) -> _Missing | None:
     target = next((target for target in executables if target.name == name), None)
     if target is None:
         return None
-    hint = f"; it is built, but not installed; install it to lib/{package.name}"
+    hint = f", although it builds it; install it to lib/{package.name}"
     return _Missing(hint, "", (Related("built here", target.span),))
 
 
@@ -154,21 +154,21 @@ def _named_by_module(package: Package, name: str, all_names: Collection[str]) ->
     if entries:
         quoted = " or ".join(f"'{entry.name}'" for entry in entries[:3])
         return _Missing(
-            f"; the module '{entries[0].module}' is run by {quoted}",
+            f"; start {quoted}, which runs the module '{entries[0].module}'",
             entries[0].name if len(entries) == 1 else "",
-            tuple(Related("by this entry point", entry.span) for entry in entries[:1]),
+            tuple(Related("this entry point", entry.span) for entry in entries[:1]),
         )
     module = next(
         (module for module in script.products.python_packages if module.rpartition(".")[2] == stem and "." in module), ""
     )
     if module and script.products.entry_points:
-        return _Missing(f"; the module '{module}' has no entry point; add one to console_scripts")
+        return _Missing(f"; add an entry point for the module '{module}' to console_scripts")
     uninstalled = _uninstalled_script(package, f"{stem}.py")
     return uninstalled._replace(hint=f"{uninstalled.hint}, and start '{stem}.py'") if uninstalled and stem == name else None
 
 
 def _uninstalled_script(package: Package, name: str) -> _Missing | None:
-    """Return the hint for a script of that name which is not installed to lib/<package> under any name."""
+    """Return the hint for a script with this file name that is not installed to lib/<package>; None if there is none."""
     script = package.built
     own = f"lib/{package.name}/"
     programs_of = {provided.source for provided in script.products.installs if provided.path.startswith(own)}
@@ -176,9 +176,8 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
     uninstalled = next((path for path in files if path not in programs_of), "")
     if not uninstalled:
         return None
-    elsewhere = any(provided.source == uninstalled for provided in script.products.installs)
     file = Related("this file", package.start_of(uninstalled))
-    return _Missing(f"; '{uninstalled}' is not installed{f' to {own[:-1]}' if elsewhere else ''}; install it", "", (file,))
+    return _Missing(f"; install the script '{uninstalled}' to {own[:-1]}", "", (file,))
 
 
 def _hint(name: str, meant: str, all_names: tuple[str, ...]) -> str:
@@ -202,7 +201,7 @@ _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")
 
 
 def _meant(name: str, all_names: tuple[str, ...]) -> str:
-    """Return the only executable that differs in nothing but its suffix, dashes and underscores, or capitals, or ""."""
+    """Return the only executable that differs from ``name`` just in its suffix, dashes, underscores or capitals; else ""."""
 
     def plain(text: str) -> str:
         text = text.lower().replace("-", "_")

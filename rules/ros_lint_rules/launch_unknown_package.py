@@ -85,7 +85,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             wanted
             and verdict.confidence is not Confidence.HIGH
             and not (best.idle or best.conditional or name in workspace.world.awaited.listed)
-            and _never_comes(name, package, workspace)
+            and _is_outside_dependencies(name, package, workspace)
         )
         hint = _hint_to_declare(name, package, workspace) if left_out and not verdict.known else ""
         yield Finding(
@@ -122,8 +122,8 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
-def _never_comes(name: str, package: Package, workspace: Workspace) -> bool:
-    """Return whether no declared dependency is the package or may depend on it, directly or indirectly.
+def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
+    """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
     An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another one.
     """
@@ -173,7 +173,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
         return _Verdict(names.ask_if_meant([meant.name]), Confidence.HIGH, meant.name)
     renamed = [other for other in workspace.by_name if other.endswith(f"_{name}")]
     if len(renamed) == 1 and _may_have(renamed[0], places, workspace, all):
-        return _Verdict(f"; the workspace has '{renamed[0]}'", Confidence.HIGH, renamed[0])
+        return _Verdict(names.ask_if_meant([renamed[0]]), Confidence.HIGH, renamed[0])
     distro, date = workspace.target.distro, world.knowledge.date
     elsewhere = world.where_else(name)
     if elsewhere:
@@ -185,7 +185,9 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     own = launch.installed_programs(package)
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
-        return _Verdict(f"; '{package.name}' itself installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name)
+        return _Verdict(
+            f"; this package, '{package.name}', installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
+        )
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
         return _Verdict(names.ask_if_meant([family]), Confidence.HIGH, family)
@@ -209,7 +211,10 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
 def _may_have(
     other: str, places: Sequence[_Place], workspace: Workspace, how_many: Callable[[Iterable[bool]], bool] = any
 ) -> bool:
-    """Return whether a package may have any or all of the executables and files that are named of a missing package."""
+    """Return whether package ``other`` may have the executables and files that the places look up in a missing package.
+
+    ``how_many`` is ``any`` or ``all``: how many of them it must have.
+    """
     named = [place.reference for place in places if place.reference.name]
     return not named or how_many(_may_offer(other, reference, workspace) for reference in named)
 

@@ -199,7 +199,7 @@ def _as_modules(inside: _Inside, workspace: Workspace) -> str:
     if f"{inside.rest}/__init__.py" in below:
         return f"import its modules from {inside.rest.removeprefix('src/').replace('/', '.')}"
     if below and all(file.endswith(".py") for file in below):
-        return "Python finds modules next to the installed program without it"
+        return "remove it, because Python finds modules next to the installed program"
     return ""
 
 
@@ -261,9 +261,10 @@ def _is_of_container(path: str) -> bool:
 
 
 def _inside(path: str, workspace: Workspace) -> _Inside | None:
-    """Return the place in the workspace: below a folder with the name of a package, a path that this package has.
+    """Return the package of the workspace that a path leads to, None if there is none.
 
-    Below ``src`` the package need not have the path, because a program may create the file.
+    A folder of the path has the name of the package, and the package has the rest of the path. Below ``src`` the package need
+    not have the rest, because a program may create the file.
     """
     folders = _folders(workspace)
     parts = path.split("/")

@@ -42,7 +42,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _misplaced(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield the headers that other packages include by a folder which is missing where they are installed."""
+    """Yield one finding for headers that other packages include with a folder (a/b.hpp) but that are installed without it."""
     installed = [file for file in package.built.products.installs if file.source.endswith(files.HEADERS) and not file.conditional]
     provided = {file.source: file for file in installed}
     paths = [file.path for file in package.built.products.installs]
@@ -65,7 +65,7 @@ def _misplaced(package: Package, wanted: build.Includes) -> Iterator[Finding]:
 
 
 def _doubled(package: Package, headers: build.OwnHeaders) -> Iterator[Finding]:
-    """Yield the headers that are installed with their folder include/, below the folder that compilers search."""
+    """Yield a finding for headers that are installed to include/include/, where compilers do not search."""
     script = package.built
     sources = [file for file in script.products.installs if file.source.endswith(files.HEADERS)]
     own = [file for file in sources if file.source.startswith("include/")]

@@ -111,7 +111,7 @@ def _only_prints(call: Call) -> bool:
 
 
 def _is_installed(package: Package, problem: Problem) -> bool:
-    """Return whether the file is needed by install(), not while CMake configures."""
+    """Return whether install() needs the missing file of a problem, so that only the installation fails."""
     return any(call.extent.covers(problem.span) for call in package.calls("install", anywhere=True))
 
 
@@ -149,7 +149,7 @@ def _python_packages(package: Package) -> Iterator[Finding]:
             continue
         what = "has no __init__.py" if any(file.startswith(f"{folder}/") for file in package.files) else "does not exist"
         yield Finding(
-            f"ament_python_install_package({folder}): the folder {what}",
+            f"ament_python_install_package() fails because the folder '{folder}' {what}",
             call.span(0),
             folder if what.startswith("does") else f"{folder}/__init__.py",
         )

@@ -81,9 +81,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for name, places in missing.items():
         (what, first), *others = places
         sure = along is not None and name not in along and name not in probable
-        why = "but there is no find_package() for it" if sure else "which is found only if another package finds it"
+        why = "but there is no find_package() for it" if sure else "but only another package calls find_package() for it"
         yield Finding(
-            f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) before it",
+            f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) earlier",
             first.span,
             name,
             first_related(place for _, place in others),
@@ -99,7 +99,10 @@ def _gives_commands(name: str) -> bool:
 
 
 def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the declared packages whose headers compiled sources include, but for which there is certainly no find_package()."""
+    """Yield findings for declared packages whose headers the sources include without a find_package().
+
+    ``along``: the packages that find_package() finds, directly or through other packages; None if unknown.
+    """
     if along is None:
         return
     folders = (text for call in package.calls(*_INCLUDING, anywhere=True) for text in call.texts)

@@ -56,14 +56,14 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         adds = f"add {marker}" if marker in package.files else f"create an empty file {marker} and add it"
         remedy = f"install it to {_MARKERS}" if misplaced else f"{adds} to data_files"
         yield Finding(
-            f"the marker of the package is {where}, so ROS finds the package only if colcon adds one; {remedy}",
+            f"the package marker of the ament index is {where}, so ROS finds the package only if colcon adds one; {remedy}",
             misplaced.span if misplaced else place,
             marker,
             fix=fix,
         )
     if not any(path.startswith("share/") and path.endswith("/package.xml") and path.count("/") == 2 for path in paths):
         yield Finding(
-            f"package.xml is not installed; add ('share/{package.name}', ['package.xml']) to data_files",
+            f"package.xml is not installed, so tools cannot read it; add ('share/{package.name}', ['package.xml']) to data_files",
             place,
             "package.xml",
             fix=_add(slot, _manifest(slot, package.name)) if slot else None,

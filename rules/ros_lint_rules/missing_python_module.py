@@ -162,7 +162,7 @@ def _remedy(package: Package, folder: str, name: str, slot: EditableList | None)
 
 
 def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield modules that are not installed next to the program that imports them."""
+    """Yield findings for modules that are not installed next to the program that imports them."""
     if package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE):
         return
     own = {module.partition(".")[0] for module in package.built.products.python_packages}
@@ -185,7 +185,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
 
 
 def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the Python package of an ament_cmake package, if none of its modules is installed."""
+    """Yield a finding for the Python package of an ament_cmake package if none of its modules is installed."""
     script = package.script
     hidden = package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE)
     if script is None or package.builds_with != "ament_cmake" or hidden or script.commands.insertion is None:

@@ -83,7 +83,7 @@ def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> It
 
 
 def _is_called(package: Package, name: str) -> bool:
-    """Return whether a project() of the package has this name: a superbuild has more than one project()."""
+    """Return whether any project() of the package has this name. A superbuild has several."""
     return name == package.built.project.name or any(
         build.evaluated_name(package, call.texts[0]) == name for call in package.calls("project") if call.args
     )
@@ -123,7 +123,7 @@ _PLACES = {
 
 
 def _installed_for(provided: InstalledFile) -> tuple[str, str]:
-    """Return the package that an installed file is installed for and its kind, a key of _PLACES; ("", "") for other files."""
+    """Return the package name in the path of an installed file, and the kind of the file, a key of _PLACES; else ("", "")."""
     folder, _, rest = provided.path.partition("/")
     name, _, file = rest.partition("/")
     if provided.path.startswith(_MARKERS):

@@ -103,11 +103,14 @@ def _outer(package: Package) -> str:
         return f"the package '{package.name}'"
     script = "CMakeLists.txt" if package.type == "cmake" else "setup.py"
     place = f"'{package.path}'" if package.path else "the root folder"
-    return f"{place}, which is the plain package '{package.name}' because of its {script}"
+    return f"{place}, which colcon takes for a package '{package.name}' because of its {script}"
 
 
 def _remedy(package: Package, inside: list[Manifest], it: str) -> str:
-    """Return the remedy. The build script of a root folder may be intended: then colcon can search the folders below."""
+    """Return the remedy; ``it`` is the pronoun for the nested packages, "it" or "them".
+
+    The script of a root folder may be intended. Then colcon can build the folders below it with --base-paths.
+    """
     folders = dict.fromkeys(folder for nested in inside for folder in _between(package, nested)[:1])
     remedies = f"move {it} out, or mark {it} with COLCON_IGNORE"
     return remedies if package.path or not folders else f"build with --base-paths {' '.join(folders)}, {remedies}"

@@ -30,7 +30,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     for call in build.unconditional_calls(package, "set"):
         name, *values = call.texts
         if name in _VARIABLES and not any(name in text for text in values):
-            yield Finding(f"set({name}) overrides the command line; set it only if it is not set", call.name_span, name)
+            yield Finding(
+                f"set({name}) overrides -D{name} of the command line; set it only in if(NOT {name})", call.name_span, name
+            )
 
 
 RULE = Rule(

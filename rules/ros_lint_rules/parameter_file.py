@@ -62,7 +62,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _rewrites(module: str) -> bool:
-    """Return whether a module has a RewrittenYaml, which adds a namespace to parameter files: nav2_common or a copy of it."""
+    """Return whether a Python module has the RewrittenYaml of nav2_common, which adds a namespace to parameter files."""
     return module.startswith("nav2_common") or module.rpartition(".")[2] == "rewritten_yaml"
 
 

@@ -45,6 +45,7 @@ from ros_lint.api import (
     build,
     cached_by_workspace,
     first_related,
+    names,
 )
 
 
@@ -68,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 @cached_by_workspace
 def _registered_classes(workspace: Workspace) -> frozenset[str]:
-    """Return the classes that the packages register."""
+    """Return the names of the classes that packages of the workspace register in C++."""
     return frozenset([macro.name for package in workspace.packages for macro in package.registrations])
 
 
@@ -89,14 +90,14 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     alike = [macro for macro in registered if macro.name.rpartition("::")[2] == last and macro.name not in described]
     verb = "registers"
     if alike:
-        hint = f"; the sources register '{alike[0].name}'"
+        hint = names.did_you_mean([alike[0].name])
     elif entry.type in package.unwritten_classes:
         verb, hint = "registers or defines", "; remove the entry"
     else:
         hint = f"; add PLUGINLIB_EXPORT_CLASS({entry.type}, {entry.base}) to a source"
     related = first_related(Related("registered here", macro.span) for macro in alike)
     yield Finding(
-        f"no source {verb} '{entry.type}'{hint}",
+        f"no source of this package {verb} the plugin '{entry.type}'{hint}",
         entry.span,
         f"{plugin.path}#{entry.type}",
         related,
@@ -105,7 +106,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
 
 
 def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]) -> Iterator[Finding]:
-    """Compare the described base class of a plugin with those of its registrations."""
+    """Yield a finding if every registration of a plugin has a base class other than the described one."""
     if all(_differ(entry.base, macro.base) for macro in macros):
         yield Finding(
             f"'{entry.type}' is described as '{entry.base}', but registered as '{macros[0].base}'; "

@@ -56,7 +56,7 @@ def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> It
     if before.exact and after.exact and before.texts == after.texts:
         name = before.texts[0]
         is_argument = name in arguments
-        remedy = f"did you mean the argument '{name}'?" if is_argument else "remove the remapping or correct a name"
+        remedy = f"did you mean the value of the argument '{name}'?" if is_argument else "remove the remapping or correct a name"
         yield Finding(
             f"'{name}' is remapped to itself, which does nothing; {remedy}",
             after.span,

@@ -76,7 +76,7 @@ def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
         first, *others = calls
         related = first_related(Related("also here", call.name_span) for call in others)
         yield Finding(
-            f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with p::p or ${{p_TARGETS}}",
+            f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with targets such as rclcpp::rclcpp",
             first.name_span,
             name,
             related,

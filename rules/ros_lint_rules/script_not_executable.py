@@ -93,8 +93,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _line(package: Package, file: ScriptFile, name: str, started: bool, any_executable: bool) -> Iterator[Finding]:
-    """Yield the finding about the interpreter line, else about the permissions of the source.
+    """Yield the finding about the interpreter line of a script, else about the permissions of the script.
 
+    ``name``: its file name after installation; ``started``: a launch file starts it.
     ``any_executable``: an installed script of the package has the bit. If not, the file system may not support the bit.
     """
     place = package.start_of(file.path)

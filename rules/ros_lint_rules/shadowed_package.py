@@ -39,7 +39,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     version = below.released.version if below.released else ""
     hidden = f"version {version}" if version else "the package"
-    message = f"'{package.name}' {package.manifest.version} hides {hidden} of underlay '{below.prefix.root}'"
+    message = f"'{package.name}' {package.manifest.version} of the workspace hides {hidden} of underlay '{below.prefix.root}'"
     dependents = tuple(f"'{name}'" for name in world.dependents_below(package.name))
     if dependents:
         message += f", against which {_few(dependents)} {'was' if len(dependents) == 1 else 'were'} built"

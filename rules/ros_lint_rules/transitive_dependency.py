@@ -77,12 +77,6 @@ from ros_lint.api import (
 _LAUNCHER = "ros2launch"
 _LINTERS = "ament_lint_common"
 _BUILD_TOOL, _CORE = "ament_cmake", "ament_cmake_core"
-_TEST_TOOLS = dependencies.TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
-"""Packages and keys that run tests. Build tools and packages for a kind of tests provide them."""
-_TEST_MODULES = _TEST_TOOLS | {
-    "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
-}  # fmt: skip
-"""Packages and keys that tests use and that packages for a kind of tests provide."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -124,7 +118,9 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
     if need.name == _CORE or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
         return True
     in_tests = need.role is Role.TEST
-    if need.name in (_TEST_MODULES if in_tests else _TEST_TOOLS) and package.declares(carrier) & (Role.TEST | Role.TOOL):
+    if need.name in (dependencies.TEST_MODULES if in_tests else dependencies.TEST_TOOLS) and package.declares(carrier) & (
+        Role.TEST | Role.TOOL
+    ):
         return True
     if is_direct and in_tests and carrier == _LINTERS:
         return True
@@ -132,11 +128,6 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
         return dependencies.only_brings(workspace.world, carrier)
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
     return dependencies.is_part_of_launch(package, outside_tests or need.uses)
-
-
-def _is_found_by_cmake(need: dependencies.Need) -> bool:
-    """Return whether find_package() needs the package outside of tests."""
-    return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
 
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:
@@ -155,7 +146,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
-        None if _is_found_by_cmake(need) else Severity.INFO,
+        None if dependencies.is_found_by_cmake(need) else Severity.INFO,
     )
 
 
@@ -182,7 +173,7 @@ def _purpose(role: Role) -> Role:
 
 @cached_by_package
 def _declared_names(package: Package, workspace: Workspace) -> Mapping[Role, Mapping[str, None]]:
-    """Return the declared names that serve each purpose, in the order of the manifest."""
+    """Return the declared names for each purpose (to build, to run, to test), in the order of the manifest."""
     return {
         purpose: dict.fromkeys(declared.name for declared in package.declared if declared.role & purpose) for purpose in _PURPOSES
     }

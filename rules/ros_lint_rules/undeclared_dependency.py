@@ -67,7 +67,6 @@ Reported with medium confidence:
 - The package is declared under a false condition and CMake does not ask for it: the files may be for other systems.
 - Files are looked up in a released metapackage, which has none: another package of that name may be intended.
 - The package depends on this one, with any tag, so declaring it would close a cycle that colcon rejects. There is no fix.
-- `launch`, if `launch_ros` is missing too, because `launch_ros` provides it.
 
 Optional uses are reported with low confidence and without a fix:
 
@@ -78,15 +77,25 @@ Optional uses are reported with low confidence and without a fix:
 There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
 colcon builds it, but rosdep does not know it.
 
+Some packages come with another undeclared package for the same purposes and are not shown beside it, because one line is
+missing. They are reported as `transitive-dependency` once the other one is declared:
+
+- parts of launch that only launch files import: `ament_index_python` beside `launch_ros`;
+- tools that run tests: `python3-pytest` beside `ament_cmake_pytest`;
+- libraries that only files with headers of the other one include, if it depends on them directly: `orocos_kdl_vendor` beside
+  `kdl_parser`. Packages that `find_package()` names and interfaces are shown.
+
 The severity is info for modules of launch that only launch files import, because `ros2 launch` provides them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 from ros_lint.api import (
     Confidence,
+    Consequence,
     Finding,
     Package,
     Related,
@@ -106,13 +115,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     undeclared_needs = dependencies.undeclared(package, workspace)
     with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, need.uses)}
     for need, sure in undeclared_needs:
-        certain = sure and not (need.name == "launch" and "launch_ros" in with_launch)  # launch_ros provides launch
         problem = "is used here, but package.xml does not declare it"
         severity = Severity.INFO if need.name in with_launch else None
-        finding = _finding(package, workspace, need, problem, Confidence.HIGH if certain else Confidence.MEDIUM)
+        finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
-            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name"
+            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
             finding = finding._replace(message=message, fix=None)
+        if finding.fix:
+            finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
         yield finding._replace(severity=severity)
     for lack in dependencies.misplaced(package, workspace):
         tag = lack.depend.tag
@@ -142,7 +152,9 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     elif proposal.obstacle:
         message = f"'{name}' {problem}, and it cannot be declared: {proposal.obstacle}"
     elif condition:
-        message = f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen it"
+        message = (
+            f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen the condition"
+        )
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):
@@ -158,6 +170,40 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
     )
+
+
+def _brought(
+    package: Package, workspace: Workspace, need: dependencies.Need, all_needs: Iterable[tuple[dependencies.Need, bool]]
+) -> tuple[Consequence, ...]:
+    """Return the undeclared packages that come with another one, ``need``, once it is declared, and need no tag of their own."""
+    closure = workspace.world.closure((need.name,))
+    return tuple(
+        [
+            Consequence("undeclared-dependency", other.name)
+            for other, _ in all_needs
+            if other is not need and other.name in closure and _needs_no_tag(package, workspace, other, need)
+        ]
+    )
+
+
+def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Need, need: dependencies.Need) -> bool:
+    """Return whether packages rarely declare ``other`` if they declare ``need``, which brings it for the same purposes."""
+    serves_more = bool(other.role & ~need.role)
+    if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
+        return False
+    if dependencies.is_part_of_launch(package, other.uses):
+        return True
+    if other.role is Role.TEST and other.name in dependencies.TEST_MODULES:
+        return True
+    files_of_need = {use.span.path for use in need.uses}
+    return workspace.world.path((need.name,), other.name) == (need.name, other.name) and all(
+        use.via in _CODE and use.span.path in files_of_need and not _GENERATED.match(use.name) for use in other.uses
+    )
+
+
+_CODE = frozenset({"include", "symbol"})
+_GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
+"""Headers of interfaces, which packages declare even if another package brings them."""
 
 
 def _suggestion(name: str, workspace: Workspace) -> str:
@@ -184,7 +230,7 @@ def _needs_back(name: str, package: Package, workspace: Workspace) -> bool:
 
 
 def _elsewhere(name: str, workspace: Workspace) -> str:
-    """Return the distributions that have an unavailable package; "" if it is available.
+    """Return the distributions that have the package, as a list in text; "" if the chosen distribution has it or none does.
 
     If no distribution is set, packages of all distributions are available.
     """

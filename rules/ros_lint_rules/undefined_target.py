@@ -194,7 +194,10 @@ def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Itera
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
-    """Yield findings for exported libraries that are not built. Names unlike those of this package may be system libraries."""
+    """Yield findings for exported libraries that are not built, if the name resembles a library of this package.
+
+    Other names may be system libraries. ``defined``: names of targets that exist.
+    """
     libraries = sorted(target.name for target in package.built.products.targets if target.kind == "library")
     for call in package.calls("ament_export_libraries"):
         for index, text in enumerate(call.texts):

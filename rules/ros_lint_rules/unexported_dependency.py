@@ -165,7 +165,7 @@ def _without_components(package: Package, workspace: Workspace) -> Iterator[Find
 
 
 def _is_without(workspace: Workspace, all_names: Iterable[str], keys: re.Pattern[str]) -> bool:
-    """Return whether the dependencies of the packages that CMake finds are known and contain no library of Qt."""
+    """Return whether all dependencies of the packages with these CMake names are known and no name of them matches ``keys``."""
     packages = [provider for name in all_names for provider in workspace.world.by_cmake(name).names or (name,)]
     closure = workspace.world.closure(packages)
     return closure.complete and not any(keys.match(key) for key in closure)

@@ -42,7 +42,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _unexported(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield the missing export of headers that another package includes after finding this one."""
+    """Yield a finding for headers that other packages include after find_package() but that this package does not export."""
     includes = [
         (other, use) for other, use in wanted if other.script and package.name in dependencies.names_searched(other, other.script)
     ]

@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
-    """Yield the descriptions that are not exported, although they list a registered class that no installed one lists."""
+    """Yield findings for unexported descriptions with a registered class that no installed description lists."""
     exported = {text for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True) for text in call.texts}
     script = package.built
     installed = [plugin for plugin in script.files.plugin_files if plugin.path in script.products.installed]
@@ -97,7 +97,8 @@ def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterat
         library = build.library_registering(package, macro)
         if library and library not in needed:
             yield Finding(
-                f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it",
+                f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it; "
+                "add it to a description",
                 macro.span,
                 macro.name,
                 first_related(Related("this description is exported", call.span(1)) for call in calls),

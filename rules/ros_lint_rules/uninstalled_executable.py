@@ -104,7 +104,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 span,
                 target.name,
                 (*related, Related("built here", target.span)),
-                _move(package, span, script.products.targets),
+                _destination_fix(package, span, script.products.targets),
                 Confidence.MEDIUM if not sure or any(opaque.reaches(own) for opaque in unseen) else Confidence.HIGH,
             )
         elif not installed and launched and not unseen:
@@ -159,8 +159,8 @@ def _installs_executables_only(package: Package, span: Span, targets: tuple[Buil
     return False
 
 
-def _move(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
-    """Return the fix of the destination, if the install() has one for executables only."""
+def _destination_fix(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> Fix | None:
+    """Return the fix that changes the destination bin or lib to lib/<package>; None if libraries share the destination."""
     kinds = {target.name: target.kind for target in targets}
     for call in package.calls("install"):
         if call.texts[:1] != ("TARGETS",) or not call.extent.covers(span):

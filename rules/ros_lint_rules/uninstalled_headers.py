@@ -90,7 +90,7 @@ def _name(path: str) -> str:
 
 
 def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> Iterator[Finding]:
-    """Yield the export of a missing folder by a package that has programs only."""
+    """Yield the finding for exported headers that are not installed, in a package with programs but without libraries."""
     first, *others = exports
     yield Finding(
         f"the headers in include/ ({_name(headers[0])} ...) are exported but not installed, and there is no library "

@@ -77,7 +77,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _grouped(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
-    """Return the files by folder; those of a subfolder join an outer folder of which nothing is installed."""
+    """Return the missing files by folder. Files of a subfolder are listed under an outer folder that is missing as a whole.
+
+    ``kept``: folders of which files are installed already; they take no files of subfolders.
+    """
     groups: dict[str, list[str]] = {}
     for folder in sorted(missing):
         outer = next((above for above in files.folders_of(f"{folder}/") if above in groups and above not in kept), folder)

@@ -99,7 +99,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 def _in_package_folder(package: Package) -> Iterator[Finding]:
-    """Yield the exported libraries that are installed where ament_cmake_export_libraries does not look for them."""
+    """Yield findings for exported libraries that are installed to lib/<package>, where find_package() does not look."""
     loaded = build.EXPORTING_PLUGINS in package.built.commands.names
     for name, place in build.libraries_in_libexec(package, (".so", ".a")).items():
         if exported := _exported(package, name):
@@ -127,10 +127,13 @@ def _is_shared(package: Package, name: str) -> bool:
 
 
 def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
-    """Return whether only installed programs or other packages can use an explicitly shared library of every build.
+    """Return whether a shared library is only useful if it is installed.
 
-    No target of the build folder links it. Exceptions: a library with plugins or components is ``loaded`` at run time, so links
-    do not matter; tests may link a library whose header is installed; and programs may link it if nothing built is installed.
+    It is declared SHARED, every build has it, and no uninstalled program or test links it, with these exceptions:
+
+    - If the library is ``loaded`` at run time, because it has plugins or components, links do not matter.
+    - If its header is installed, tests may link it.
+    - If the package installs nothing that it builds, its programs may link it.
     """
     script = package.script
     assert script is not None

@@ -123,7 +123,10 @@ def _is_resource(path: str) -> bool:
 
 
 def _unit(path: str, kept: set[str]) -> str:
-    """Return the path to install: the topmost folder of the file if none of its files is installed, else the file."""
+    """Return the path to install for a file: its topmost folder, or the file itself if the folder is in ``kept``.
+
+    ``kept``: folders of which files are installed already.
+    """
     top, inside, _ = path.partition("/")
     if not inside and "." not in top:
         return f"{top}/"
@@ -244,7 +247,7 @@ def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
 
 
 def _makes_nothing(package: Package, script: BuildScript) -> bool:
-    """Return whether a package provides nothing, so that its files must be its purpose.
+    """Return whether the script builds and installs nothing, so that the package can only exist for its files.
 
     Packages named after tests or examples may use their files in the sources.
     """

@@ -75,7 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _of_setup(package: Package) -> Iterator[Finding]:
-    """Yield the programs that are started with ``ros2 run``, but that setup.py does not install."""
+    """Yield findings for programs that are started with ``ros2 run`` but that setup.py does not install."""
     for file in package.built.files.scripts:
         if file.run is not None and file.main:
             yield Finding(

@@ -62,42 +62,44 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     renamed: dict[tuple[str, str], dependencies.UnresolvedDependency] = {}
     for name, packages in dependencies.declared_names(workspace).items():
         if workspace.world.resolution(name) == "unknown":
-            for stranger in dependencies.unresolved(name, packages):
+            for unresolved in dependencies.unresolved(name, packages):
                 if not name:
-                    yield _needless(stranger, f"an empty <{stranger.declared.depend.tag}> declares nothing and makes rosdep fail")
+                    yield _needless(
+                        unresolved, f"an empty <{unresolved.declared.depend.tag}> declares nothing and makes rosdep fail"
+                    )
                 elif name == _PYTHON_BUILD:
-                    yield _build_type(stranger, workspace)
+                    yield _build_type(unresolved, workspace)
                 elif workspace.world.group_members(name):
-                    yield _needless(stranger, f"'{name}' is a group of packages, not a package")
-                elif stranger.runs_python and workspace.world.by_import(name).none_needed:
+                    yield _needless(unresolved, f"'{name}' is a group of packages, not a package")
+                elif unresolved.runs_python and workspace.world.by_import(name).none_needed:
                     why = f"'{name}' is a module of the Python standard library, so rosdep has nothing to install"
-                    yield _needless(stranger, why)
-                elif workspace.world.meant(name, python=stranger.runs_python) is None and (own := _own(stranger)):
-                    yield _needless(stranger, f"'{name}' is a {own} of this package, not a package")
+                    yield _needless(unresolved, why)
+                elif workspace.world.meant(name, python=unresolved.runs_python) is None and (own := _own(unresolved)):
+                    yield _needless(unresolved, f"'{name}' is a {own} of this package, not a package")
                 else:
-                    yield _unknown(stranger, workspace, renamed)
+                    yield _unknown(unresolved, workspace, renamed)
 
 
-def _build_type(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
-    package, name = stranger.package, stranger.name
+def _build_type(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
+    package, name = unresolved.package, unresolved.name
     why = f"'{name}' is a build type, not a package, so rosdep cannot resolve it"
     if package.builds_with != "ament_cmake" or "ament_python_install_package" not in package.built.commands.names:
-        return _needless(stranger, why)
+        return _needless(unresolved, why)
     remedy = f"write '{_PYTHON_IN_CMAKE}'"
-    fix = dependencies.naming_fix(workspace, _PYTHON_IN_CMAKE, remedy, *_rename(stranger, _PYTHON_IN_CMAKE))
-    return Finding(f"{why}; {remedy}", stranger.declared.depend.span, name, fix=fix, package=package.name)
+    fix = dependencies.naming_fix(workspace, _PYTHON_IN_CMAKE, remedy, *_rename(unresolved, _PYTHON_IN_CMAKE))
+    return Finding(f"{why}; {remedy}", unresolved.declared.depend.span, name, fix=fix, package=package.name)
 
 
-def _needless(stranger: dependencies.UnresolvedDependency, why: str) -> Finding:
-    package, depend = stranger.package, stranger.declared.depend
-    title = f"remove the dependency on '{stranger.name}'" if stranger.name else "remove the empty tag"
-    fix = Fix(title, _removal(stranger))
-    return Finding(f"{why}; remove the tag", depend.span, stranger.name or depend.tag, fix=fix, package=package.name)
+def _needless(unresolved: dependencies.UnresolvedDependency, why: str) -> Finding:
+    package, depend = unresolved.package, unresolved.declared.depend
+    title = f"remove the dependency on '{unresolved.name}'" if unresolved.name else "remove the empty tag"
+    fix = Fix(title, _removal(unresolved))
+    return Finding(f"{why}; remove the tag", depend.span, unresolved.name or depend.tag, fix=fix, package=package.name)
 
 
-def _own(stranger: dependencies.UnresolvedDependency) -> str:
+def _own(unresolved: dependencies.UnresolvedDependency) -> str:
     """Return "program" or "module" if the package has one of that name and refers to no package of that name, else ""."""
-    package, name = stranger.package, stranger.name
+    package, name = unresolved.package, unresolved.name
     if any(mention.name == name for mention in package.built.mentions):
         return ""
     if any(reference.package == name for launch_file in package.launch for reference in launch_file.references):
@@ -110,7 +112,7 @@ def _own(stranger: dependencies.UnresolvedDependency) -> str:
 
 
 def _unknown(
-    stranger: dependencies.UnresolvedDependency,
+    unresolved: dependencies.UnresolvedDependency,
     workspace: Workspace,
     renamed: dict[tuple[str, str], dependencies.UnresolvedDependency],
 ) -> Finding:
@@ -118,59 +120,59 @@ def _unknown(
 
     ``renamed``: the dependencies that fixes rename so far, by package and new name.
     """
-    name, world, target = stranger.name, workspace.world, workspace.target
+    name, world, target = unresolved.name, workspace.world, workspace.target
     known = f"{target.distro}, as of {world.knowledge.date}"
     what = f"'{name}' is neither a package nor a rosdep key ({known})"
-    meant = world.meant(name, python=stranger.runs_python)
+    meant = world.meant(name, python=unresolved.runs_python)
     other_library = ""
-    if meant and meant.by == "slip" and not world.is_package(meant.name) and dependencies.is_used_in_sources(stranger):
+    if meant and meant.by == "slip" and not world.is_package(meant.name) and dependencies.is_used_in_sources(unresolved):
         other_library, meant = meant.name, None  # the code uses the name as well, so it is not a typo of another library
     if (meant is None or meant.by == "slip") and (inside := _in_folder(name, workspace)):
-        return _of_folder(stranger, workspace, f"{what}, only the folder of '{inside}'", inside)
+        return _of_folder(unresolved, workspace, f"{what}, only the name of the folder of '{inside}'", inside)
     fix = None
-    of_cmake = not stranger.runs_python and bool(world.knowledge.names.cmake(name))
+    of_cmake = not unresolved.runs_python and bool(world.knowledge.names.cmake(name))
     installing = () if of_cmake else world.knowledge.rosdep.installing(name)
-    sure = _confidence(stranger, meant.by if meant else "system" if installing else "", workspace)
+    sure = _confidence(unresolved, meant.by if meant else "system" if installing else "", workspace)
     if meant is None and installing:
         keys = " or ".join(f"'{key}'" for key in installing[:_MOST_KEYS])
         message = f"{what}, only the name that {_caller('system', installing[0])} uses; write {keys}"
     elif meant is None:
-        near = [other for other in world.suggest(name, python=stranger.runs_python) if other != other_library]
+        near = [other for other in world.suggest(name, python=unresolved.runs_python) if other != other_library]
         hint = names.did_you_mean(near, "") or "correct it, or add the package to the workspace"
-        if lacking := dependencies.undeclared_match(stranger, workspace):
+        if lacking := dependencies.undeclared_match(unresolved, workspace):
             hint = f"write '{lacking}', which is used but not declared{dependencies.availability_remark(workspace, lacking)}"
             sure = Confidence.HIGH
             fix = dependencies.naming_fix(
-                workspace, lacking, f"write '{lacking}' instead of '{name}'", *_rename(stranger, lacking)
+                workspace, lacking, f"write '{lacking}' instead of '{name}'", *_rename(unresolved, lacking)
             )
         message = f"{what}; {hint}"
     else:
         # A name that looks like a rosdep key is not the name in another system.
         caller = "" if name.startswith("python3-") else _caller(meant.by, meant.name)
         why = f", only the name that {caller} uses" if caller else ""
-        twin = renamed.get((stranger.package.name, meant.name))
+        twin = renamed.get((unresolved.package.name, meant.name))
         duplicate = f"'{twin.name}', which means '{meant.name}'," if twin else ""
-        if stranger.package.declares(meant.name):
+        if unresolved.package.declares(meant.name):
             duplicate = f"'{meant.name}'"
         remedy = f"remove it, because {duplicate} is declared as well" if duplicate else f"write '{meant.name}'"
         message = f"{what}{why}; {remedy}{'' if duplicate else dependencies.availability_remark(workspace, meant.name)}"
-        alone = meant.by == "cmake" and _is_found_as_declared(stranger.package, name)
+        alone = meant.by == "cmake" and _is_found_as_declared(unresolved.package, name)
         if alone:
             message += f" and add find_package({name}), because only {_FINDS_DECLARED}() finds it so far"
-        edits, safe = _rename(stranger, meant.name, twin), sure == Confidence.HIGH and not alone
+        edits, safe = _rename(unresolved, meant.name, twin), sure == Confidence.HIGH and not alone
         if duplicate:
             fix = Fix.of(f"remove '{name}'", *edits, safe=safe)
         else:
             fix = dependencies.naming_fix(workspace, meant.name, f"write '{meant.name}' instead of '{name}'", *edits, safe=safe)
         if fix and fix.safe:
-            renamed.setdefault((stranger.package.name, meant.name), stranger)
+            renamed.setdefault((unresolved.package.name, meant.name), unresolved)
     return Finding(
         message,
-        stranger.declared.depend.name_span,
+        unresolved.declared.depend.name_span,
         name,
         fix=fix,
         confidence=sure,
-        package=stranger.package.name,
+        package=unresolved.package.name,
     )
 
 
@@ -180,26 +182,29 @@ def _in_folder(name: str, workspace: Workspace) -> str:
     return all_names.pop() if len(all_names) == 1 else ""
 
 
-def _of_folder(stranger: dependencies.UnresolvedDependency, workspace: Workspace, what: str, meant: str) -> Finding:
-    package = stranger.package
+def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspace, what: str, meant: str) -> Finding:
+    package = unresolved.package
     own = meant == package.name
-    remedy, title = f"write '{meant}'", f"write '{meant}' instead of '{stranger.name}'"
+    remedy, title = f"write '{meant}'", f"write '{meant}' instead of '{unresolved.name}'"
     if own or package.declares(meant):
         remedy = "remove it" if own else f"remove it, because '{meant}' is declared as well"
-        title = f"remove '{stranger.name}'"
-    edits = _removal(stranger) if own else _rename(stranger, meant)
-    place = stranger.declared.depend.name_span
+        title = f"remove '{unresolved.name}'"
+    edits = _removal(unresolved) if own else _rename(unresolved, meant)
+    place = unresolved.declared.depend.name_span
     return Finding(
         f"{what}; {remedy}",
         place,
-        stranger.name,
+        unresolved.name,
         fix=dependencies.naming_fix(workspace, meant, title, *edits),
         package=package.name,
     )
 
 
 def _caller(by: str, key: str) -> str:
-    """Return the system that uses another name for the content of a rosdep key, or ""."""
+    """Return what the declared name belongs to, such as "pip" or "find_package", for messages; "" if unknown.
+
+    ``by``: how the rosdep key ``key`` was found.
+    """
     return "pip" if by == "system" and key.endswith("-pip") else _CALLED_SO_BY.get(by, "")
 
 
@@ -210,36 +215,36 @@ def _is_found_as_declared(package: Package, name: str) -> bool:
     return not any(name in call.texts[:1] for call in package.calls("find_package", anywhere=True))
 
 
-def _confidence(stranger: dependencies.UnresolvedDependency, by: str, workspace: Workspace) -> Confidence:
+def _confidence(unresolved: dependencies.UnresolvedDependency, by: str, workspace: Workspace) -> Confidence:
     if not by:
         # Valid package names (REP 144) may belong to unreleased packages; all rosdep keys are known.
-        exists = names.may_be_package(stranger.name) and not dependencies.resembles_ament_package(stranger.name, workspace)
+        exists = names.may_be_package(unresolved.name) and not dependencies.resembles_ament_package(unresolved.name, workspace)
         return Confidence.MEDIUM if exists else Confidence.HIGH
     # A library may be wrapped in a package of the same name whose sources are in another repository.
     elsewhere = bool(workspace.source_lists) and by in _CALLED_SO_BY
-    return Confidence.MEDIUM if elsewhere and names.may_be_package(stranger.name) else Confidence.HIGH
+    return Confidence.MEDIUM if elsewhere and names.may_be_package(unresolved.name) else Confidence.HIGH
 
 
-def _removal(stranger: dependencies.UnresolvedDependency) -> tuple[Edit, ...]:
-    return tuple(edit for tag in stranger.tags for edit in dependencies.remove_dependency(stranger.package, tag))
+def _removal(unresolved: dependencies.UnresolvedDependency) -> tuple[Edit, ...]:
+    return tuple(edit for tag in unresolved.tags for edit in dependencies.remove_dependency(unresolved.package, tag))
 
 
 def _rename(
-    stranger: dependencies.UnresolvedDependency, name: str, twin: dependencies.UnresolvedDependency | None = None
+    unresolved: dependencies.UnresolvedDependency, name: str, twin: dependencies.UnresolvedDependency | None = None
 ) -> tuple[Edit, ...]:
     """Return the edits that write another name into every tag, () if tags would be duplicated.
 
     ``twin``: another dependency of the package that is renamed to the same name.
     """
-    package = stranger.package
+    package = unresolved.package
     have = {declared.depend.tag for declared in package.tags(name)}
     if twin is not None:
         have.update([tag.tag for tag in twin.tags])
     if have:
-        if have <= {"depend"} or have == {tag.tag for tag in stranger.tags}:
-            return _removal(stranger)
+        if have <= {"depend"} or have == {tag.tag for tag in unresolved.tags}:
+            return _removal(unresolved)
         return ()
-    return tuple(Edit(tag.name_span, name) for tag in stranger.tags)
+    return tuple(Edit(tag.name_span, name) for tag in unresolved.tags)
 
 
 RULE = Rule(

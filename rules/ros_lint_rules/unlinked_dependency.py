@@ -84,7 +84,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
-    """Return the includes of the wanted packages that every build compiles, by file."""
+    """Return the #include lines of headers of the ``wanted`` packages, by file. Lines that a build may skip are left out."""
     includes: dict[str, list[Use]] = {}
     for use in package.uses:
         compiled = use.via == "include" and use.certain and not use.optional
@@ -96,7 +96,7 @@ def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
 def _unlinked(
     package: Package, workspace: Workspace, target: BuildTarget, linked: list[str], needed: dict[str, list[Use]]
 ) -> Iterator[Finding]:
-    """Yield the packages that the sources of a target include, but that the target does not link."""
+    """Yield findings for packages whose headers the sources of a target include but that the target does not link."""
     closure = dependencies.partial_closure(workspace, linked)
     alone = not any(name in closure for name in workspace.by_name)
     for name, uses in needed.items():

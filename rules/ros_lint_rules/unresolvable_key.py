@@ -37,35 +37,35 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             continue
         if world.is_key(name):
             if dependencies.is_unresolvable_key(workspace, name):
-                yield from (_key(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
+                yield from (_key(unresolved, workspace) for unresolved in dependencies.unresolved(name, packages))
         elif workspace.target.explicit and world.resolution(name) == "elsewhere":
-            yield from (_package(stranger, workspace) for stranger in dependencies.unresolved(name, packages))
+            yield from (_package(unresolved, workspace) for unresolved in dependencies.unresolved(name, packages))
 
 
-def _key(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
-    name, knowledge, distro = stranger.name, workspace.world.knowledge, workspace.target.distro
+def _key(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
+    name, knowledge, distro = unresolved.name, workspace.world.knowledge, workspace.target.distro
     anywhere = knowledge.distros_resolving(name)
-    meant = workspace.world.meant(name, python=stranger.runs_python)
+    meant = workspace.world.meant(name, python=unresolved.runs_python)
     place = f"{knowledge.platform}, the platform of {distro}" if anywhere else "any Ubuntu that ROS 2 supports"
     remedy = f"use '{meant.name}'" if meant else "use another key, or add a rule to rosdistro"
     return Finding(
         f"rosdep key '{name}' has no rule for {place}; {remedy}",
-        stranger.declared.depend.name_span,
+        unresolved.declared.depend.name_span,
         name,
-        package=stranger.package.name,
+        package=unresolved.package.name,
     )
 
 
-def _package(stranger: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
-    name, world, distro = stranger.name, workspace.world, workspace.target.distro
+def _package(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
+    name, world, distro = unresolved.name, workspace.world, workspace.target.distro
     others = ", ".join(world.where_else(name))
     return Finding(
         f"'{name}' is not released for {distro}, only for {others} (as of {world.knowledge.date}); "
         "add its sources to the workspace, or remove the dependency",
-        stranger.declared.depend.name_span,
+        unresolved.declared.depend.name_span,
         name,
         confidence=Confidence.MEDIUM if workspace.source_lists else Confidence.HIGH,
-        package=stranger.package.name,
+        package=unresolved.package.name,
     )
 
 

@@ -78,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
-    """Yield the call that runs linters where none is declared."""
+    """Yield a finding if the script runs the declared linters, but the only test dependency is ament_lint_auto."""
     for_tests = [declared.depend for declared in package.declared if declared.depend.tag == "test_depend"]
     if _RUN not in script.commands.names or {depend.name for depend in for_tests} != {_AUTO}:
         return

@@ -20,6 +20,9 @@ Write the name of the variable that is set, or set the variable before the comma
 If exactly one variable of the package has a similar name, the fix writes its name. It is unsafe, because the command then has
 an effect.
 
+Findings that are probably consequences are not shown as long as this one is: for example, what `unexported-dependency` reports
+if the variable is an argument of `ament_export_dependencies()`.
+
 ## Limitations
 
 Not reported:
@@ -45,6 +48,7 @@ from collections.abc import Iterator, Sequence
 
 from ros_lint.api import (
     Confidence,
+    Consequence,
     Edit,
     Finding,
     Fix,
@@ -90,11 +94,12 @@ def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str],
         first_related(Related("also read here", reference.span) for reference in others),
         Fix.of(f"write '{similar[0]}'", *fix, safe=False) if fix else None,
         Confidence.HIGH if similar or certain else Confidence.MEDIUM,
+        explains=tuple(map(Consequence, dict.fromkeys(rule for reference in places for rule in _explained(reference.command)))),
     )
 
 
 def _effect(command: str) -> str:
-    """Return what the reference to an unset variable does in a command."""
+    """Return the part of the message that says what happens if an argument of the command is an unset variable."""
     return next(effect for prefix, effect in _EFFECTS.items() if command.startswith(prefix))
 
 
@@ -110,8 +115,25 @@ _EFFECTS = {
 """The effect of an empty argument, by the beginning of the command."""
 
 
+def _explained(command: str) -> tuple[str, ...]:
+    """Return the names of the rules that report the consequence of an empty argument of the command; () if there are none."""
+    return next((rules for prefix, rules in _CONSEQUENCES.items() if command.startswith(prefix)), ())
+
+
+_CONSEQUENCES = {
+    "ament_export_": ("unexported-dependency", "unexported-headers"),
+    "ament_target_": ("unlinked-dependency", "unexported-dependency"),
+    "target_link_": ("unlinked-dependency",),
+    "install": (
+        "uninstalled-component", "uninstalled-executable", "uninstalled-headers", "uninstalled-launch", "uninstalled-library",
+        "uninstalled-resource", "uninstalled-script",
+    ),
+    "rosidl_": ("ungenerated-interface",),
+}  # fmt: skip
+
+
 def _similar(package: Package, name: str) -> list[str]:
-    """Return the variables of the package whose names resemble a name, nearest first."""
+    """Return the variables that the CMake files set and whose names resemble ``name``, the most similar first."""
     all_names: dict[str, None] = {}
     for command, index in _SETTING.items():
         for call in package.calls(command, anywhere=True):

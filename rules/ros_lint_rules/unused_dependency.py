@@ -91,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
-    """Return the message for an unused dependency that is the only source of a package that is used without a declaration."""
+    """Return the message for an unused dependency ``name`` that provides ``carried``, a package that is used but not declared."""
     if carried.package == package.name:
         return f"'{name}' is not used, only its dependency '{carried.name}'; declare '{carried.name}' instead"
     if carried.name == name:
@@ -163,7 +163,7 @@ def _lacks_programs(package: Package, script: BuildScript) -> bool:
 
 
 def _is_used(package: Package, name: str) -> bool:
-    """Return whether the package uses a name at all, in tests or elsewhere: removing a tag would break it."""
+    """Return whether the package uses the dependency ``name`` at all, in tests or elsewhere."""
     return any(use.package == name for use in package.uses)
 
 

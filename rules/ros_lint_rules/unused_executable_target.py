@@ -49,7 +49,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if build.is_optional_target(package, target):
             continue
         fix = Fix.of(f"install '{target.name}'", edits.cmake.install_program(script, "TARGETS", target.name), safe=False)
-        message = f"'{target.name}' is built, but neither installed nor a test; install it, or build it only on request"
+        message = f"'{target.name}' is built, but neither installed nor a test; install it, or add EXCLUDE_FROM_ALL"
         yield Finding(message, target.span, target.name, fix=fix)
 
 

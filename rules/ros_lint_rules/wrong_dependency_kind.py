@@ -152,9 +152,9 @@ def _is_for_all(declared: Declared) -> bool:
 
 
 def _exported_uses(package: Package, need: dependencies.Need, *, assume_installed: bool) -> Iterator[Use]:
-    """Yield the uses of a need; only headers that are installed in every build count as exported.
+    """Yield the uses of a need; uses in headers that no build installs lose the export role.
 
-    ``assume_installed``: also count headers that no build installs.
+    Uses in headers that only some builds install are left out. With ``assume_installed`` the role is kept.
     """
     script = package.script
     installed: dict[str, bool] | None = {} if script is None or package.hidden(Facet.LIBRARIES) else None
@@ -172,7 +172,7 @@ def _exported_uses(package: Package, need: dependencies.Need, *, assume_installe
 
 
 def _installed_headers(package: Package) -> dict[str, bool]:
-    """Return the sources of installed headers, and whether they are installed in every build."""
+    """Return for each installed header, by its source path, whether every build installs it."""
     headers: dict[str, bool] = {}
     for provided in package.built.products.installs:
         if provided.path.startswith("include/"):
@@ -189,7 +189,10 @@ class _Lack(NamedTuple):
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
-    """Return the missing export tag if uninstalled headers need it, with low confidence."""
+    """Return the lack of an export that headers in include/ cause, with low confidence; None for any other lack.
+
+    The headers are not installed yet.
+    """
     if lacking is None or lacking.role is not Role.EXPORT:
         return None
     why = "but headers in include/ use it, so packages that build against them need it once they are installed"
@@ -248,7 +251,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
         return _Lack(Role.EXPORT, why, Confidence.HIGH if sure else Confidence.MEDIUM)
     if missing(Role.EXPORT, Role.EXPORT):
         if packages:
-            why = "which installs it, but REP 149 requires an export for packages that build against this one"
+            why = "but it is part of the public interface, so REP 149 requires <build_export_depend> as well"
             return _Lack(Role.EXPORT, why, Confidence.LOW)
         return _Lack(Role.EXPORT, "but packages that build against this one need it as well", Confidence.MEDIUM)
     return None

@@ -74,6 +74,11 @@ def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
     return tuple([need for need in undeclared if not cycle_through(package, workspace, need.name)])
 
 
+def is_found_by_cmake(need: Need) -> bool:
+    """Return whether find_package() needs the package outside of tests."""
+    return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
+
+
 def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:
     if package.is_ros1:
         return ()

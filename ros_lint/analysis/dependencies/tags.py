@@ -122,3 +122,11 @@ TEST_LIBRARIES = frozenset({
     "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
 })  # fmt: skip
 """Packages and keys that provide test libraries for C++."""
+
+TEST_TOOLS = TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
+"""Packages and keys that run tests. Build tools and packages for a kind of tests provide them."""
+
+TEST_MODULES = TEST_TOOLS | {
+    "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
+}  # fmt: skip
+"""Packages and keys that tests use and that packages for a kind of tests provide."""

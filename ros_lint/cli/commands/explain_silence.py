@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.analysis.dependencies.explain import RULES, explain
 from ros_lint.analysis.finding import Confidence
 from ros_lint.engine import registry
+from ros_lint.engine.explanations import without_explained
+from ros_lint.engine.report import Issue
 from ros_lint.workspace.model import Package, Workspace
 
 
@@ -20,15 +22,30 @@ def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int
         return "", f"ros-lint: the workspace has no package '{name}'\n", 2
     lines: list[str] = []
     for package in packages:
-        lines += explain(package, workspace, dependency, _reported(package, workspace, dependency))
+        issues = _issues(package, workspace)
+        lines += explain(package, workspace, dependency, _reported(issues, dependency))
+        lines += _causes(issues, dependency)
     return "".join(f"{line}\n" for line in lines), "", 0
 
 
-def _reported(package: Package, workspace: Workspace, name: str) -> Mapping[str, Confidence]:
-    """Return the names of the rules that report a dependency in a package, with the highest confidence of each."""
+def _issues(package: Package, workspace: Workspace) -> list[Issue]:
+    """Return the findings of the explained rules in a package."""
+    rules = [rule for rule in registry.load() if rule.name in RULES and rule.package is not None]
+    return [Issue(rule, package.name, finding) for rule in rules if rule.package for finding in rule.package(package, workspace)]
+
+
+def _reported(issues: Iterable[Issue], name: str) -> Mapping[str, Confidence]:
+    """Return the names of the rules that report a dependency, with the highest confidence of each."""
     result: dict[str, Confidence] = {}
-    for rule in registry.load():
-        if rule.name in RULES and rule.package is not None:
-            confidences = [finding.confidence for finding in rule.package(package, workspace) if finding.subject == name]
-            result.update({rule.name: max(confidences)} if confidences else {})
+    for issue in issues:
+        if issue.finding.subject == name:
+            result[issue.rule.name] = max(issue.finding.confidence, result.get(issue.rule.name, Confidence.LOW))
     return result
+
+
+def _causes(issues: Sequence[Issue], name: str) -> Iterator[str]:
+    """Yield a line for each finding that is shown in place of one about a dependency."""
+    for issue in without_explained(issues):
+        for explained in issue.explained:
+            if explained.subject == name:
+                yield f"{explained.rule}: not shown, because the finding about '{issue.finding.subject}' explains it"

@@ -45,6 +45,7 @@ from ros_lint.facts.build import (
     ExportedTarget,
     InstalledFile,
 )
+from ros_lint.facts.cmake import CommandPlace
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque, Problem
 
@@ -139,6 +140,7 @@ def _result(run: Run, path: str) -> BuildScript:
             unused_optional_finds=tuple(_unused_finds(run, used)),
             commented_interfaces=tuple([name for parsed in run.paths.sources.scripts.values() for name in parsed.set_aside]),
             errors=tuple(_errors(run)),
+            lost_exports=tuple(_lost_exports(run)),
             unset_variables=tuple(unset_variables(run)),
             interpreted_tests=_interpreted_tests(run),
             runs_tests=any(map(_RUNS_TESTS.search, calls)),
@@ -167,6 +169,26 @@ _MAKES_NOTHING: Final = frozenset(
         "project", "set",
     }
 )  # fmt: skip
+
+
+def _lost_exports(run: Run) -> Iterator[CommandPlace]:
+    """Yield the calls that export in a scope that ament_package() does not see.
+
+    Nothing is yielded if the package passes the variables of ament on, to the scope of ament_package().
+    """
+    if not run.package_scopes or all(any(scope is seen for seen in run.package_scopes) for scope, _ in run.export_scopes):
+        return
+    scripts = run.paths.sources.scripts.values()
+    if any(_OF_AMENT.match(argument[0]) for parsed in scripts for command in parsed.commands for argument in command.args):
+        return
+    for scope, call in run.export_scopes:
+        if not any(scope is seen for seen in run.package_scopes):
+            yield call
+
+
+_OF_AMENT: Final = re.compile(r"_?AMENT_(?:CMAKE_)?E")
+"""Beginning of the variables in which ament keeps exports: ``_AMENT_EXPORT_...``, ``_AMENT_CMAKE_EXPORT_...`` and
+``AMENT_EXTENSIONS_...``."""
 
 
 def _exported_packages(run: Run) -> Iterator[tuple[Mention, bool]]:

@@ -3,7 +3,7 @@
 # package(NAME) names the package of the definitions after it. The evaluator runs these definitions instead of the real
 # ones. For an OPAQUE package it does so even if the workspace has its sources, because their effects are in hooks,
 # generators and templates. Besides the commands of CMake, the definitions use these primitives:
-#   ros_lint_uses(for how names...)          packages are used; messages quote "how" before a name, - for nothing;
+#   ros_lint_uses(for how names...)          packages are used; messages quote the command "how" with a name, - for nothing;
 #                                            "for" is export, interfaces, plugins, or -
 #   ros_lint_target_uses(how target names...)  likewise, with "how" and the target before the name
 #   ros_lint_headers_of(target names...)     the target has the include directories of the packages
@@ -118,7 +118,7 @@ endfunction()
 package(ament_cmake_target_dependencies OPAQUE)
 
 macro(ament_target_dependencies)
-  ros_lint_target_uses("ament_target_dependencies of" ${ARGN})
+  ros_lint_target_uses("ament_target_dependencies ..." ${ARGN})
 endmacro()
 
 macro(ament_get_recursive_properties var_include_dirs var_libraries)
@@ -465,7 +465,7 @@ package(rosidl_default_generators OPAQUE)
 
 macro(rosidl_generate_interfaces target)
   cmake_parse_arguments(_ARG_ROSIDL "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK" "LIBRARY_NAME" "DEPENDENCIES" ${ARGN})
-  ros_lint_uses(interfaces "interfaces of" ${_ARG_ROSIDL_DEPENDENCIES})
+  ros_lint_uses(interfaces "rosidl_generate_interfaces ... DEPENDENCIES" ${_ARG_ROSIDL_DEPENDENCIES})
   if(_ARG_ROSIDL_SKIP_INSTALL)
     ros_lint_interfaces(- ${_ARG_ROSIDL_UNPARSED_ARGUMENTS})
   else()
@@ -570,7 +570,7 @@ endmacro()
 package(pluginlib OPAQUE)
 
 macro(pluginlib_export_plugin_description_file category file)
-  ros_lint_uses(plugins "plugins for" ${category})
+  ros_lint_uses(plugins pluginlib_export_plugin_description_file ${category})
   get_filename_component(_pluginlib_folder "${file}" DIRECTORY)
   install(FILES "${file}" DESTINATION share/${PROJECT_NAME}/${_pluginlib_folder})
   ros_lint_provide(share/ament_index/resource_index/${category}__pluginlib__plugin/${PROJECT_NAME})
@@ -738,11 +738,11 @@ package(fastcdr)
 package("")
 
 macro(gz_find_package name)
-  ros_lint_uses(- "gz_find_package of" ${name})
+  ros_lint_uses(- gz_find_package ${name})
   set(${name}_FOUND TRUE)
 endmacro()
 macro(ign_find_package name)
-  ros_lint_uses(- "ign_find_package of" ${name})
+  ros_lint_uses(- ign_find_package ${name})
   set(${name}_FOUND TRUE)
 endmacro()
 macro(find_host_package name)

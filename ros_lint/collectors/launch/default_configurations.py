@@ -1,4 +1,4 @@
-"""The values of the launch configurations of a launch file if its arguments keep their defaults."""
+"""The values of the launch configurations of a launch file if all its launch arguments have their defaults."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition
 
 
 class DefaultConfigurations(NamedTuple):
-    """The values of the launch configurations of one file."""
+    """The possible values of the launch configurations of one launch file, and the names of those that no caller can set."""
 
     values: Mapping[str, tuple[str, ...]]
     """The alternative values of each configuration, by its name."""
@@ -21,14 +21,14 @@ class DefaultConfigurations(NamedTuple):
     """
 
     def is_own(self, text: str) -> bool:
-        """Return whether launch arguments can at most choose between the alternatives of a text."""
+        """Return whether a text depends only on configurations that no caller of the launch file can set to a new value."""
         return _depends_only_on(text, self.own)
 
 
 def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurations:
-    """Return the values that the arguments and assignments of a file give to its configurations.
+    """Return the values of all launch configurations that the actions of a file declare or set.
 
-    A value that is set under a condition is one of several alternatives. The default is not an
+    A value that is set under a condition is one of several alternatives, besides the default. The default is not an
     alternative if values are set under a condition and under its opposite.
     """
     values: dict[str, tuple[str, ...]] = {}
@@ -66,7 +66,10 @@ _UNKNOWN_CONDITION = LaunchCondition((UNKNOWN,), None)
 
 
 def _is_exhaustive(condition_sets: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Return whether a single condition and its opposite are both in the list, so that one of them holds."""
+    """Return whether one of the condition sets certainly holds.
+
+    It does if two of the sets consist of a single condition, and the conditions are opposites.
+    """
     single = {conditions[0] for conditions in condition_sets if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
 
@@ -76,7 +79,7 @@ def _is_known(condition: LaunchCondition) -> bool:
 
 
 def _independent_configurations(values: Mapping[str, tuple[str, ...]], settable: set[str]) -> frozenset[str]:
-    """Return the configurations that depend on nothing but each other."""
+    """Return the configurations whose values depend only on configurations that are not in ``settable``."""
     independent = values.keys() - settable
     while dependent := {name for name in independent if not all(_depends_only_on(text, independent) for text in values[name])}:
         independent -= dependent
@@ -84,5 +87,5 @@ def _independent_configurations(values: Mapping[str, tuple[str, ...]], settable:
 
 
 def _depends_only_on(text: str, names: Container[str]) -> bool:
-    """Return whether a text depends only on some configurations. False if it computes their names."""
+    """Return whether a text depends only on the configurations ``names``, False if the name of a configuration is computed."""
     return is_settled(text) or all(name in names for name in named_in(text) or ("\0",))

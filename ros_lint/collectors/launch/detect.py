@@ -40,8 +40,8 @@ _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"
 def is_launch_file(path: str, text: str) -> Language | None:
     """Return the language of a ROS 2 launch file, None for any other file.
 
-    Python modules that only build launch actions for other files count too, see :attr:`LaunchFile.helper`. Launch
-    files of ROS 1 do not count, because ros-lint does not check them.
+    A Python module that only builds launch actions for other files counts, too, see :attr:`LaunchFile.helper`. A launch
+    file of ROS 1 does not count, because ros-lint does not check it.
     """
     if path.endswith(".py"):
         if "launch" not in text and "generate_test" not in text:
@@ -57,7 +57,10 @@ def is_launch_file(path: str, text: str) -> Language | None:
 
 
 def entries(text: str) -> frozenset[str]:
-    """Return which of ``launch`` and ``test`` a Python source defines a generate_*_description() for."""
+    """Return the kinds of descriptions that a Python source defines a function for.
+
+    ``launch`` for ``generate_launch_description()``, ``test`` for ``generate_test_description()``
+    """
     kinds = set()
     for match in _PYTHON.finditer(text):
         line = text.rfind("\n", 0, match.start()) + 1
@@ -83,12 +86,12 @@ def _is_xml(text: str) -> bool:
 
 
 def _is_of_other_format(path: str, text: str) -> bool:
-    """Return whether the file is of another format with similar tags: nodes without package or executable."""
+    """Return whether a file with ``<launch>`` is of another XML format: its nodes have neither package nor executable."""
     return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _NODE_ATTRIBUTE.search(text)
 
 
 def _after_prolog(text: str) -> int:
-    """Return the offset of the first element, after the XML declaration, comments and document type."""
+    """Return the offset of the root element of an XML text, after the XML declaration, comments and document type."""
     at = 0
     while True:
         at = _SPACE.match(text, at).end()  # type: ignore[union-attr]

@@ -1,8 +1,8 @@
-"""Expansion of a launch file: the nodes, processes and includes that it starts with given arguments.
+"""Expansion of a launch file: the nodes, processes and includes that it starts with given launch arguments.
 
-The collectors evaluate each launch file once, into actions whose texts contain marks for unknown values. Here the
-marks are replaced by values, as ``launch`` and ``launch_ros`` do it. Conditions have three values: an action whose
-condition is unknown is kept and marked as uncertain.
+The collectors evaluate each launch file once, into actions whose texts contain marks for unknown values. This module
+replaces the marks by values, as ``launch`` and ``launch_ros`` do. A condition is true, false or unknown: an action
+under an unknown condition is kept and marked as uncertain.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class Started(NamedTuple):
 
 
 class Argument(NamedTuple):
-    """A declared launch argument and its value in this run."""
+    """A declared launch argument and its possible values in this expansion."""
 
     name: str
     """Name of the argument."""
@@ -82,7 +82,7 @@ class Argument(NamedTuple):
 
 
 class Missing(NamedTuple):
-    """A required launch argument that no caller passes."""
+    """A declared launch argument that has no default and gets no value from the caller."""
 
     name: str
     """Name of the argument."""
@@ -93,7 +93,7 @@ class Missing(NamedTuple):
 
 
 class Refused(NamedTuple):
-    """A value that is not among the choices of its launch argument."""
+    """A value of a launch argument that is not among the ``choices`` of its declaration."""
 
     name: str
     """Name of the argument."""
@@ -106,7 +106,7 @@ class Refused(NamedTuple):
 
 
 class Circle(NamedTuple):
-    """An include of a file that is already being included with the same values: the recursion never ends."""
+    """An include of a file that is being included with equal launch configurations, so that the recursion never ends."""
 
     path: str
     """The path of the included file, as :attr:`LaunchFile.path`."""
@@ -115,7 +115,7 @@ class Circle(NamedTuple):
 
 
 class Expansion(NamedTuple):
-    """Everything that a launch file starts, in order."""
+    """Everything that a launch file starts, in order, and the errors in its launch arguments."""
 
     started: tuple[Started, ...]
     """Nodes, components, processes and includes."""
@@ -139,11 +139,11 @@ def expand(
     *,
     brief: bool = False,
 ) -> Expansion:
-    """Return what a launch file starts with the arguments ``passed``.
+    """Return what a launch file starts if it is launched with the arguments ``passed``.
 
-    ``files`` returns an included file by its path, which may begin with the mark of an install prefix. The path of
-    ``file`` itself contains its location, too. ``brief`` omits parameters (except parameter files), remappings and
-    the arguments of included files, which take most of the time.
+    ``files`` returns an included file by its path, None if there is no such file. A path may begin with the mark of an
+    install prefix. ``brief`` omits parameters (except parameter files), remappings and the arguments of included files,
+    because they take most of the time. ``distro`` is the value of ROS_DISTRO.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in passed.items()})
@@ -158,7 +158,7 @@ def expand(
 
 
 class _Delayed(NamedTuple):
-    """Actions that a timer or an event starts."""
+    """The actions that a timer or an event starts, which are expanded after all other actions."""
 
     place: int
     """The number of actions that were started before."""
@@ -196,10 +196,10 @@ class _Run:
         self._expand_delayed()
 
     def _expand_delayed(self) -> None:
-        """Expand the actions of timers and events, and insert the results at the place of the timer or event.
+        """Expand the actions of timers and events, and insert the results at the position of the timer or event.
 
-        All files have been expanded by then, so a configuration that is declared or set after a timer counts, too. A
-        configuration that was set before keeps its value, because a function may have read it by then.
+        All files have been expanded before, so a configuration that is declared or set after the timer counts, too. A
+        configuration that was set before the timer keeps its value, because a function may read it at that time.
         """
         delayed, self._delayed = self._delayed, []
         for entry in reversed(delayed):  # in reverse, so that the positions of the earlier ones remain valid
@@ -293,9 +293,10 @@ class _Run:
             scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
 
     def _reset(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Clear the launch configurations, and return the scope after it.
+        """Apply an action that clears the launch configurations, and return the scope after it.
 
-        Namespaces, parameters and remappings that hold for later nodes are launch configurations of launch_ros.
+        Only the configurations in the arguments of the action keep a value. Namespaces, parameters and remappings for later
+        nodes are cleared as well, because launch_ros stores them in launch configurations.
         """
         configurations = {name: self._texts(value, scope) for name, value in action.arguments}
         if scope.certain:
@@ -307,7 +308,10 @@ class _Run:
         return scope._replace(namespace=(*scope.namespace, ""))
 
     def _pushed(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Return a scope with the setting that an action makes for all later actions."""
+        """Return the scope after an action that changes a setting for later actions.
+
+        The setting is the namespace, a remapping, a parameter or an environment variable.
+        """
         texts = self._texts(action.value, scope)
         if action.kind == "namespace":
             return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))
@@ -329,7 +333,7 @@ class _Run:
         return scope._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
 
     def _group(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Expand a group, and return the scope after it."""
+        """Expand the actions of a group, and return the scope after the group."""
         name = self._texts(action.name, scope)
         inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
         if action.has_scope and name:
@@ -415,7 +419,10 @@ class _Run:
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
-    """Return namespaces below outer ones; an absolute one replaces them (``make_namespace_absolute``)."""
+    """Return the namespaces ``inner`` below the namespaces ``outer``: ``a`` below ``/b`` -> ``/b/a``.
+
+    An absolute inner namespace replaces the outer one (``make_namespace_absolute`` of launch_ros).
+    """
     return joined([outer, inner], _joined_namespace)
 
 

@@ -20,12 +20,15 @@ _MAX_SIZE = 10_000
 
 
 class _Unknown(Exception):  # noqa: N818
-    """The value cannot be determined."""
+    """The value of an expression cannot be determined."""
 
 
 @lru_cache(maxsize=1_024)
 def evaluate(text: str) -> str:
-    """Return str() of the value of a constant expression, UNKNOWN for any other text."""
+    """Return the text of the value of a constant expression: ``1 + 1`` -> ``2``.
+
+    The result is UNKNOWN if ``text`` is not a constant expression.
+    """
     if len(text) > _MAX_LENGTH:
         return UNKNOWN
     try:
@@ -36,7 +39,7 @@ def evaluate(text: str) -> str:
 
 @lru_cache(maxsize=1_024)
 def unresolved_names(text: str) -> tuple[str, ...] | None:
-    """Return the names in an expression that launch cannot resolve, None if the text is not an expression."""
+    """Return the names in an expression that launch cannot resolve, None if the text is not a Python expression."""
     try:
         tree = read_expression(text.lstrip())
     except NotPythonError:
@@ -52,7 +55,10 @@ _RESOLVED_NAMES = BUILTINS | MATH | {"math"}
 
 
 def means_true(text: str) -> bool | None:
-    """Return the truth of a condition, None if launch rejects it (``evaluate_condition_expression``)."""
+    """Return the truth of the text of a condition: ``true`` and ``1`` -> True, ``false`` and ``0`` -> False.
+
+    The result is None if launch rejects the text (``evaluate_condition_expression``).
+    """
     word = text.strip().lower()
     if word in ("true", "1"):
         return True
@@ -164,7 +170,7 @@ def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
 
 
 def _small(value: Any) -> Any:
-    """Return the value unchanged. Raises _Unknown if it is too large."""
+    """Return ``value`` unchanged. Raises _Unknown if it is too large."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
     if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MAX_SIZE:
@@ -173,7 +179,7 @@ def _small(value: Any) -> Any:
 
 
 def _size(value: Any) -> int:
-    """Return the number of characters and items in a value with nested ones. Stops above the limit."""
+    """Return the number of characters and items in a value; those in nested values count. Counting stops above the limit."""
     size = 0
     pending = [value]
     while pending and size <= _MAX_SIZE:

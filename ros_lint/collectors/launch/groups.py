@@ -1,4 +1,4 @@
-"""Groups of actions, as ``GroupAction.get_sub_entities()`` of launch expands them."""
+"""Creation of groups of actions, as ``GroupAction.get_sub_entities()`` of launch expands them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ def group(
 ) -> LaunchAction:
     """Return a group of actions with its own launch configurations.
 
-    A scoped group that does not forward the outer configurations starts with these only.
+    A scoped group without ``forwarding`` starts with ``configurations`` only. Any other group starts with those of the
+    surrounding actions, too.
     """
     if scoped and not forwarding:
         resets = (LaunchAction("reset_environment", span), LaunchAction("reset", span, arguments=configurations))

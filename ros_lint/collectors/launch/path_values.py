@@ -1,4 +1,4 @@
-"""The values of an action that can contain a path, and the parts of them that name a file to read."""
+"""The values of an action that can contain a path, and which part of each value is a file that the program reads."""
 
 from __future__ import annotations
 
@@ -23,7 +23,11 @@ def _display_file(text: str) -> str:
 
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | None]]:
-    """Return the values of an action, except its target, that can contain a path, each with its ``FilePart``."""
+    """Return the values of an action that can contain a path, except its target.
+
+    Each value comes with a function that returns the file name in a text of the value, or with None if the program reads
+    no file that the value names.
+    """
     values: list[tuple[LaunchValue, FilePart | None]] = []
     if action.value is not None:
         values.append((action.value, None))
@@ -40,7 +44,10 @@ def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | No
 
 
 def _rviz_arguments(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, FilePart | None]]:
-    """Yield the arguments of rviz2. The display file is in the argument of its option, or in the next."""
+    """Yield the arguments of rviz2. The value with the display file comes with the function that returns its name.
+
+    The option and the file may be one argument, ``-d a.rviz``, or two.
+    """
     is_display_next = False
     for name, value in arguments:
         if not name:

@@ -1,4 +1,4 @@
-"""Conditions of launch files that test whether something is installed, or which distribution runs."""
+"""Conditions of launch files that test whether a package is installed, or which distribution is used."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions check if something is installed, so that actions under them are optional."""
+    """Return whether one of the conditions tests that a package is installed, so that actions under them are optional."""
     return any(condition.wanted and package_of_presence(text) for condition in conditions for text in condition.texts)
 
 
@@ -27,7 +27,7 @@ EVERYWHERE = frozenset(DISTRIBUTIONS)
 
 
 def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]:
-    """Return the distributions in which conditions on ROS_DISTRO may hold."""
+    """Return the maintained distributions in which all conditions on ROS_DISTRO may hold."""
     on_distribution = [condition for condition in conditions if any(_ROS_DISTRO in text for text in condition.texts)]
     return (
         frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, on_distribution)]) if on_distribution else EVERYWHERE
@@ -35,7 +35,7 @@ def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]
 
 
 def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions can hold in a distribution. Only those on ROS_DISTRO alone are evaluated."""
+    """Return whether all conditions may hold in a distribution. Only conditions on ROS_DISTRO alone are evaluated."""
     for (text, *further_texts), equals, wanted in conditions:
         if further_texts or set(named_in(text) or ()) != {_ROS_DISTRO}:
             continue

@@ -43,10 +43,10 @@ _PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmu
 
 
 class References:
-    """The references, opaque places and problems in the actions of a launch file, in the order of the file."""
+    """The references, opaque places and problems of a launch file, in the order of the file."""
 
     def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
-        """Collect the references of actions; ``places`` are the look-ups of packages, by (symbolic) package name."""
+        """Collect the references in actions. ``places`` are the spans of package look-ups, by symbolic package name."""
         self.references: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
@@ -75,9 +75,9 @@ class References:
 
     @contextmanager
     def _under(self, conditions: Sequence[LaunchCondition], *, builtin_model: bool = False) -> Iterator[bool]:
-        """Apply conditions in a block. Yields whether they can hold in any distribution.
+        """Apply conditions to the references that a ``with`` block adds. Yield whether they can hold in any distribution.
 
-        ``builtin_model`` marks references that a model of a released helper makes.
+        ``builtin_model`` is True for the references of an action that the model of a released helper creates.
         """
         previous = self._presence_checked, self._distros, self._narrowed, self._filled_texts, self._builtin_model
         self._builtin_model = builtin_model
@@ -157,7 +157,10 @@ class References:
                 self.hide("the included launch file is computed", target.span)
 
     def _note_process(self, action: LaunchAction, conditional: bool) -> None:
-        """Note the packages that a command line uses: ``ros2 run``, ``ros2 launch``, xacro, and ``_COMMANDS``."""
+        """Add references for the packages that a command line uses.
+
+        The commands are ``ros2 run a b``, ``ros2 launch a b``, ``xacro`` and those in ``_COMMANDS``.
+        """
         words: list[tuple[str, LaunchValue, bool]] = []
         for name, value in action.arguments:
             if not name:
@@ -181,7 +184,7 @@ class References:
             self._add("package", package, "", value, value, conditional, default)
 
     def _note_prefix(self, value: LaunchValue, conditional: bool) -> None:
-        """Note the program that wraps another one, as in ``xterm -e``."""
+        """Add a reference to the program in a command prefix: ``xterm`` for ``xterm -e``."""
         texts, default = self._filled(value)
         for program in sorted(_PREFIXES.intersection([text.strip().partition(" ")[0] for text in texts])):
             self._add("program", program, program, value, value, conditional or len(texts) > 1, default)
@@ -189,7 +192,10 @@ class References:
     def _note_paths(
         self, value: LaunchValue, package_span: Span | None, conditional: bool, reads: FilePart | None = None
     ) -> None:
-        """Note the install places that a value contains."""
+        """Add references to the installed files and packages whose paths a value contains.
+
+        ``reads`` returns the part of a text that is a file to read.
+        """
         texts, default = self._filled(value)
         # A literal place in a command does not depend on defaults in other words of the command.
         fixed = {place for text in value.texts for place in installed(text) if place.share is not None} if default else set()
@@ -227,7 +233,7 @@ class References:
                 self._note_command("xacro", value, conditional)
 
     def _note_missing_slash(self, places: Iterable[InstallPlace], value: LaunchValue) -> None:
-        """Note paths that are appended to the share folder of a package without a slash."""
+        """Add a problem for each path that is appended to the share folder of a package without a slash."""
         for package, path in places:
             remainder = path.removeprefix(f"share/{package}")
             if remainder != path and is_plain(path) and remainder[:1].isalpha() and ("." in remainder or "/" in remainder):
@@ -237,7 +243,7 @@ class References:
                 self.problems[Problem("no-slash", message, value.span)] = None
 
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
-        """Return where the package of a path is named: the span of the look-up if there is one."""
+        """Return the span of the package name in a path: the span of the look-up if the file has one, else that of ``value``."""
         if package in self._places:
             return self._places[package]
         if package in self._computed:
@@ -247,7 +253,10 @@ class References:
         return package_span if package_span is not None and is_inside else value.span
 
     def _is_computed(self, package: str, value: LaunchValue) -> bool:
-        """Return whether a package name is composed of configurations, so that no text contains it as a whole."""
+        """Return whether a package name is composed of parts, for example of launch configurations.
+
+        It is composed if neither ``value`` nor the default of a launch configuration contains the name as a whole.
+        """
         prefix = f"{symbolic_text.prefix(package)}/"
         texts = [value.texts, *self._defaults.values.values()]
         return not any(prefix in f"{text}/" for alternatives in texts for text in alternatives)
@@ -257,7 +266,7 @@ class References:
         self._add("command", command, command, place, place, conditional, by_default=False)
 
     def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
-        """Return the texts of a value under default arguments, and whether they depend on the defaults."""
+        """Return the possible texts of a value if launch arguments have their defaults, and whether a caller can change them."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
         by_default = not all(map(self._defaults.is_own, value.texts))
@@ -267,7 +276,7 @@ class References:
         return tuple(texts), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
-        """Restrict configurations to the values that conditions of the form "configuration equals x" allow."""
+        """Restrict the values of launch configurations to those that conditions such as "configuration equals x" allow."""
         for (text, *further_texts), equals, wanted in conditions:
             name = next((name for name, _, symbolic in configurations(text) if symbolic == text), "")
             if name and equals is not None and not further_texts and is_plain(equals):
@@ -284,7 +293,7 @@ class References:
         return texts
 
     def note_look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
-        """Note a package that is looked up while the file is read."""
+        """Add a reference to a package that the launch file looks up before it launches."""
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
@@ -296,7 +305,7 @@ class References:
                 self._add("package", package, "", value, value, bool(conditions), by_default=False)
 
     def note_opened(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
-        """Note a file that is opened while the launch file is read."""
+        """Add a reference to a file that the launch file opens before it launches."""
         with self._under(conditions) as applies:
             if applies:
                 self._note_paths(value, None, bool(conditions))
@@ -339,7 +348,7 @@ class References:
         self.references[reference] = None
 
     def mark_optional(self, packages: Container[str]) -> None:
-        """Mark references to packages as optional, unless a node is started from the package."""
+        """Mark the references to these packages as optional, except those to packages of which the file starts a node."""
         self.references = {
             reference._replace(optional=True)
             if reference.package in packages and reference.package not in self._named
@@ -348,7 +357,7 @@ class References:
         }
 
     def mark_guarded(self, paths: Iterable[str]) -> None:
-        """Mark references to the files among ``paths``, whose existence the launch file checks first."""
+        """Mark the references to files among ``paths`` as checked, because the launch file tests whether these files exist."""
         checked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
         if checked:
             self.references = {
@@ -359,9 +368,10 @@ class References:
             }
 
     def all(self) -> tuple[LaunchReference, ...]:
-        """Return the references by place.
+        """Return the references, sorted by span.
 
-        A reference is not optional if the same place names the package in every distribution.
+        A reference under conditions is not optional if its position names the package in every distribution, for example in
+        both branches of a test of ROS_DISTRO.
         """
         references = list(self.references)
         for number, reference in enumerate(references):
@@ -370,7 +380,7 @@ class References:
         return tuple(sorted(references, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
-        """Note a place where an unknown value hides which packages are used."""
+        """Record an opaque place: an unknown value hides which packages the launch file uses."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
 
 

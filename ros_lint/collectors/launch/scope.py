@@ -1,4 +1,4 @@
-"""Evaluation of texts and conditions of a launch file in the scope of one action."""
+"""Evaluation of the texts and conditions of an action in its scope, that is, with the values of launch configurations."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ Texts = tuple[str, ...]
 
 
 class LaunchScope(NamedTuple):
-    """The state that actions read and change.
+    """The launch configurations and other settings that hold for an action.
 
-    ``values`` is mutable and shared by the actions of one scope; the other fields are passed from action to action.
+    ``values`` is a mutable dictionary that the actions of one scope share. Actions replace the other fields by creating a
+    new scope for later actions.
     """
 
     values: dict[str, Texts]
@@ -39,7 +40,7 @@ class LaunchScope(NamedTuple):
     """The include of the file that is being expanded."""
 
     def after(self, inner: LaunchScope) -> LaunchScope:
-        """Return the scope after actions that ran in an unscoped inner one."""
+        """Return this scope with the settings of ``inner``, the scope after the actions of an unscoped group."""
         return self._replace(
             namespace=inner.namespace,
             parameters=inner.parameters,
@@ -49,9 +50,9 @@ class LaunchScope(NamedTuple):
 
 
 class Filling:
-    """Replaces the marks in texts by values.
+    """Replaces the marks in symbolic texts by the values in a scope.
 
-    ``environment`` has variables that are the same everywhere, by name with a leading dollar sign.
+    ``environment`` has the environment variables that have one value in all scopes, by name with a leading dollar sign.
     """
 
     def __init__(self, environment: Mapping[str, Texts]) -> None:
@@ -60,7 +61,7 @@ class Filling:
         """Reasons why parts of the texts are unknown, since the last ``clear()``."""
 
     def texts(self, value: LaunchValue | None, scope: LaunchScope) -> Texts:
-        """Return the alternatives of a value in a scope, () for None."""
+        """Return the possible texts of a value in a scope, () if ``value`` is None."""
         return () if value is None else self._filled(value.texts, scope)
 
     def _filled(self, texts: Texts, scope: LaunchScope) -> Texts:
@@ -93,7 +94,7 @@ class Filling:
         return changed[name[1:]] or None if name[1:] in changed else self._environment.get(name)
 
     def _reasons(self, text: str, scope: LaunchScope) -> Iterator[str]:
-        """Yield the reasons why a text is unknown."""
+        """Yield the reasons why the text of a value is unknown in a scope, as clauses of a message."""
         for name, has_default, _ in configurations(text):
             value = self._value(name, scope)
             if name.startswith("$"):
@@ -107,7 +108,7 @@ class Filling:
             yield "it is computed in a way that ros-lint cannot follow"
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
-        """Return whether all conditions hold (None if unknown), and the unknown conditions."""
+        """Return whether all conditions hold in a scope, None if unknown, and the conditions whose truth is unknown."""
         unknown: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
@@ -136,5 +137,8 @@ class Filling:
 
 @lru_cache(maxsize=8_192)
 def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
-    """Return the alternatives of a text with some values. Cached, because common includes repeat them."""
+    """Return the possible texts of ``text`` with ``values`` for the configurations ``names``.
+
+    The result is cached, because files that are often included repeat texts and values.
+    """
     return fill(text, dict(zip(names, values, strict=True)).get, evaluate)

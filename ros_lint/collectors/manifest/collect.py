@@ -77,7 +77,10 @@ def collect(source: Text) -> Manifest:
 
 
 class _PackageContent:
-    """The contents of ``<package>``; ``doubtful`` if an element may have invalid attributes or children."""
+    """The children of ``<package>`` while they are read.
+
+    ``doubtful`` is True if any element may have invalid attributes or children, so that :mod:`problems` has to check them.
+    """
 
     __slots__ = ("depends", "doubtful", "elements", "exports", "other_contents", "stray_text")
 
@@ -163,7 +166,7 @@ def _depend(text: str, node: XmlNode, place: _Place) -> Depend:
 
 
 def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> Element:
-    """Return an element. The text of ``rich`` elements includes their markup, as in catkin_pkg."""
+    """Return the Element of an XML node. ``rich`` keeps the markup in its text, as catkin_pkg does for ``<description>``."""
     span = place(node.start, node.end)
     if rich:
         content = markup(text, node) if node.tag != "export" else ""
@@ -176,7 +179,10 @@ def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> 
 
 
 def _placer(source: Text) -> _Place:
-    """Return a function like :meth:`Text.span`, at a third of the cost, for places in ascending order only."""
+    """Return a function that returns the same spans as :meth:`Text.span`, three times as fast.
+
+    It must be called with ascending offsets.
+    """
     path, text = source.path, source.text
     if "\r" in text:
         return source.span
@@ -197,7 +203,7 @@ def _placer(source: Text) -> _Place:
 
 
 def _without_package(text: Text, document: Document) -> Manifest:
-    """Return the manifest of a file without ``<package>``, with the problem."""
+    """Return the manifest of a file that has no root ``<package>``. It contains the problem, and nothing else."""
     faults = list(document.faults)
     root = document.root
     start = root.start + 1 if root else 0
@@ -215,7 +221,7 @@ def _problems(text: Text, faults: Iterable[Fault]) -> tuple[Problem, ...]:
 
 
 def _indent(text: str, document: Document) -> str:
-    """Return the white space before the first child that begins its line."""
+    """Return the indentation of the first child of ``<package>`` that begins its line, two blanks if there is none."""
     for event in document.events[1:]:
         if not isinstance(event, int):
             begin = max(text.rfind("\n", 0, event[2]), text.rfind("\r", 0, event[2])) + 1

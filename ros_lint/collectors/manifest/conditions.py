@@ -1,4 +1,4 @@
-"""Conditions of package.xml elements: parser, and evaluation with three truth values (REP 149).
+"""Conditions of package.xml elements: parser, and evaluation to true, false or unknown (REP 149).
 
 The grammar is that of catkin_pkg (condition.py), including its leniency: ``and`` and ``or`` need no space after them,
 and quoted strings may be empty.
@@ -21,7 +21,7 @@ MOST_DEPTH = 20
 
 
 class ConditionError(ValueError):
-    """A condition that cannot be parsed."""
+    """A condition that neither ros-lint nor catkin_pkg can parse."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -32,7 +32,7 @@ class ConditionError(ValueError):
 
 
 class Operand(NamedTuple):
-    """An operand of a comparison: the value of a variable, or a text."""
+    """An operand of a comparison. ``text`` is the name of an environment variable if ``variable`` is True, else a string."""
 
     text: str
     """Name of the variable, or the text."""
@@ -41,7 +41,7 @@ class Operand(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """A comparison of two strings as strings: "10" is less than "9"."""
+    """A comparison of two operands as strings, so that "10" is less than "9"."""
 
     left: Operand
     """Left operand."""
@@ -52,7 +52,7 @@ class Comparison(NamedTuple):
 
 
 class Junction(NamedTuple):
-    """Conditions joined by ``and`` (all have to hold) or by ``or``."""
+    """Conditions that are joined by ``and`` (``every`` is True: all must hold), or by ``or``."""
 
     every: bool
     """True for ``and``, false for ``or``."""
@@ -112,14 +112,15 @@ def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
 
 
 def always(text: str) -> bool:
-    """Return whether an element with this condition ("" for none) counts in every ROS 2 environment."""
+    """Return whether an element with the condition ``text`` ("" for none) counts in every ROS 2 environment."""
     return truth(text, ROS_2) is True
 
 
 def truth(text: str, context: Mapping[str, str]) -> bool | None:
-    """Return whether an element with this condition counts: True without a condition, None if unknown.
+    """Return whether an element with the condition ``text`` counts, None if that is unknown.
 
-    A condition that cannot be parsed gives None, too; see :func:`problems`.
+    The result is True for "", that is, without a condition, and None for a condition that cannot be parsed, which
+    :func:`problems` reports.
     """
     if not text:
         return True
@@ -130,14 +131,14 @@ def truth(text: str, context: Mapping[str, str]) -> bool | None:
 
 
 def variables(condition: Condition) -> frozenset[str]:
-    """Return the names of the variables in a condition, without the dollar sign."""
+    """Return the names of the environment variables in a condition, without the dollar sign."""
     if isinstance(condition, Junction):
         return frozenset().union(*(variables(part) for part in condition.parts))
     return frozenset(side.text for side in (condition.left, condition.right) if side.variable)
 
 
 def of(element: Element) -> str:
-    """Return the condition of a child of ``<export>``: "" for none, " " for an empty one."""
+    """Return the text of the attribute ``condition`` of a child of ``<export>``: "" if it is missing, " " if it is empty."""
     for name, text in element.attributes:
         if name == "condition":
             return text or " "
@@ -145,17 +146,17 @@ def of(element: Element) -> str:
 
 
 def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[str, bool | None], ...]:
-    """Return the build types whose condition is not false: True if it holds, None if it is unknown.
+    """Return the ``<build_type>`` names of a manifest, each with the truth of its condition: True, or None if unknown.
 
-    An empty result means "catkin". With two true build types, colcon does not treat the folder as a ROS package
-    (colcon-ros, package identification).
+    Names whose condition is false are omitted. An empty result means "catkin". With two build types whose condition is
+    true, colcon does not treat the folder as a ROS package (package identification of colcon-ros).
     """
     types = [(element.text, truth(of(element), context)) for element in manifest.exports if element.tag == "build_type"]
     return tuple([(name, active) for name, active in types if active is not False])
 
 
 def problems(manifest: Manifest) -> tuple[Problem, ...]:
-    """Return the conditions that cannot be parsed; colcon does not treat such a folder as a ROS package."""
+    """Return a problem for each condition that cannot be parsed. colcon does not treat such a folder as a ROS package."""
     return tuple(_unparsable(manifest))
 
 
@@ -177,7 +178,10 @@ def _value(operand: Operand, context: Mapping[str, str]) -> str | None:
 
 
 def _junction(text: str, at: int, depth: int) -> tuple[Condition, int]:
-    """Parse a junction; ``or`` has a lower precedence than ``and``."""
+    """Parse conditions joined by ``and`` and ``or`` from the offset ``at`` on, and return the condition and the offset after it.
+
+    ``or`` has a lower precedence than ``and``.
+    """
     alternatives: list[Condition] = []
     while True:
         parts, at = _conjunction(text, at, depth)

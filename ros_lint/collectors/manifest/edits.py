@@ -1,8 +1,9 @@
-"""Edits of ``package.xml``: minimal, in the style of the file, comments kept.
+"""Edits of ``package.xml``: they are minimal, follow the style of the file and keep comments.
 
-They are computed from the places in a :class:`Manifest` alone, because rules do not have the text. ``Manifest.other_contents``
-lists the comments and texts between elements, so all other lines are blank. Every edit applies to the text
-that the manifest was read from. If the text is not well-formed, the edits are based on the part that could be read.
+The edits are computed from the spans in a :class:`Manifest` alone, because rules do not have the text of the file.
+``Manifest.other_contents`` lists the comments and texts between elements, so all lines without element, comment or
+text are blank. Every edit applies to the text that the manifest was read from. If the text is not well-formed, the
+edits are based on the part that could be read.
 """
 
 from __future__ import annotations
@@ -29,27 +30,30 @@ SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license"
 
 
 def schema_rank(tag: str) -> int:
-    """Return the position of a tag in :data:`SCHEMA_ORDER`."""
+    """Return the position of a tag in :data:`SCHEMA_ORDER`; all dependency tags have the same position."""
     return SCHEMA_ORDER.index(tag) if tag in SCHEMA_ORDER else SCHEMA_ORDER.index("")
 
 
 def add(manifest: Manifest, tag: str, name: str) -> Edit:
-    """Return the edit that declares a dependency without attributes.
+    """Return the edit that adds the dependency ``<tag>name</tag>`` to a manifest.
 
-    The new tag is added to the tags of its kind, in alphabetical order if these are sorted. If there are none, it is
-    placed by the usual order of kinds, separated by a blank line if the file does so.
+    It is added to the dependencies with the same tag, in alphabetical order if these are sorted. If there are none, it is
+    placed by the usual order of tags, separated by a blank line if the file separates tags by blank lines.
     """
     return _insert_by_kind(_Layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
 
 
 def _insert_by_kind(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
-    """Return the edit that inserts an element for a dependency next to those of its kind."""
+    """Return the edit that inserts ``element``, the text of a dependency, next to the dependencies with the same tag."""
     order = name if _is_sorted(depends, tag) else ""
     return _insert_by_order(layout, depends, tag, order, element)._replace(kind=_USUAL_ORDER.index(tag) + 1, order=order)
 
 
 def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
-    """Return whether the dependencies of a kind are sorted by name, or all others if it has less than two."""
+    """Return whether the dependencies with ``tag`` are sorted by name.
+
+    If there are fewer than two, the result is whether the dependencies of each other tag are sorted.
+    """
     names: dict[str, list[str]] = {}
     for depend in depends:
         names.setdefault(depend.tag, []).append(depend.name)
@@ -59,9 +63,9 @@ def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
 
 
 def _insert_by_order(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, element: str) -> Edit:
-    """Return the edit that inserts an element for a dependency.
+    """Return the edit that inserts ``element``, the text of a dependency with ``tag``.
 
-    ``order`` is its name if the dependencies of the kind are sorted by name, else "".
+    ``order`` is the name of the dependency if the dependencies with this tag are sorted by name, else "".
     """
     manifest = layout.manifest
     siblings = [depend for depend in depends if depend.tag == tag]
@@ -91,26 +95,23 @@ def _insert_by_order(layout: _Layout, depends: Sequence[Depend], tag: str, order
 
 
 def remove(manifest: Manifest, depend: Depend) -> Edit:
-    """Return the edit that removes a dependency, with its line if nothing else is on it.
-
-    Comments are kept.
-    """
+    """Return the edit that removes a dependency, and its line if nothing else is on the line. Comments are kept."""
     return _Layout(manifest).removal(depend.span)
 
 
 def rename(depend: Depend, name: str) -> Edit:
-    """Return the edit that changes the name in a dependency."""
+    """Return the edit that replaces the package name in a dependency by ``name``."""
     if not depend.name:
         return Edit(depend.span, _element_text(depend._replace(name=name)))
     return Edit(depend.name_span, escaped(name))
 
 
 def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that change the kind of a dependency to ``tag``, which must differ from its present kind.
+    """Return the edits that change the tag of a dependency, for example from ``depend`` to ``exec_depend``.
 
-    ``alike`` are the dependencies that change to the same kind. If the file groups dependencies by kind, the dependency
-    is moved to the group of its new kind. Exception: if its whole group changes to a kind that the file does not have
-    yet, the group stays in place.
+    ``tag`` must differ from its present tag. ``alike`` are all dependencies that change to ``tag`` by the same fix. If the
+    file groups dependencies by tag, the dependency is moved to the group of its new tag. Exception: if its whole group
+    changes to a tag that the file does not have yet, the group stays in place.
     """
     depends = manifest.depends
     runs = [list(run) for _, run in groupby(depends, key=lambda sibling: sibling.tag)]
@@ -128,7 +129,7 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
 
 
 def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
-    """Return the edits that change the kind of a dependency without moving it."""
+    """Return the edits that replace the tag of a dependency by ``tag``, in place."""
     span, tag_length = depend.span, len(depend.tag)
     if not depend.close:
         return (Edit(span, _element_text(depend._replace(tag=tag))),)
@@ -140,7 +141,7 @@ def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
 
 
 def set_build_type(manifest: Manifest, build_type: str) -> Edit:
-    """Return the edit that adds a build type to a manifest without one, in ``<export>``."""
+    """Return the edit that adds ``<build_type>`` to ``<export>`` of a manifest without build type."""
     layout, newline, indent = _Layout(manifest), manifest.newline, manifest.indent
     element = f"<build_type>{escaped(build_type)}</build_type>"
     export_element = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
@@ -161,7 +162,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
 
 
 def raise_format(manifest: Manifest, format_number: int) -> Edit:
-    """Return the edit that changes the format of a manifest. It must have a ``<package>``."""
+    """Return the edit that sets the attribute ``format`` of ``<package>``. The manifest must have this element."""
     if manifest.format_span is not None:
         return Edit(manifest.format_span, str(format_number))
     begin = manifest.begin or manifest.end
@@ -170,10 +171,13 @@ def raise_format(manifest: Manifest, format_number: int) -> Edit:
 
 
 def sort(manifest: Manifest) -> tuple[Edit, ...]:
-    """Return the edits that sort the children of ``<package>`` by the schemas, with the fewest moves.
+    """Return the edits that sort the children of ``<package>`` as its schema requires, with as few moves as possible.
 
-    Empty if they are sorted, or if an element would have to move that shares its line, has a comment, or cannot be
-    written again without its text.
+    The result is empty if the children are sorted, or if an element that has to move
+
+    - is on a line with another element,
+    - has a comment, or
+    - cannot be written again from the manifest, such as ``<description>``.
     """
     children: list[Element | Depend] = sorted((*manifest.elements, *manifest.depends), key=lambda child: child.span)
     ranks = [schema_rank(child.tag) for child in children]
@@ -196,14 +200,14 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
 
 
 class _Neighbours(NamedTuple):
-    """The items directly before and after an element on its first and last line, None if there are none."""
+    """The item before an element on its first line, and the item after it on its last line, None if there is no such item."""
 
     before: Span | None
     after: Span | None
 
 
 class _Layout:
-    """The lines of a manifest and the items on them."""
+    """The lines of a manifest and the items on them: elements, dependencies, comments and texts."""
 
     def __init__(self, manifest: Manifest) -> None:
         self.manifest = manifest
@@ -216,7 +220,10 @@ class _Layout:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Neighbours:
-        """Return the item that ends on the first line of an item, and the item that starts on its last line."""
+        """Return the items next to an item on its own lines.
+
+        These are the item that ends on its first line, and the item that starts on its last line, None if there is no such item.
+        """
         at = self.items.index(span)
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
@@ -225,7 +232,7 @@ class _Layout:
         )
 
     def is_alone(self, span: Span) -> bool:
-        """Return whether an item shares no line with another one and has no comment directly above it."""
+        """Return whether no other item is on the lines of an item, and no comment is directly above it."""
         at = self.items.index(span)
         heading = at > 0 and self.items[at - 1] in self.manifest.other_contents and self.items[at - 1].end_line == span.line - 1
         return self.neighbours(span) == (None, None) and not heading
@@ -254,7 +261,7 @@ class _Layout:
         return Edit(place, f"{self._indent(span)}{element}{self.manifest.newline}{blank}")
 
     def insert_last(self, element: str) -> Edit:
-        """Return the edit that inserts an element into a package without any."""
+        """Return the edit that inserts an element into a ``<package>`` without elements."""
         end, newline = self.manifest.end, self.manifest.newline
         if end.line == self.begin.line:
             return Edit(end, f"{newline}{self.manifest.indent}{element}{newline}")
@@ -262,7 +269,7 @@ class _Layout:
         return Edit(place, f"{self.manifest.indent}{element}{newline}")
 
     def removal(self, span: Span) -> Edit:
-        """Return the edit that removes an item, with its line if nothing else is on it."""
+        """Return the edit that removes an item, and its line if nothing else is on the line."""
         previous, following = self.neighbours(span)
         path = self.path
         if previous is not None:
@@ -272,7 +279,7 @@ class _Layout:
         return self._remove_lines(span.line, span.end_line)
 
     def removals(self, spans: Iterable[Span]) -> Iterator[Edit]:
-        """Yield the edits that remove items that share no lines, in the order of the file."""
+        """Yield the edits that remove items, in the order of the file. Each item must be alone on its lines."""
         runs: list[list[int]] = []
         for span in spans:
             if runs and runs[-1][1] == span.line - 1:
@@ -282,7 +289,7 @@ class _Layout:
         return (self._remove_lines(first, insert_last) for first, insert_last in runs)
 
     def _remove_lines(self, first: int, insert_last: int) -> Edit:
-        """Return the edit that removes lines, with adjacent blank lines that then separate nothing."""
+        """Return the edit that removes the lines from ``first`` to ``insert_last``, and blank lines that become superfluous."""
         end = insert_last + 1
         while self._is_blank(first - 1) and self._is_blank(end):
             end += 1
@@ -291,7 +298,7 @@ class _Layout:
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
-        """Return the first of the comments directly above an item, or the item itself."""
+        """Return the span of the first of the comments directly above an item, the span of the item if there is no comment."""
         at = self.items.index(span)
         while at and self.items[at - 1] in self.manifest.other_contents and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:
@@ -307,7 +314,10 @@ class _Layout:
         return self._is_blank(span.end_line + 1)
 
     def kinds_apart(self) -> bool:
-        """Return whether blank lines separate the kinds of dependencies, or the only kind from other elements."""
+        """Return whether blank lines separate dependencies with different tags.
+
+        If all dependencies have one tag, the result is whether blank lines separate them from the other elements.
+        """
         depends = self.manifest.depends
         changes = [(depend.span, following.span) for depend, following in pairwise(depends) if depend.tag != following.tag]
         if changes:
@@ -320,7 +330,7 @@ class _Layout:
         return self.begin.line < line < self.manifest.end.line and line not in self.covered
 
     def _indent(self, span: Span) -> str:
-        """Return the white space before an item, or the usual indentation if it does not start its line."""
+        """Return the indentation of an item, or the usual indentation if the item does not begin its line."""
         usual = self.manifest.indent
         width = span.column - 1
         if self.neighbours(span).before is not None or width == len(usual):
@@ -329,7 +339,7 @@ class _Layout:
 
 
 def _element_text(child: Element | Depend) -> str:
-    """Return the XML text of an element."""
+    """Return the XML source of an element or dependency, as ros-lint writes it."""
     if isinstance(child, Depend):
         condition = (("condition", child.condition),) if child.condition else ()
         return _tagged(child.tag, (*child.versions, *condition), child.name)
@@ -342,7 +352,7 @@ def _tagged(tag: str, attributes: Iterable[tuple[str, str]], text: str) -> str:
 
 
 def _is_verbatim(child: Element | Depend) -> bool:
-    """Return whether :func:`_written` reproduces a child, except for quotes and the order of attributes."""
+    """Return whether :func:`_element_text` returns the source of a child, except for quotes and the order of attributes."""
     span = child.span
     if child.tag in ("description", "export") or span.line != span.end_line:
         return False
@@ -350,7 +360,7 @@ def _is_verbatim(child: Element | Depend) -> bool:
 
 
 def _longest_ascent(ranks: list[int]) -> frozenset[int]:
-    """Return the indexes of a longest subsequence in which ranks never decrease."""
+    """Return the indexes of a longest subsequence of ``ranks`` that never decreases: [5, 1, 2] -> {1, 2}."""
     chains: list[tuple[int, int]] = []  # by index: length of the longest run that ends here, previous index
     longest: dict[int, int] = {}  # by rank: the index at which the longest run with this last rank ends
     for at, rank in enumerate(ranks):

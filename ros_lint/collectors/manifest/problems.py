@@ -1,4 +1,4 @@
-"""Errors for which catkin_pkg rejects a manifest that is well-formed XML (catkin_pkg/package.py)."""
+"""Errors for which catkin_pkg rejects a manifest, although it is well-formed XML (catkin_pkg/package.py)."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _COMMON_TAGS = {
 
 
 def _allowed(format_number: int) -> dict[str, frozenset[str]]:
-    """Return the attributes of each tag of a format."""
+    """Return the allowed attributes of each tag in a format of package.xml, by tag."""
     tags = {tag: frozenset(names) for tag, names in _COMMON_TAGS.items()}
     condition = ("condition",) if format_number > 2 else ()
     of_format = ("run_depend",) if format_number == 1 else _SINCE_2
@@ -60,7 +60,7 @@ _TAGS_FOR_OTHERS = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "te
 
 
 def read_format(root: XmlNode) -> int:
-    """Return the format of a manifest, or 0 for an unknown one."""
+    """Return the format of a manifest, 0 if there is no such format. Without the attribute ``format``, it is 1."""
     try:
         format_number = int(root.attributes.get("format", "1"))
     except ValueError:
@@ -69,7 +69,10 @@ def read_format(root: XmlNode) -> int:
 
 
 def surely_accepted(root: XmlNode, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]) -> bool:
-    """Return True if :func:`find_problems` can only report attributes and children. A fifth of its cost."""
+    """Return whether the children of ``<package>`` are certainly valid, apart from their attributes and their own children.
+
+    False means that :func:`find_problems` has to check them, which takes five times as long.
+    """
     if not format_number or not root.attributes.keys() <= {"format"}:
         return False
     tags = [element.tag for element in elements]
@@ -92,7 +95,7 @@ def surely_accepted(root: XmlNode, format_number: int, elements: Sequence[Elemen
 
 
 def _is_valid(element: Element) -> bool:
-    """Return whether the content of an element and its checked attributes are certainly valid."""
+    """Return whether the text of an element, and the attributes that catkin_pkg checks, are certainly valid."""
     tag = element.tag
     if tag == "name":
         return bool(_NAME.match(element.text))
@@ -113,10 +116,10 @@ def _is_valid(element: Element) -> bool:
 def find_problems(
     document: Document, root: XmlNode, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]
 ) -> Iterator[Fault]:
-    """Yield the errors in the content of a manifest, unordered. ``format_number`` is 0 if the format is unknown.
+    """Yield the errors for which catkin_pkg rejects a manifest, in no order. ``format_number`` is 0 if the format is unknown.
 
-    ``elements`` and ``depends`` are the parsed closed children of the root. If a file could not be read to its end,
-    nothing is reported as missing.
+    ``elements`` and ``depends`` are the closed children of the root. If the file could not be read to its end, missing
+    elements are not reported.
     """
     nodes = [node for node in children(document) if node.end >= 0]
     dependency_tags = {depend.tag for depend in depends}
@@ -147,7 +150,7 @@ def find_problems(
 
 
 def _content(document: Document, node: XmlNode, format_number: int) -> Iterator[Fault]:
-    """Yield an element that its format does not have, or its invalid attributes and children."""
+    """Yield the errors of one element: the format does not have its tag, attributes or children."""
     allowed = ALLOWED[format_number].get(node.tag)
     if allowed is None:
         yield _unknown_tag(node, format_number)
@@ -197,7 +200,7 @@ def _unknown_attribute(text: str, node: XmlNode, name: str, format_number: int) 
 
 
 def _presence(document: Document, root: XmlNode, elements: _Elements) -> Iterator[Fault]:
-    """Yield missing elements, and elements that occur too often."""
+    """Yield an error for each element that is missing, or occurs too often."""
     tags = [node.tag for node, _ in elements]
     for tag in ("name", "version", "description", "export"):
         if tags.count(tag) > 1:
@@ -267,7 +270,7 @@ _CHECKS: dict[str, Callable[[str, XmlNode, Element], Iterator[Fault]]] = {
 
 
 def _self_dependencies(depends: _Depends, own_name: str) -> Iterator[Fault]:
-    """Yield dependencies of the package on itself, or on a group of which it is a member."""
+    """Yield an error for each dependency of the package on itself, or on a group of which it is a member."""
     for node, depend in depends:
         if depend.name == own_name and own_name and node.tag in _TAGS_FOR_OTHERS:
             message = f"the package depends on itself; remove this <{node.tag}>"
@@ -280,7 +283,7 @@ def _self_dependencies(depends: _Depends, own_name: str) -> Iterator[Fault]:
 
 
 def _duplicates(depends: _Depends) -> Iterator[Fault]:
-    """Yield dependencies that repeat a <depend> with the same name, versions and condition text."""
+    """Yield an error for each dependency that repeats a ``<depend>`` with the same name, versions and condition."""
     first_depends = {_equality(node, depend): node for node, depend in reversed(depends) if node.tag == "depend"}
     if not first_depends:
         return

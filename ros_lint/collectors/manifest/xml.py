@@ -1,7 +1,7 @@
 """The XML of a manifest: elements with offsets, read by expat as in catkin_pkg, but with limits and without entities.
 
 catkin_pkg reads the file as UTF-8 in spite of its declaration, and resolves namespaces. Offsets count code points of
-the text. Nothing outside the file is looked up.
+the text. No other file is read.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
 
 
 class Fault(NamedTuple):
-    """An error in the file: kind, message, the offsets of the place, and the subject."""
+    """An error in a manifest. ``start`` and ``end`` are the offsets of its position, ``subject`` as in :class:`Problem`."""
 
     kind: str
     message: str
@@ -51,9 +51,9 @@ Event = Start | int
 
 
 class XmlNode(NamedTuple):
-    """An element. ``end`` is -1 if it is never closed.
+    """An XML element, with the offsets of its tags: it begins at ``start`` and ends at ``end``, -1 if it is never closed.
 
-    The content is from ``inner`` to ``close``, empty in ``<a/>``.
+    Its content is from ``inner`` to ``close``, and is empty for ``<a/>``.
     """
 
     tag: str
@@ -67,7 +67,7 @@ class XmlNode(NamedTuple):
 
 
 class Document(NamedTuple):
-    """A file as XML. Without a root, nothing could be read."""
+    """A manifest read as XML. ``root`` is None if not even the root element could be read."""
 
     text: str
     """The text that expat read. Its offsets are valid in the original text, too."""
@@ -81,7 +81,7 @@ class Document(NamedTuple):
 
 
 def read(source: Text) -> Document:
-    """Return a file as XML. Never raises."""
+    """Return a manifest read as XML. Never raises: errors are listed in ``faults`` of the result."""
     text, faults = _as_utf8(source)
     document = _parse(text)
     if document.faults and (conflicts := _conflicts(text, document.faults[0].start)):
@@ -95,7 +95,10 @@ _START = re.compile(r"<[^\s/>]+")
 
 
 def attribute(text: str, node: XmlNode, name: str) -> tuple[int, int, int]:
-    """Return the offsets of an attribute's name, of its value, and of the value's end."""
+    """Return three offsets of an attribute of an element: the start of its name, and the start and end of its value.
+
+    All of them are the start of the element if it has no such attribute.
+    """
     start_tag = _START.match(text, node.start)
     at = start_tag.end() if start_tag else node.start
     while match := _ATTRIBUTE.match(text, at):
@@ -107,7 +110,7 @@ def attribute(text: str, node: XmlNode, name: str) -> tuple[int, int, int]:
 
 
 def value(text: str, node: XmlNode) -> tuple[str, int, int]:
-    """Return the text directly in an element as catkin_pkg reads it, and its start and end offsets.
+    """Return the text of an element as catkin_pkg reads it, and the start and end offset of the text.
 
     Comments, CDATA sections and the text of children do not count.
     """
@@ -133,7 +136,10 @@ def value(text: str, node: XmlNode) -> tuple[str, int, int]:
 
 
 def markup(text: str, node: XmlNode) -> str:
-    """Return the content of an element with its markup, as catkin_pkg reads description and export, or ""."""
+    """Return the content of an element including its markup, as catkin_pkg reads ``<description>`` and ``<export>``.
+
+    The result is "" if the content is blank.
+    """
     raw = text[node.inner : node.close].replace("<![CDATA[]]>", "").strip(BLANK)  # as xml.dom.minidom does
     if "<" not in raw:
         return value(text, node)[0]
@@ -144,7 +150,7 @@ def markup(text: str, node: XmlNode) -> str:
 
 
 def escaped(text: str) -> str:
-    """Return a text escaped as the content of an element."""
+    """Return a text in which ``&``, ``<`` and ``>`` are escaped, for use as the content of an XML element."""
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
@@ -153,7 +159,7 @@ def _one_newline(text: str) -> str:
 
 
 def _counts(piece: re.Match[str]) -> bool:
-    """Return whether a piece of content is neither blank text nor an empty CDATA section."""
+    """Return whether a piece of the content of an element is neither blank text nor an empty CDATA section."""
     if piece.lastgroup in ("text", "entity"):
         return bool(_resolve(piece).strip(BLANK))
     return piece.lastgroup != "cdata" or bool(piece["cdata"])
@@ -171,7 +177,7 @@ def _resolve(piece: re.Match[str]) -> str:
 
 
 def _as_utf8(source: Text) -> tuple[str, tuple[Fault, ...]]:
-    """Return the text as the tools read it, and a fault if they cannot."""
+    """Return the text of a manifest as catkin_pkg reads it, in UTF-8, and a fault if the file is not valid UTF-8."""
     text = source.text
     if source.codec not in ("utf-8", "utf-8-sig"):
         data = text.encode(source.codec)
@@ -208,7 +214,7 @@ def _parse(text: str) -> Document:
 
 
 def children(document: Document) -> list[XmlNode]:
-    """Return the children of the root with their children."""
+    """Return the children of the root element; each of them contains its own children."""
     result = []
     at, last = 1, len(document.events)
     while at < last and not isinstance(document.events[at], int):
@@ -218,7 +224,7 @@ def children(document: Document) -> list[XmlNode]:
 
 
 def child(document: Document, at: int) -> tuple[XmlNode, int]:
-    """Return the element that starts at an event, and the next event after its end."""
+    """Return the element that begins at the index ``at`` of the events, and the index of the event after its end."""
     text, events, last = document.text, document.events, len(document.events)
     open_elements: list[tuple[Start, list[XmlNode]]] = []
     while at < last:
@@ -237,7 +243,10 @@ def child(document: Document, at: int) -> tuple[XmlNode, int]:
 
 
 def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
-    """Return the tags with byte offsets, the error that stopped the parser, and its offset in the text."""
+    """Return the start and end tags of a manifest with byte offsets, the error that stopped expat, and where it stopped.
+
+    The error is None if expat read the whole file. Where it stopped is an offset in ``text``.
+    """
     # Namespaces as in xml.dom.minidom, which catkin_pkg uses.
     parser = expat.ParserCreate("utf-8", " ")
     parser.namespace_prefixes = True
@@ -256,7 +265,7 @@ def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
         fault = _explain(text, error.code, stopped)
     except _EntityDeclaredError:
         stopped = len(data[: parser.CurrentByteIndex].decode("utf-8", "ignore"))
-        message = "ros-lint does not resolve entities; write the text of the entity where it is used"
+        message = "it declares an entity, which ros-lint does not resolve; write the text of the entity where it is used"
         fault = Fault("entity", message, stopped, text.find(">", stopped) + 1 or len(text))
     finally:
         # Parser and handlers refer to each other, and the garbage collector may be off: unfreed parsers cost more than
@@ -274,7 +283,7 @@ def _refuse_entity(*_: object) -> None:
 
 
 def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
-    """Return ascending events with their offsets converted from bytes to code points."""
+    """Return the events with their offsets converted from bytes to code points. The offsets must be ascending."""
     converted = count = 0
     result: list[Event] = []
     for event in events:
@@ -286,7 +295,7 @@ def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
 
 
 def _too_deep(events: list[Event]) -> int:
-    """Return the offset of the first element that is nested too deep, or -1."""
+    """Return the offset of the first element that is nested too deep, -1 if there is none."""
     depth = 0
     for event in events:
         depth += -1 if isinstance(event, int) else 1
@@ -296,7 +305,7 @@ def _too_deep(events: list[Event]) -> int:
 
 
 def _closed(text: str, event: Start, close: int, children: tuple[XmlNode, ...]) -> XmlNode:
-    """Return a closed element. ``after`` is the offset where it ends for expat."""
+    """Return the element that starts at an event. ``close`` is the offset of its end tag."""
     tag, inner = _start_tag(text, event)
     if text[inner - 2] == "/":
         close = end = inner
@@ -311,7 +320,7 @@ def _unclosed(text: str, event: Start, read_length: int, children: tuple[XmlNode
 
 
 def _start_tag(text: str, event: Start) -> tuple[str, int]:
-    """Return the name of a tag as written, and the offset after the tag. expat only reports its start."""
+    """Return the name in a start tag as written in the file, and the offset after the tag."""
     name, _, start = event
     inner = start + len(name) + 2
     if text[inner - 1 : inner] == ">" and " " not in name:
@@ -321,20 +330,20 @@ def _start_tag(text: str, event: Start) -> tuple[str, int]:
 
 
 def _names(attributes: dict[str, str]) -> dict[str, str]:
-    """Return the attributes by their names as written. expat reports ``uri name prefix``."""
+    """Return attributes by their names as written in the file. expat reports a name such as ``xsi:a`` as ``uri a xsi``."""
     if not attributes or " " not in "".join(attributes):
         return attributes
     return {_qualified(name): value for name, value in attributes.items()}
 
 
 def _qualified(name: str) -> str:
-    """Return a name as written, from the notation of expat: ``uri name`` or ``uri name prefix``."""
+    """Return a name as written in the file, ``xsi:a``, from the notation of expat: ``uri a xsi``, or ``uri a``."""
     parts = name.split(" ")
     return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[-1]
 
 
 def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
-    """Return the unresolved merge conflicts, if the first of them caused the error."""
+    """Return a fault for each unresolved merge conflict, if the first of them is before the offset ``fault`` of an error."""
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()
@@ -351,7 +360,7 @@ _NAME = re.compile(r"[^\s>]*")
 
 
 def _explain(text: str, code: int, at: int) -> Fault:
-    """Return an expat error as a message with a remedy. ``at`` is the offset that expat reports."""
+    """Return a fault with a message and a remedy for an error of expat. ``at`` is the offset that expat reports."""
     start, end = at, min(at + 1, len(text))
     errors = expat.errors.codes
     if code == errors[expat.errors.XML_ERROR_NO_ELEMENTS]:
@@ -392,7 +401,7 @@ def _explain(text: str, code: int, at: int) -> Fault:
 
 
 def _still_open(text: str) -> str:
-    """Return the start tag, without attributes, that is open where the text stops being well-formed."""
+    """Return the start tag, without attributes, of the element in which expat stops, "the file" if it stops in none."""
     names: list[str] = []
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = lambda name, _: names.append(name)

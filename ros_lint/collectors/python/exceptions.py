@@ -1,4 +1,4 @@
-"""Which handler of a try statement catches a raised exception, for builtin exception classes."""
+"""Search for the handler of a try statement that catches a raised exception of a builtin class."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Python sources without the bodies of irrelevant functions, so that the parser has less to read.
 
-A function is irrelevant to a question if its text contains none of the words that the question is about. Its head
-stays, ``def f(): pass``, and so do all line numbers.
+A function is irrelevant to a question if its text contains none of the words that the question is about. The head of
+the function is kept, ``def f(): pass``. All lines keep their numbers.
 """
 
 from __future__ import annotations

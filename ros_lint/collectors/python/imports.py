@@ -161,7 +161,10 @@ class _Blocks:
         return self._stack
 
     def _leave(self, width: int) -> _Block | None:
-        """Remove the blocks that are indented by ``width`` columns or more, and return the outermost of them, None if none is."""
+        """Remove the blocks that are indented by ``width`` columns or more.
+
+        Return the outermost of the removed blocks, None if no block is removed.
+        """
         block = None
         while self._stack and self._stack[-1].width >= width:
             block = self._stack.pop()

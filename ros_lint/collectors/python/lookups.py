@@ -1,4 +1,4 @@
-"""Package look-ups of a Python source, such as ``get_package_share_directory("p")``, and the files in the found folders."""
+"""Package look-ups of a Python source, such as ``get_package_share_directory("p")``, and paths of files in the packages."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Methods of texts and constants of Python that all evaluators treat in the same way.
 
-The results of the methods are no longer than their arguments. An evaluator treats unknown values and other methods
-itself.
+The results of the methods are no longer than their arguments. Each evaluator defines the results for unknown values,
+and for all other methods.
 """
 
 from __future__ import annotations

@@ -33,7 +33,10 @@ class Newer(NamedTuple):
 
 
 class Rewritten(NamedTuple):
-    """A source rewritten without constructs newer than Python 3.10, and where they were. Offsets are of the original source."""
+    """A source rewritten without constructs newer than Python 3.10, and where it had them.
+
+    All offsets are offsets in the original source.
+    """
 
     text: str
     newer: tuple[Newer, ...]
@@ -154,7 +157,7 @@ class _Rewriter:
     def _blank_parameters(self, opening: int) -> tuple[str, ...]:
         """Replace a list of type parameters by blanks, and return their names: ``[T, *Ts]`` -> ("T", "Ts").
 
-        Defaults such as ``[T = int]`` are recorded as a construct of its own (PEP 696).
+        A default such as ``[T = int]`` is recorded as another newer construct (PEP 696).
         """
         closing = self._closing[opening]
         names = []

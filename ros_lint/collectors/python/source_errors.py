@@ -1,4 +1,4 @@
-"""The exceptions of parsing a Python source, and the result."""
+"""The result of parsing a Python source, and the exceptions that parsing raises."""
 
 from __future__ import annotations
 

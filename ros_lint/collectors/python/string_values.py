@@ -100,9 +100,10 @@ class Evaluator:
                 yield from self.values(node, binding.where)
 
     def _take(self, node: ast.expr, steps: tuple[Step, ...]) -> list[ast.expr]:
-        """Return the elements that ``steps`` select from a literal list or tuple, [] if they are unknown.
+        """Return the elements that ``steps`` select from a literal list or tuple, [] if the elements are unknown.
 
-        ``[a, b]`` -> ``[b]`` for the steps (1,), and ``[a, b]`` for the steps (None,).
+        A number selects the element with this index, and None selects every element. Each step selects from the elements of
+        the step before.
         """
         nodes = [node]
         for step in steps:

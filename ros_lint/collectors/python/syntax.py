@@ -1,4 +1,4 @@
-"""Python sources as syntax trees, and what to make of those that are none."""
+"""The syntax trees of Python sources, and the reasons why a source has none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names in a Python source that nothing binds, and the code whose exceptions are caught."""
+"""Names in a Python source that are used and never bound, and the code in ``try`` blocks, whose exceptions are caught."""
 
 from __future__ import annotations
 

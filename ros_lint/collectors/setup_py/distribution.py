@@ -1,4 +1,4 @@
-"""Files that setup() installs according to its options: data files, scripts, entry points, modules."""
+"""The files that setup() installs according to its options: data files, scripts, entry points, and Python modules."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _RESERVED_FOLDERS = frozenset(
 
 
 class SetupContext(NamedTuple):
-    """Data of a package that, besides the options of setup(), are needed to compute its installed files."""
+    """What is needed, besides the options of setup(), to compute the installed files of a package."""
 
     files: Files
     executables: AbstractSet[str]
@@ -44,9 +44,9 @@ class SetupContext(NamedTuple):
 
 
 class Distribution:
-    """The files that one call of setup() installs.
+    """The files that one call of setup() installs. :meth:`read` computes them.
 
-    ``place`` is a function from a value and a default to the span of the value; the default is for a value without a place.
+    ``place`` returns the span of a value. Its second argument is the result for a value without a span.
     """
 
     def __init__(self, context: SetupContext, place: Callable[[Value, Span], Span]) -> None:
@@ -60,7 +60,7 @@ class Distribution:
         self.problems: list[Problem] = []
 
     def read(self, options: Mapping[str, Value]) -> None:
-        """Compute the installed files from the options of setup()."""
+        """Compute the files that setup() installs from its options, and store them in the attributes."""
         if REST in options:
             self._hide(INSTALLED, options[REST])
         self._python(options)
@@ -84,7 +84,10 @@ class Distribution:
         self.opaque.append(Opaque(facet, reason, self._place(value, self._context.call)))
 
     def _items(self, value: Value, facet: Facet) -> Iterator[tuple[Value, bool]]:
-        """Yield the known elements of a list, each with whether it depends on something unknown."""
+        """Yield the known elements of a list, each with a boolean: True if the list may not contain the element.
+
+        If ``value`` or an element is unknown, an opaque place is recorded, which hides ``facet`` of the package.
+        """
         if value is None:
             return
         if not isinstance(value, (list, tuple)):
@@ -134,9 +137,9 @@ class Distribution:
             self.moved += [f"{lies}/"] if lies != "." else [f"{module}.py" for module in modules]
 
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
-        """Return the packages and folders that setuptools (since 61) discovers.
+        """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
-        These are the packages in src/, or those of a single top-level package.
+        These are the packages in src/, else those in the only top-level package. The folders are a value of ``package_dir``.
         """
         files = self._context.files
         if "" in folders or files.is_folder("src"):
@@ -156,7 +159,7 @@ class Distribution:
                 self._data_file("", entry, maybe)
                 continue
             if not isinstance(entry, (tuple, list)) or len(entry) != 2:
-                self._problem("data-files-form", "an entry of data_files is a pair of a folder and a list of files", entry)
+                self._problem("data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry)
                 continue
             folder, sources = entry
             if isinstance(folder, Unknown):
@@ -164,14 +167,20 @@ class Distribution:
                 continue
             folder = posixpath.normpath(str(folder)) if str(folder) else ""
             if folder.startswith("/"):
-                self._problem("absolute-destination", f"'{folder}' is outside the install prefix", entry[0])
+                self._problem(
+                    "absolute-destination",
+                    f"data_files cannot install to '{folder}', which is outside the install prefix; write a relative folder",
+                    entry[0],
+                )
                 continue
             if not isinstance(sources, (list, Unknown)) or not isinstance(entry, tuple):
                 self._problem(
                     "data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry[0]
                 )
             if isinstance(sources, Globbed) and not sources:
-                message = f"no file matches '{sources.pattern}', so nothing is installed to {folder}"
+                message = (
+                    f"no file matches '{sources.pattern}', so nothing is installed to {folder}; correct or remove the pattern"
+                )
                 self._problem("empty-glob", message, entry[0], sources.pattern)
             for source, maybe_source in self._items(sources, _facet(folder)):
                 self._data_file(folder, source, maybe or maybe_source)
@@ -180,7 +189,7 @@ class Distribution:
         context = self._context
         path = context.files.inside(str(source))
         if path is not None and context.files.is_folder(path):
-            message = f"'{path}' is a folder, but data_files can only copy files: the build fails"
+            message = f"'{path}' is a folder, but data_files can only copy files, so the build fails; list only files"
             self._problem("directory-in-data-files", message, source, path)
             return
         if path is not None and not context.files.is_file(path):
@@ -216,7 +225,10 @@ class Distribution:
             self._hide(Facet.EXECUTABLES, value)
 
     def _entry_lines(self, group: str, value: Value, maybe: bool) -> None:
-        """Read the entry points on the lines of a text, or of texts in nested lists, as setuptools does."""
+        """Record the entry points of a group: the lines of a text, or of the texts in nested lists, as in setuptools.
+
+        ``maybe`` is True if the entry points may be missing.
+        """
         if isinstance(value, str):
             for line in value.splitlines():
                 self._entry_point(group, line, value, maybe)
@@ -251,13 +263,19 @@ class Distribution:
 
 
 def _facet(folder: str) -> Facet:
-    """Return the facet of a file in a folder of the install prefix."""
+    """Return the facet of the package that an unknown file in ``folder`` would hide: ``share/a`` -> ``Facet.SHARE``.
+
+    ``folder`` is relative to the install prefix.
+    """
     top = folder.partition("/")[0]
     return {"share": Facet.SHARE, "lib": Facet.EXECUTABLES, "bin": Facet.EXECUTABLES}.get(top, INSTALLED)
 
 
 def folder_of(package: str, folders: Mapping[str, str]) -> str:
-    """Return the folder of a Python package according to the option package_dir, given as ``folders``."""
+    """Return the folder of a Python package; ``folders`` is the value of the option ``package_dir``.
+
+    ``a.b`` -> ``src/a/b`` for ``{"": "src"}``
+    """
     head, tail = package.split("."), list[str]()
     while head:
         name = ".".join(head)

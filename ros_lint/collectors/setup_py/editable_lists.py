@@ -1,4 +1,4 @@
-"""Lists in a ``setup.py`` to which a fix can add elements."""
+"""List literals in a ``setup.py`` to which a fix can add elements."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _OPTIONS = ("data_files", "packages")
 
 
 def collect(source: Text, package: str) -> tuple[EditableList, ...]:
-    """Return the lists of ``data_files``, ``packages`` and console scripts that are list literals.
+    """Return the list literals that are the values of ``data_files``, ``packages`` and ``console_scripts``.
 
-    ``package`` is the name of the package. The variable with this value is recorded in each result.
+    ``package`` is the name of the package. If a variable has this value, its name is recorded in each result.
     """
     try:
         tree = parse(source)
@@ -42,7 +42,10 @@ def collect(source: Text, package: str) -> tuple[EditableList, ...]:
 
 
 def _glob(node: ast.stmt) -> str:
-    """Return the name under which an import makes glob.glob available, "" for any other statement."""
+    """Return the expression for the function ``glob.glob`` after an import, "" if ``node`` does not import it.
+
+    ``import glob`` -> ``glob.glob``, ``from glob import glob`` -> ``glob``
+    """
     if isinstance(node, ast.Import):
         return next((f"{alias.asname or 'glob'}.glob" for alias in node.names if alias.name == "glob"), "")
     if isinstance(node, ast.ImportFrom) and node.module == "glob":
@@ -99,9 +102,10 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Editable
 
 
 def _joins(found: ast.List) -> str:
-    """Return how the last folder of data_files that is no plain text is composed.
+    """Return how a list of data_files composes the last of its folders that is not a plain text.
 
-    The name of the join function as written, "f" for an f-string, "" for any other expression.
+    ``os.path.join("share", name)`` -> ``os.path.join``, ``f"share/{name}"`` -> ``f``. The result is "" for any other
+    expression, and for a list of plain texts.
     """
     folders = [element.elts[0] for element in found.elts if isinstance(element, ast.Tuple) and element.elts]
     for folder in reversed(folders):

@@ -1,4 +1,4 @@
-"""Texts in ``setup.py`` that a fix can change: patterns of globs, and gaps where a comma is missing."""
+"""Texts in ``setup.py`` that a fix can change: glob patterns, and gaps between strings where a comma is missing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def collect(source: Text) -> tuple[WrittenText, ...]:
-    """Return the last literal of each ``glob()`` pattern, and gaps in joined literals with several ``=``.
+    """Return the last string literal of each ``glob()`` pattern, and the gaps between strings where a comma is missing.
 
     Example of a gap: two entry points ``'a = p.a:main' 'b = p.b:main'`` without a comma between them.
     """
@@ -44,7 +44,7 @@ def _found(source: Text, tree: ast.Module) -> Iterator[WrittenText]:
 
 
 def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
-    """Yield the ends of the literals of an implicitly joined text, except the last one."""
+    """Yield the positions between the adjacent string literals of which a text consists."""
     from ros_lint.base.python_tokens import tokens  # noqa: PLC0415  (few files have such a text)
 
     start, end = range_of(source, node)
@@ -53,7 +53,7 @@ def _gaps(source: Text, node: ast.Constant) -> Iterator[WrittenText]:
 
 
 def _last(pattern: ast.expr) -> ast.expr:
-    """Return the last operand or argument of the expression of a pattern."""
+    """Return the last operand or argument of an expression: ``folder + "/*.py"`` -> ``"/*.py"``."""
     while isinstance(pattern, (ast.BinOp, ast.Call)):
         pattern = pattern.right if isinstance(pattern, ast.BinOp) else pattern.args[-1] if pattern.args else pattern.func
     return pattern

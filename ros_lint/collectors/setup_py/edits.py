@@ -1,4 +1,4 @@
-"""Edits of setup.py and setup.cfg in the style of the file: elements of list literals, and options."""
+"""Edits of setup.py and setup.cfg in the style of the file: new elements of list literals, and changed options."""
 
 from __future__ import annotations
 
@@ -12,32 +12,35 @@ from ros_lint.facts.setup_py import EditableList
 
 
 def slot(script: BuildScript, option: str) -> EditableList | None:
-    """Return the list of an option, None if it is no list literal or is empty."""
+    """Return the list literal of an option of setup(), None if the option is missing, empty or not a list literal."""
     return next((editable for editable in script.python.editable_lists if editable.option == option and editable.size), None)
 
 
 def add(to: EditableList, element: str) -> Edit:
-    """Return the edit that adds an element after the last one.
+    """Return the edit that adds ``element`` after the last element of a list literal.
 
-    The new element has its own line, or a trailing comma, if the last one has it.
+    The new element begins a new line if the last one does, and ends with a comma if the last one does.
     """
     gap = " " if to.indent is None else f"\n{to.indent}"
     return Edit(to.end, f"{gap}{element}," if to.comma else f",{gap}{element}")
 
 
 def place(script: BuildScript) -> Span:
-    """Return the place in a build script where install rules can be added, else the name of the package."""
+    """Return the span where install rules can be added to a build script.
+
+    Without such a span, the result is the span of the project name, else the start of the file.
+    """
     data_files = slot(script, "data_files")
     return script.commands.insertion or (data_files.end if data_files else script.project.name_span) or file_start(script.path)
 
 
 def add_files(to: EditableList, package: str, paths: Iterable[str], others: Sequence[str]) -> Edit:
-    """Return the edit that adds files to data_files, to install them in share/<package>.
+    """Return the edit that adds files to the list data_files, so that they are installed in share/<package>.
 
     ``others`` are the paths of all files of the package. The files of a folder are added as a glob if setup.py uses globs
-    and the glob matches no other file:
+    and the glob matches no further file:
 
-    - a glob with the common suffix of the files
+    - a glob with the common suffix of the files, such as ``launch/*.launch.py``
     - without a common suffix, a glob of the whole folder, unless it has subfolders, which data_files do not accept
 
     Otherwise, and in the folder of setup.py, the files are listed.
@@ -62,17 +65,20 @@ def _files(to: EditableList, package: str, paths: Sequence[str], others: Sequenc
 
 
 def _ending(paths: Sequence[str]) -> str:
-    """Return the longest common suffix of the names that begins with a dot, "" if there is none."""
+    """Return the longest common suffix of file names that begins with a dot, "" if there is none.
+
+    ["a.launch.py", "b.launch.py"] -> ``.launch.py``
+    """
     names = [posixpath.basename(path) for path in paths]
     shared = posixpath.commonprefix([name[::-1] for name in names])[::-1] if len(names) > 1 else names[0][1:]
     return shared[shared.find(".") :] if "." in shared else ""
 
 
 def joined(to: EditableList, package: str, before: str, after: str = "") -> str:
-    """Return an expression for the text ``before`` + package + ``after``.
+    """Return a Python expression for the text ``before`` + package + ``after``, such as ``'share/' + package_name``.
 
-    The expression uses the variable with the package name if there is one, and is composed like others in the list.
-    Slashes separate the package name from the texts before and after it.
+    The expression uses the variable with the package name if there is one, and composes texts as the list ``to`` does.
+    ``before`` ends with a slash and ``after`` begins with a slash, unless they are empty.
     """
     name = to.variable
     if to.joins not in ("", "f") and "/" in before + after:
@@ -86,7 +92,7 @@ def joined(to: EditableList, package: str, before: str, after: str = "") -> str:
 
 
 def quoted(to: EditableList, text: str) -> str:
-    """Return a text as a Python literal, with the quotes that the list uses."""
+    """Return a text as a Python string literal, with the kind of quotes that the list ``to`` uses."""
     plain = repr(text)
     return plain if to.quote in plain[1:-1] or "\\" in plain else f"{to.quote}{text}{to.quote}"
 
@@ -96,20 +102,23 @@ _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
 
 
 def program_folders(script: BuildScript) -> dict[str, Span]:
-    """Return the places in setup.cfg that set the folder of programs, by ``section.option``."""
+    """Return the spans of the options in setup.cfg that set the install folder of programs.
+
+    The keys are ``develop.script_dir`` and ``install.install_scripts``.
+    """
     wanted = {f"{section}.{option}" for section, option in _FOLDERS}
     return {text.text: text.span for text in script.python.editable_texts if text.kind == "option" and text.text in wanted}
 
 
 def config(place: Span, package: str) -> Edit:
-    """Return the edit that writes a new setup.cfg, so that programs are installed to ``lib/<package>``."""
+    """Return the edit that writes a new setup.cfg, which installs programs to ``lib/<package>``."""
     return Edit(place, "".join(f"[{section}]\n{option}=$base/lib/{package}\n" for section, option in _FOLDERS))
 
 
 def programs_to(script: BuildScript, package: str) -> tuple[Edit, ...]:
-    """Return the edits of a setup.cfg that make programs install to ``lib/<package>``.
+    """Return the edits of an existing setup.cfg that make it install programs to ``lib/<package>``.
 
-    Empty if there is no setup.cfg.
+    The result is empty if there is no setup.cfg.
     """
     headers = {text.text: text.span for text in script.python.editable_texts if text.kind == "section"}
     end = headers.get("")

@@ -1,7 +1,7 @@
 """Evaluation of the ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package.
 
-colcon runs setup.py, but nothing is run here: a small interpreter evaluates it with the names of the package's files.
-A value that it cannot know becomes an Opaque with the facet of the package that it hides.
+colcon runs setup.py, but ros-lint runs nothing: a small interpreter evaluates setup.py with the names of the files of
+the package. An unknown value becomes an Opaque with the facet of the package that it hides.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def evaluate(
     pyproject: Text | None,
     executables: AbstractSet[str] = frozenset(),
 ) -> BuildScript:
-    """Return the effects of building a Python package with setuptools.
+    """Return what building a Python package with setuptools installs, and the problems of the build.
 
     - ``name``: the name in package.xml.
     - ``path_prefix``: the folder of the package.
@@ -91,9 +91,9 @@ def evaluate(
 
 
 def _run(program: Program, source: Text, start: Span) -> BuildScript:
-    """Interpret a setup.py.
+    """Interpret a setup.py, and return a build script with its imports and problems.
 
-    Return a build script with its imports, its problems and the parts that cannot be evaluated.
+    The script is opaque if setup.py cannot be evaluated to its end. ``start`` is the span of the opaque place.
     """
     script = BuildScript(source.path)
     try:
@@ -123,7 +123,10 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
 
 
 def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield the errors at which Python stops, unless a try statement catches them."""
+    """Yield the errors that stop setup.py: undefined names, and calls of values that are no functions.
+
+    Errors that a try statement catches are omitted.
+    """
     for name in unbound(tree, (name for name, _ in program.unbound)):
         yield Problem("undefined-name", f"'{name.id}' is not defined", span_of(source, name))
     if not program.no_functions:
@@ -143,7 +146,7 @@ def _no_function(value: Value) -> str:
 
 
 def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
-    """Return the function from a value and a default to the span of the value; see :class:`Distribution`."""
+    """Return a function that returns the span of a value, or its second argument for a value without a span."""
 
     def place(value: Value, default: Span) -> Span:
         node = getattr(value, "node", None)
@@ -159,7 +162,7 @@ def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
 
 
 def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
-    """Return the folder of programs below the prefix, and an Opaque if it cannot be evaluated.
+    """Return the install folder of programs relative to the prefix; or None and an Opaque if the folder cannot be evaluated.
 
     The option install_scripts of the section [install] in setup.cfg sets it; the default is bin.
     """
@@ -183,7 +186,7 @@ def _with(
     place: Callable[[Value, Span], Span],
     call: Span,
 ) -> BuildScript:
-    """Return a build script with the results of one call of setup() added."""
+    """Return ``script`` with the files, entry points and problems of one call of setup() added."""
     name, version = options.get("name"), options.get("version")
     return script._replace(
         project=BuildProject(

@@ -1,4 +1,4 @@
-"""Options of setup(), completed from ``setup.cfg`` and ``pyproject.toml`` as by setuptools."""
+"""The options of setup(), completed from ``setup.cfg`` and ``pyproject.toml`` as setuptools does."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ _FINDS = {"find:": False, "find_namespace:": True}
 
 
 def completed(given: Mapping[str, Value], files: Files, setup_cfg: SetupCfg | None, pyproject: Text | None) -> dict[str, Value]:
-    """Return the options that hold: setup() before setup.cfg, and pyproject.toml before both."""
+    """Return the options of setup() with those of setup.cfg and pyproject.toml added.
+
+    ``given`` are the options in setup.py. An option in setup.py overrides setup.cfg, and pyproject.toml overrides both.
+    """
     options = dict(given)
     if setup_cfg is not None:
         options.update({key: value for key, value in _from_cfg(setup_cfg, files).items() if not options.get(key)})
@@ -69,7 +72,7 @@ def _single(option: Option) -> Value:
 
 
 def _words(option: Option) -> list[Value]:
-    """Return the elements of a list: one on each line, or separated by commas on a single line."""
+    """Return the elements of a list in setup.cfg: one on each line, or separated by commas on a single line."""
     if len(option.lines) == 1:
         line = option.lines[0]
         return [_at(part.strip(), line.span) for part in line.text.split(",") if part.strip()]

@@ -1,4 +1,4 @@
-"""Reader of ``setup.cfg`` with the syntax of ``configparser`` and the place of each option."""
+"""Reader of ``setup.cfg`` with the syntax of ``configparser``, which records the span of each option."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class Line(NamedTuple):
-    """A line of a value, without surrounding white space."""
+    """A line of the value of an option, without surrounding white space."""
 
     text: str
     span: Span
 
 
 class Option(NamedTuple):
-    """A key of a section."""
+    """An option in a section of setup.cfg, with the lines of its value."""
 
     section: str
     key: str
@@ -36,7 +36,7 @@ class Option(NamedTuple):
 
 
 class SetupCfg(NamedTuple):
-    """The readable parts of a ``setup.cfg``, and its problems."""
+    """The options that could be read from a ``setup.cfg``, and the problems of the file."""
 
     options: tuple[Option, ...]
     problems: tuple[Problem, ...]
@@ -44,7 +44,7 @@ class SetupCfg(NamedTuple):
     """Places where a fix can add or change options."""
 
     def section(self, name: str) -> dict[str, Option]:
-        """Return the options of a section by key."""
+        """Return the options of the section ``name``, by key; {} if there is no such section."""
         return {option.key: option for option in self.options if option.section == name}
 
 
@@ -55,10 +55,10 @@ _DASHED = frozenset({"develop", "install", "metadata", "options"})
 
 
 def collect(source: Text) -> SetupCfg:
-    """Return the options of a ``setup.cfg``.
+    """Return the options and problems of a ``setup.cfg``.
 
-    Problems have the kinds ``setup-cfg-syntax`` (setuptools stops with an error) and ``dashed-key`` (a key with a dash, which
-    setuptools rejects or warns about, depending on its version).
+    Problems have the kinds ``setup-cfg-syntax`` (setuptools stops with an error) and ``dashed-key`` (a key with a dash,
+    which setuptools rejects or warns about, depending on its version).
     """
     options: list[Option] = []
     problems: list[Problem] = []

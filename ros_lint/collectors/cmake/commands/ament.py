@@ -18,6 +18,7 @@ from ros_lint.collectors.cmake.evaluator.run import Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import Properties
 from ros_lint.collectors.cmake.evaluator.values import FILE, HOLE, MAYBE, elements, is_known, strip_mark
 from ros_lint.facts.build import Component, InstalledFile
+from ros_lint.facts.cmake import CommandPlace
 from ros_lint.facts.sources import Purpose
 from ros_lint.facts.visibility import ALL_FACETS, Facet
 
@@ -40,6 +41,8 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
         if provider and run.runs_own_code():
             purpose: Purpose = "interfaces" if name == _GENERATES else ""
             run.add_mention(provider, "macro", run.current_place(), f"{name}()", purpose=purpose)
+        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions):
+            run.export_scopes.append((run.scopes[-1], CommandPlace(name, run.current_place())))
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command
@@ -219,6 +222,7 @@ def _package(run: Run, args: list[str]) -> None:
             (f"share/{name}/cmake/{name}Config.cmake", ""),
         ]
         run.results.installed += [InstalledFile(path, source, False, conditional, span) for path, source in package_files]
+    run.package_scopes += run.scopes
     if run.component_scopes and not any(variable.startswith(_REGISTERED) for scope in run.scopes for variable in scope):
         for number, scope in enumerate(run.component_scopes):
             if not any(scope is visible for visible in run.scopes):

@@ -72,7 +72,9 @@ def find_package(run: Run, args: list[str]) -> int | None:
             and certain
             and not (run.muted or run.uncertain_conditions or run.normal(f"{name}_DIR"))
         ):
-            message = f"find_package({name}) searches this package itself, which is not installed yet; link its targets instead"
+            message = (
+                f"find_package({name}) searches for this package itself, which is not installed yet; link its targets instead"
+            )
             run.results.errors[Problem("no-package", message, span, subject=name)] = None
     mark_found(run, name, required=required and certain)
     if module is not None and all(frame.file != run.paths.absolute(module) for frame in run.frames):
@@ -157,10 +159,19 @@ def _packages_used(run: Run, args: list[str]) -> None:
         elif is_known(name) and not run.is_bundled(name):
             if certain:
                 certainly[name] = run.place_of(arg)
-            quotation = f"{args[1]} {name}" if args[1] != "-" else ""
+            quotation = _quotation(args[1], name)
             run.add_mention(name, "target", run.place_of(arg), quotation, optional=not certain, purpose=purpose)
     if certainly and not (run.muted or run.uncertain_conditions):
         _note_impossible_packages(run, args[1].partition(" ")[0], certainly)
+
+
+def _quotation(how: str, name: str) -> str:
+    """Return the text with which messages quote a command that uses the package ``name``, "" for the command "-".
+
+    ``("ament_target_dependencies ...", "rclcpp")`` gives ``ament_target_dependencies(... rclcpp)``.
+    """
+    command, _, words = how.partition(" ")
+    return "" if how == "-" else f"{command}({words} {name})".replace("( ", "(")
 
 
 def _note_impossible_packages(run: Run, command: str, places: Mapping[str, Span]) -> None:
@@ -177,7 +188,7 @@ def _note_impossible_packages(run: Run, command: str, places: Mapping[str, Span]
 
 
 def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> None:
-    message = f"{command}() expects packages that are found, but {detail}"
+    message = f"{command}() expects packages found by find_package(), but {detail}"
     run.results.errors[Problem("no-package", message, span, subject=name)] = None
 
 

@@ -173,7 +173,9 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
             run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
             run.hide(ALL_FACETS, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
         else:
-            run.add_problem("missing-folder", f"add_subdirectory({path}): the folder does not exist", run.place_of(name), path)
+            run.add_problem(
+                "missing-folder", f"add_subdirectory() fails because the folder '{path}' does not exist", run.place_of(name), path
+            )
         return None
     run.paths.enter_directory(path, _built_in(run, path, args[1:]))
     run.scopes.append(Variables())

@@ -83,7 +83,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
         source = None
     if source is not None and not run.paths.is_file(source):
         if run.paths.is_folder(source) and source:
-            message = f"install(FILES) cannot install '{source}', because it is a directory"
+            message = f"install(FILES) cannot install '{source}', because it is a directory; use install(DIRECTORY)"
             run.add_problem("file-is-directory", message, span, source)
             return
         if optional:

@@ -16,6 +16,7 @@ from ros_lint.collectors.cmake.evaluator.values import ATOM, HOLE, MAYBE, SLOW, 
 from ros_lint.collectors.cmake.released_macros import CONFIGURABLE_VARIABLES, UNKNOWN_VARIABLES
 from ros_lint.collectors.cmake.syntax import LITERAL, OPEN, PLAIN, QUOTED, UNQUOTED, Argument, Command, ParsedScript
 from ros_lint.facts.build import REPOSITORIES
+from ros_lint.facts.cmake import CommandPlace
 from ros_lint.facts.environment import ROS_2
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
@@ -89,6 +90,10 @@ class Run(State):
         """Names of the commands that have run, in lower case."""
         self.outside_scripts: list[ParsedScript] = []
         """Scripts outside of the package that have run."""
+        self.export_scopes: list[tuple[Variables, CommandPlace]] = []
+        """The certain calls of ament_export_...() in the package, each with its scope."""
+        self.package_scopes: list[Variables] = []
+        """The scopes that ament_package() sees."""
         self.component_scopes: list[Variables] = []
         """The scope in which each of the components is registered."""
 

@@ -1,4 +1,4 @@
-"""Readers of the tags of XML and YAML launch files, except for nodes and processes."""
+"""Readers of the tags in XML and YAML launch files, except for the tags of nodes and processes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
 
 
 def _plain(entity: Entity, name: str) -> LaunchValue:
-    """Return an attribute in which substitutions are not expanded."""
+    """Return the value of an attribute without expanding its substitutions."""
     value = _unescaped(entity.attributes[name])
     span, plain = entity.written(name)
     return LaunchValue((value,), span, plain and value == entity.attributes[name])
@@ -126,7 +126,7 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
 
 
 def _loop(reader: Reader, entity: Entity) -> LaunchAction:
-    """Return the actions of a loop, under an unknown condition because the number of repetitions may be 0."""
+    """Return a group with the actions in a loop. It is under an unknown condition, because the loop may run 0 times."""
     conditions = reader.conditions(entity)
     for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
         reader.text(entity, attribute)

@@ -1,7 +1,7 @@
-"""Reading of the attributes of XML and YAML launch files, with the errors of the front end.
+"""Reading of attributes in XML and YAML launch files, with the errors of launch's own reader (``launch.frontend``).
 
-This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that a file is rejected here
-exactly if the real front end rejects it.
+The functions follow the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that ros-lint rejects a
+file exactly if launch rejects it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _make = tuple.__new__  # half the time of the constructor
 
 
 class Reader:
-    """Reads entities by the reader of their tag, and notes the errors of the front end."""
+    """Reads each entity of a launch file by the reader of its tag, and records the errors for which launch rejects the file."""
 
     def __init__(self, source: Text, readers: Mapping[str, TagReader]) -> None:
         self._source = source
@@ -34,15 +34,15 @@ class Reader:
         """Features that not every distribution supports; ``kind`` is the first distribution that does."""
 
     def note_newer(self, feature: str, span: Span) -> None:
-        """Note a feature that not every distribution supports."""
+        """Record that the file uses a tag or substitution that not every distribution supports."""
         self.newer[Problem(SINCE[feature], feature, span)] = None
 
     def note_rejection(self, error: Rejected) -> None:
-        """Note an error of the front end."""
+        """Record an error for which launch rejects the file."""
         self.problems.append(error.problem)
 
     def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
-        """Return the actions of entities. A rejected entity is noted and gives no action."""
+        """Return the actions of entities. An entity that launch rejects is recorded as a problem, and has no action."""
         actions: list[LaunchAction] = []
         for entity in entities:
             try:
@@ -66,14 +66,14 @@ class Reader:
     # --- attributes -----------------------------------------------------------------------------------------------
 
     def _texts(self, entity: Entity, name: str, value: str) -> tuple[str, ...]:
-        """Return the alternatives of a value with substitutions. Raises Rejected."""
+        """Return the possible texts of the value of an attribute. Raises Rejected if a substitution is invalid."""
         texts_or_mistake = read_value(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
         return self._reject(entity, name, value, texts_or_mistake) if isinstance(texts_or_mistake, Mistake) else texts_or_mistake
 
     def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
-        """Return a value as literals and substitutions. Raises Rejected."""
+        """Return the literals and substitutions of the value of an attribute. Raises Rejected if a substitution is invalid."""
         pieces = _pieces(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
@@ -92,9 +92,9 @@ class Reader:
         )
 
     def _inner(self, entity: Entity, name: str, value: str, start: int, end: int) -> Span:
-        """Return the span of a part of a value.
+        """Return the span of the part of an attribute value between the offsets ``start`` and ``end``.
 
-        It is the span of the whole value if the source does not contain the value literally.
+        It is the span of the whole value if the source does not contain the value literally, for example because of escapes.
         """
         span, plain = entity.written(name)
         if not plain or entity.attributes[name] != value:
@@ -105,11 +105,11 @@ class Reader:
         return self._source.span(first + start, first + end)
 
     def text(self, entity: Entity, name: str) -> LaunchValue:
-        """Return a required attribute as a text. Raises Rejected."""
+        """Return the value of a required attribute. Raises Rejected if it is missing or invalid."""
         return self.optional(entity, name) or self._value(entity, name, entity.need(name))
 
     def optional(self, entity: Entity, name: str) -> LaunchValue | None:
-        """Return an optional attribute as a text, None if it is missing. Raises Rejected."""
+        """Return the value of an optional attribute, None if it is missing. Raises Rejected if it is invalid."""
         if entity.simple:
             value = entity.attributes.get(name)
             if value is None:
@@ -125,7 +125,10 @@ class Reader:
         return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value, ()))
 
     def typed(self, entity: Entity, name: str, kind: Type) -> Any:
-        """Return an attribute of a type, a LaunchValue if it is a substitution instead, None if it is missing."""
+        """Return the value of an attribute converted to the type ``kind``, None if it is missing.
+
+        A value with substitutions is returned as a LaunchValue. Raises Rejected if the value has another type.
+        """
         value = entity.get(name, kind)
         if isinstance(value, list):
             kinds = {self._kind(entity, name, item) for item in value} - {None}
@@ -137,19 +140,19 @@ class Reader:
         return value
 
     def listed(self, entity: Entity, name: str, values: list[Any]) -> LaunchValue:
-        """Return a list in an attribute as one text in YAML notation."""
+        """Return the elements of the list in an attribute as one text in YAML notation: ``[1, 2]``."""
         rows = [self._texts(entity, name, item) if isinstance(item, str) else (str(item),) for item in values]
         return LaunchValue(joined(rows, _as_yaml), entity.place(name))
 
     def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
-        """Return the type of a value, None for a text with substitutions."""
+        """Return the type of ``value``, an element of a list in an attribute, None if it is a text with substitutions."""
         if not isinstance(value, str):
             return type(value)
         pieces = self._pieces(entity, name, value)
         return str if len(pieces) == 1 and isinstance(pieces[0], Literal) else None
 
     def package_span(self, entity: Entity, *names: str) -> Span | None:
-        """Return the span of the package name in the first path of some attributes that contains one."""
+        """Return the span of the package name in the first package look-up in the attributes ``names``, None if there is none."""
         for name in names:
             value = entity.attributes.get(name)
             if not isinstance(value, str) or "-pkg" not in value:
@@ -161,7 +164,7 @@ class Reader:
         return None
 
     def words(self, entity: Entity, name: str, value: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return the words of a command line. The front end splits literals by the rules of a shell."""
+        """Return the words of a command line in an attribute. Literals are split by the rules of a shell, as launch does."""
         row: list[list[Literal | Substitution]] = [[]]
         for piece in self._pieces(entity, name, value):
             if isinstance(piece, Substitution):
@@ -185,13 +188,13 @@ class Reader:
         return tuple(("", LaunchValue(texts(tuple(word)), span)) for word in row if word)
 
     def need_truth(self, entity: Entity, name: str) -> None:
-        """Reject an attribute that is neither true nor false."""
+        """Raise Rejected if the value of an attribute is a text that is neither true nor false."""
         value = self.typed(entity, name, "bool")
         if isinstance(value, str):
             raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> is neither true nor false", entity.place(name))
 
     def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return the names and values of the children with a tag."""
+        """Return the attributes ``name`` and ``value`` of each child with a tag, such as ``<arg name="a" value="b"/>``."""
         pairs: list[tuple[str, LaunchValue]] = []
         children = entity.entities(tag)
         for child in children:
@@ -204,7 +207,10 @@ class Reader:
         return tuple(pairs)
 
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
-        """Return the conditions of the attributes ``if`` and ``unless``. Raises Rejected."""
+        """Return the condition in the attribute ``if`` or ``unless`` of an entity, () if the entity has neither.
+
+        Raises Rejected if the entity has both, or the value is invalid.
+        """
         if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
             return ()
         if_text, unless_text = entity.get("if"), entity.get("unless")
@@ -218,7 +224,7 @@ class Reader:
 
 
 class Mistake(NamedTuple):
-    """The reason why a value is rejected, and the offsets of the error in it."""
+    """The reason why launch rejects the value of an attribute, and the offsets of the error in the value."""
 
     kind: str
     message: str
@@ -234,7 +240,7 @@ def _as_yaml(row: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4_096)
 def read_value(value: str) -> tuple[str, ...] | Mistake:
-    """Return the alternative texts of a value, or its error. Cached, because values occur repeatedly."""
+    """Return the possible texts of an attribute value, or a Mistake. The result is cached, because values occur repeatedly."""
     simple = simple_text(value)
     if simple is not None:
         return (simple,)
@@ -257,7 +263,10 @@ def _pieces(value: str) -> Pieces | Mistake:
 
 @lru_cache(maxsize=4_096)
 def _package_place(value: str) -> tuple[int, int] | None:
-    """Return the offsets of the package name in the first look-up of a valid value, None if there is none."""
+    """Return the start and end offset of the package name in the first package look-up of a valid value.
+
+    The result is None if the value contains no look-up.
+    """
     if "exec-in-pkg" not in value and simple_text(value) is not None:
         match = _LOOK_UP.search(value)
         return match.span(1) if match else None
@@ -274,7 +283,7 @@ _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 
 def _argument_error(piece: Substitution) -> tuple[str, str] | None:
-    """Return kind and message of the error in the arguments of a substitution, None if they are valid."""
+    """Return the kind and the message of the error in the arguments of a substitution, None if the arguments are valid."""
     limits = SUBSTITUTIONS.get(piece.name)
     if limits is None:
         return "unknown-substitution", f"there is no substitution $({piece.name})"

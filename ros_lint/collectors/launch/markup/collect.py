@@ -1,7 +1,7 @@
-"""Facts of XML and YAML launch files.
+"""Facts of XML and YAML launch files, which are read as ``launch`` and ``launch_ros`` read them.
 
-This follows the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that a file is rejected here
-exactly if the real front end rejects it.
+The functions follow the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that ros-lint rejects a
+file exactly if launch rejects it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchFile
 
 
 def launch_file(source: Text, language: Literal["xml", "yaml"], root: Entity) -> LaunchFile:
-    """Return the facts of a launch file in "xml" or "yaml", given its root as an entity."""
+    """Return the facts of a launch file in XML or YAML. ``root`` is the root element with all entities in it."""
     reader = Reader(source, _TAG_READERS)
     actions: list[LaunchAction] = []
     try:
@@ -51,7 +51,10 @@ _VARIABLE = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
 
 
 def configurations_read(text: str) -> tuple[str, ...]:
-    """Return the launch configurations that a text reads, sorted, with UNKNOWN for computed names."""
+    """Return the names of the launch configurations that a text reads, sorted: ``$(var a)`` -> ("a",).
+
+    The name UNKNOWN stands for computed names.
+    """
     if "$(var" not in text:
         return ()
     names = set(_VARIABLE.findall(_COMMENT.sub("", text) if "<!--" in text else text))

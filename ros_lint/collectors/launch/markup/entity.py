@@ -1,7 +1,7 @@
 """Entities of XML and YAML launch files, and the types of attributes (``launch.frontend.Entity``).
 
-The two front ends differ in one thing: XML has text and converts it to the requested type, YAML has types and checks
-them.
+XML and YAML differ in one thing: in XML every attribute is a text, which is converted to the requested type; in YAML
+every value has a type, which is checked.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools"
 
 
 class Rejected(Exception):  # noqa: N818
-    """The launch front end rejects the file; ``problem`` is the error."""
+    """launch rejects the file because of the error ``problem``."""
 
     def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
         super().__init__(message)
@@ -41,7 +41,7 @@ NO_VALUE: Final = object()
 
 
 class Entity:
-    """An element with attributes and children. ``start`` and ``end`` are the offsets of its tag."""
+    """An XML element, or a YAML key with its value: attributes and children. ``start`` and ``end`` are offsets of its tag."""
 
     __slots__ = (
         "_read_children",
@@ -70,7 +70,10 @@ class Entity:
         spots: dict[str, tuple[int, int]] | None,
         simple: bool,
     ) -> None:
-        """Create an entity. ``spots`` are the offsets of the attribute values, None to find them on demand."""
+        """Create an entity.
+
+        ``spots`` are the offsets of the attribute values, None if :meth:`written` has to find them.
+        """
         self._source = source
         self.tag = tag
         self.attributes = attributes
@@ -91,11 +94,11 @@ class Entity:
 
     @property
     def span(self) -> Span:
-        """The place of the tag."""
+        """The span of the tag of the entity."""
         return self._source.span(self.start, self.end)
 
     def written(self, name: str) -> tuple[Span, bool]:
-        """Return the span of the value of an existing attribute, and whether it is literal in the source."""
+        """Return the span of the value of an attribute, and whether the source contains the value literally."""
         places = self._written
         if places is None:
             places = self._written = self._find_written()
@@ -135,15 +138,18 @@ class Entity:
         return {name: (span(start, end), text[start:end] == self.attributes.get(name)) for name, (start, end) in spots.items()}
 
     def place(self, name: str) -> Span:
-        """Return the span of the value of an attribute, of the tag if it has no such attribute."""
+        """Return the span of the value of an attribute, the span of the tag if the entity has no such attribute."""
         return self.written(name)[0] if name in self.attributes else self.span
 
     def has_none_of(self, names: Iterable[str]) -> bool:
-        """Return whether no name is an attribute, and requesting one could not raise."""
+        """Return whether the entity certainly has none of the attributes ``names``, so that requesting them cannot fail."""
         return self.form == "element" and self.attributes.keys().isdisjoint(names)
 
     def get(self, name: str, kind: Type = "str") -> Any:
-        """Return the value of an attribute, None if it is missing. Raises Rejected if it has another type."""
+        """Return the value of an attribute with the type ``kind``, None if it is missing.
+
+        Raises Rejected if the value has another type.
+        """
         attributes = self.attributes
         if self.form == "element":
             if name not in attributes:
@@ -164,7 +170,10 @@ class Entity:
         return attributes[name]
 
     def _converted(self, name: str, kind: Type) -> Any:
-        """Return a text of XML converted to a type; split first if there is a separator attribute for it."""
+        """Return the text of an XML attribute converted to a type.
+
+        If the entity has an attribute ``<name>-sep``, the text is split at its value first.
+        """
         value: str | list[str] = self.attributes[name]
         separator = self.attributes.get(f"{name}-sep")
         if separator is not None:
@@ -185,7 +194,7 @@ class Entity:
         return value
 
     def entities(self, tag: str) -> list[Entity]:
-        """Return the children with a tag. Raises Rejected if in YAML they are not a list of mappings."""
+        """Return the children with a tag. Raises Rejected if the children of a YAML entity are not a list of mappings."""
         if self.form == "other":
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
         if self.form == "list":
@@ -199,7 +208,7 @@ class Entity:
         return [child for child in self.children if child.tag == tag]
 
     def actions(self) -> list[Entity]:
-        """Return the children that are actions. Raises Rejected if YAML has no list of them."""
+        """Return the children that are actions. Raises Rejected if a YAML entity has no list of actions."""
         if self.form == "element":
             self._read_children = None
             return self.children
@@ -220,7 +229,7 @@ class Entity:
         raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
 
     def finish(self) -> None:
-        """Raise Rejected if there is an attribute or a child that was not requested."""
+        """Raise Rejected if the entity has an attribute or a child that no reader requested: launch does not support it."""
         requested = self._read_children
         if self.form == "list":
             if requested is not None:
@@ -242,7 +251,7 @@ CHILDREN: Final = "\0children"
 
 
 def _single_entity(item: Entity) -> Entity:
-    """Return the entity of a list item. Raises Rejected if the item does not have exactly one key."""
+    """Return the only entity in an item of a YAML list. Raises Rejected if the item does not have exactly one key."""
     if item.tag != CHILDREN:
         return item
     raise Rejected("wrong-type", "each list item must have exactly one key, the tag", item.span)
@@ -262,7 +271,7 @@ _NAMES: Mapping[Type, str] = {
 
 
 def _is_valid(value: Any) -> bool:
-    """Return whether a value is a scalar or a list of texts and one type (``is_instance_of_valid_type``)."""
+    """Return whether a YAML value is a scalar, or a list of scalars of one type and texts (``is_instance_of_valid_type``)."""
     if not isinstance(value, list):
         return isinstance(value, (int, float, bool, str))
     kind = next((type(item) for item in value if type(item) is not str), str)
@@ -270,7 +279,10 @@ def _is_valid(value: Any) -> bool:
 
 
 def _is_instance(value: Any, kind: Type) -> bool:
-    """Return whether a YAML value has a type. A text may be a substitution of any (``is_instance_of``)."""
+    """Return whether a YAML value has the type ``kind`` (``is_instance_of``).
+
+    A text is accepted for every scalar type, and as an element for every list type, because it may contain substitutions.
+    """
     if kind == "any":
         return _is_valid(value)
     if kind in _SCALARS:
@@ -279,7 +291,10 @@ def _is_instance(value: Any, kind: Type) -> bool:
 
 
 def _coerced(value: str | list[str], kind: Type) -> Any:
-    """Return a text of XML converted to a type; the text itself if the conversion fails. Raises ValueError."""
+    """Return the text of an XML attribute, or its split parts, converted to a type. Raises ValueError.
+
+    A text that is no number is returned unchanged for a number type, because it may contain a substitution.
+    """
     if isinstance(value, list):
         if kind in _SCALARS:
             raise ValueError(kind)
@@ -307,7 +322,10 @@ def _coerced(value: str | list[str], kind: Type) -> Any:
 
 
 def _as_yaml(value: str) -> Any:
-    """Return the YAML value of a text, the text if it is not YAML. Raises ValueError for unsupported types."""
+    """Return the value that a text has in YAML: ``1`` -> 1. A text that is not YAML is returned unchanged.
+
+    Raises ValueError if the value is of a type that attributes do not support.
+    """
     if value in _WORDS:
         return _WORDS[value]
     if value in ("null", "Null", "NULL"):
@@ -349,7 +367,7 @@ _SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
 
 
 def _is_suspicious(value: str) -> bool:
-    """Return whether YAML could read a non-empty value as another type than text."""
+    """Return whether a text that is not empty may have another type than text in YAML, such as ``1`` or ``yes``."""
     if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
         return True
     return ": " in value or " #" in value or "\n" in value

@@ -1,4 +1,4 @@
-"""Readers of the tags of nodes, components and processes in XML and YAML launch files."""
+"""Readers of the tags for nodes, components and processes in XML and YAML launch files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 
 def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
-    """Return the action with the attributes that nodes and executables share (``ExecuteProcess.parse``)."""
+    """Return the action of a node or executable with the attributes that both tags have (``ExecuteProcess.parse``)."""
     conditions = reader.conditions(entity)
     arguments: list[tuple[str, LaunchValue]] = []
     if kind == "process":

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple, Union
 
 
 class SubstitutionError(Exception):
-    """The text does not match the grammar. ``offset`` is from 0 to the length of the text."""
+    """A text with substitutions does not match the grammar. ``offset`` is the offset of the error in the text."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -20,7 +20,7 @@ class SubstitutionError(Exception):
 
 
 class Literal(NamedTuple):
-    """Literal text, with escapes resolved. ``start`` and ``end`` are offsets in the whole text."""
+    """A part of a text outside of substitutions, without escapes. ``start`` and ``end`` are offsets in the whole text."""
 
     text: str
     start: int
@@ -28,7 +28,7 @@ class Literal(NamedTuple):
 
 
 class Substitution(NamedTuple):
-    """``$(name arguments)``; each argument is a sequence of pieces."""
+    """A substitution ``$(name argument ...)`` in a text. Each argument consists of literals and substitutions."""
 
     name: str
     arguments: tuple[tuple[Piece, ...], ...]
@@ -53,7 +53,7 @@ _STOPS = {
 
 
 def parse(text: str) -> tuple[Piece, ...]:
-    """Return the pieces of a text. Raises SubstitutionError."""
+    """Return the literals and substitutions of a text. Raises SubstitutionError."""
     if "$(" not in text:
         return (Literal(_unescape(text), 0, len(text)),)
     return _Parser(text).template()
@@ -73,7 +73,10 @@ class _Parser:
         return self._pieces(0, "", "$", 0, "")[0]
 
     def _pieces(self, at: int, stops: str, escaped: str, depth: int, quote: str) -> tuple[tuple[Piece, ...], int]:
-        """Read until a character of ``stops`` or to the end. A backslash escapes the characters in ``escaped``."""
+        """Return the literals and substitutions from the offset ``at`` on, and the offset after them.
+
+        Reading stops at a character of ``stops`` or at the end. A backslash escapes the characters in ``escaped``.
+        """
         text = self._text
         pieces: list[Piece] = []
         begin = at

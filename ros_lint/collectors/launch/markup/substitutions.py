@@ -1,4 +1,4 @@
-"""Symbolic texts of the substitutions in XML and YAML launch files."""
+"""Symbolic texts of the values with substitutions in XML and YAML launch files."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Texts = tuple[str, ...]
 
 
 def texts(pieces: Pieces) -> Texts:
-    """Return the alternative texts of a value when the launch file runs."""
+    """Return the possible texts of a value, with marks for the parts that are known only when the launch file runs."""
     if len(pieces) == 1:
         return _texts_of_piece(pieces[0])
     rows = [_texts_of_piece(piece) for piece in pieces]
@@ -30,7 +30,7 @@ _SIMPLE = re.compile(r"""\$\(([A-Za-z][A-Za-z0-9_-]*)((?:[ ][^ '"\\$()]+)*)\)"""
 
 
 def simple_text(value: str) -> str | None:
-    """Return the text of a value with only simple and valid substitutions, None if it needs the parser."""
+    """Return the symbolic text of a value if its substitutions are simple and valid, None if the value has to be parsed."""
     if "\\" in value:
         return None
     output: list[str] = []
@@ -54,7 +54,7 @@ def simple_text(value: str) -> str | None:
 
 
 def package_of(pieces: Pieces) -> Pieces:
-    """Return the argument of the first package look-up, () if there is none."""
+    """Return the argument of the first package look-up in a value, such as ``a`` in ``$(find-pkg-share a)``, () if none."""
     for piece in pieces:
         if isinstance(piece, Substitution):
             if piece.name in ("find-pkg-share", "find-pkg-prefix") and piece.arguments:

@@ -26,7 +26,7 @@ def collect(source: Text) -> LaunchFile:
 
 
 def entities(source: Text) -> Entity:
-    """Return the elements as entities. Raises XmlError."""
+    """Return the root element of an XML launch file as an entity. Raises XmlError."""
     simple = "-sep" not in source.text
 
     def entity(tag: str, attributes: dict[str, str], start: int) -> Entity:

@@ -42,7 +42,7 @@ def collect(source: Text) -> LaunchFile:
 
 
 class _Reader:
-    """Creates entities from YAML nodes. Their number is limited, because aliases can multiply a few nodes."""
+    """Creates entities from YAML nodes. The number of entities is limited, because aliases can multiply a few nodes."""
 
     def __init__(self, source: Text) -> None:
         self._source = source
@@ -57,7 +57,10 @@ class _Reader:
         return self._entity(key, value, 0)
 
     def _entity(self, key: yaml.Node, value: yaml.Node, depth: int) -> Entity:
-        """Return the entity of a key: a mapping has attributes and lists of entities, a list has children."""
+        """Return the entity for a key and its value.
+
+        The value may be a mapping with attributes and lists of child entities, or a list of child entities.
+        """
         tag = str(key.value) if _is_scalar(key) else "?"
         return self._entity_of_value(tag, key.start_mark.index, key.end_mark.index, value, depth)
 
@@ -113,7 +116,7 @@ def _is_scalar(node: yaml.Node) -> bool:
 
 
 def _value(node: yaml.Node) -> Any:
-    """Return the value of a scalar or of a list of scalars, NO_VALUE for anything else.
+    """Return the value of a YAML scalar or of a list of scalars, NO_VALUE for any other node.
 
     Nested lists are not read, because aliases can multiply a few of them.
     """

@@ -1,4 +1,4 @@
-"""Actions of the objects of the launch libraries, as ``launch`` and ``launch_ros`` execute them."""
+"""Conversion of objects of the launch libraries to actions, as ``launch`` and ``launch_ros`` execute them."""
 
 from __future__ import annotations
 
@@ -56,7 +56,10 @@ def _include(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 
 
 def _with_arguments(include: LaunchAction, arguments: Sequence[_PassedArgument]) -> LaunchAction:
-    """Return an include with its arguments, except for those of branches that exclude the include."""
+    """Return an include with the arguments that it passes to the included file.
+
+    Arguments whose conditions contradict the conditions of the include are omitted.
+    """
     consistent = [argument for argument in arguments if symbolic_text.are_consistent((*include.conditions, *argument.conditions))]
     return include._replace(
         arguments=tuple([(argument.name, argument.value) for argument in consistent]),
@@ -66,7 +69,7 @@ def _with_arguments(include: LaunchAction, arguments: Sequence[_PassedArgument])
 
 
 class _PassedArgument(NamedTuple):
-    """An argument of an included file."""
+    """A launch argument that an include passes to the included file."""
 
     name: str
     span: Span
@@ -101,7 +104,7 @@ def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: La
 
 
 def _uncertain_names(arguments: Sequence[_PassedArgument]) -> tuple[str, ...]:
-    """Return the names of arguments that may not be passed; those passed in both branches are certain."""
+    """Return the names of arguments that may not be passed. An argument that both sides of a branch pass is certain."""
     counts = Counter([argument.name for argument in arguments])
     return tuple([argument.name for argument in arguments if argument.uncertain and counts[argument.name] == 1])
 
@@ -224,7 +227,7 @@ def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
 
 
 def _texts_in(value: Value) -> list[Value]:
-    """Return the texts in a value: itself, or those in a list or dictionary."""
+    """Return the texts and substitutions in a value: the value itself, or those in a list or dictionary."""
     text_values: list[Value] = []
     pending = [value]
     for _ in range(_MAX_TEXTS):

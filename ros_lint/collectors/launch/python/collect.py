@@ -39,8 +39,8 @@ def collect(
 ) -> LaunchFile:
     """Return the facts of a launch file in Python. Never raises.
 
-    ``modules`` finds the modules of the workspace that it imports, ``files`` the text of a file by its installed
-    path.
+    ``modules`` returns a module of the workspace that the file imports. ``files`` returns the text of a file by its
+    installed path, None if there is no such file.
     """
     defined = entries(source.text)
     if len(source.text) > _MAX_LENGTH:
@@ -87,9 +87,9 @@ def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
 
 
 def _has_required_parameters(node: ast.stmt) -> bool:
-    """Return whether generate_launch_description() has required parameters.
+    """Return whether a statement defines generate_launch_description() with required parameters.
 
-    Such a file is a helper, because launch calls the function without arguments.
+    Such a file is a helper of other launch files, because launch calls the function without arguments.
     """
     if not isinstance(node, ast.FunctionDef) or node.name != "generate_launch_description" or node.decorator_list:
         return False
@@ -98,7 +98,7 @@ def _has_required_parameters(node: ast.stmt) -> bool:
 
 
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
-    """Yield the modules that are imported at the top level, without a condition."""
+    """Yield the modules that a source imports at its top level without a condition, each with its span."""
     if "sys.path" in text.text:
         return
     for statement in tree.body:
@@ -161,7 +161,10 @@ class _Interpretation:
             return None
 
     def configurations_read(self) -> tuple[str, ...]:
-        """Return the launch configurations that are read, with UNKNOWN among them if others may be."""
+        """Return the names of the launch configurations that the file reads, sorted.
+
+        UNKNOWN is among the names if the file may read other configurations.
+        """
         evaluation = TextEvaluation()
         names = {
             str(name)
@@ -174,7 +177,7 @@ class _Interpretation:
         return tuple(sorted(names))
 
     def _mark_optional(self, references: References) -> None:
-        """Mark a package as optional if none of its look-ups requires that it is installed.
+        """Mark the references to a package as optional if no look-up of the package requires that it is installed.
 
         A look-up while the file is read stops the file if the package is missing, unless the exception is caught or a
         condition tests for the package.
@@ -186,24 +189,27 @@ class _Interpretation:
         references.mark_optional(optional)
 
     def places(self) -> dict[str, Span]:
-        """Return the place of the first look-up of each package."""
+        """Return the span of the first look-up of each package, by package name."""
         return {package: self._walker.look_up_span(package) for package in self._machine.named}
 
     def stop(self, reason: str) -> None:
-        """Note that the interpretation stopped early. Every object that was created may be launched."""
+        """Record that the interpretation stopped early. From then on, every created object may be launched."""
         self._opaque.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
         self._machine.grant()
         with suppress(BudgetExceeded, RecursionError, MemoryError):
             self._add_escaped(all_objects=True)
 
     def _add_escaped(self, all_objects: bool) -> None:
-        """Add the objects that may be launched by code that cannot be followed, or all objects."""
+        """Add the actions of the launch objects that code outside of the interpretation may launch.
+
+        ``all_objects`` adds the actions of all launch objects.
+        """
         for launch_object in self._machine.made:
             if not launch_object.seen and (launch_object.escaped or all_objects) and launch_object.name in LAUNCHED:
                 self.actions += self._walker.actions(launch_object, (PERHAPS,))
 
     def add_to(self, references: References) -> None:
-        """Add the files and packages that are read immediately, and the opaque places."""
+        """Add to ``references`` the files and packages that the launch file reads before it launches, and the opaque places."""
         for path, node, source, conditions in self._machine.opened:
             if source is self._source:
                 references.note_opened(self._walker.text(path, node, source), conditions)

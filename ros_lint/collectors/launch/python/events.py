@@ -1,4 +1,4 @@
-"""Actions that Python launch files run at events, and actions that functions return during the launch."""
+"""Actions that a Python launch file starts at events, and actions that a function of the file returns during the launch."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
 
 
 def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return the actions of an event handler: its list of actions, or the result of its function."""
+    """Return the actions that a RegisterEventHandler starts: the actions of the handler, or those that its function returns."""
     actions: list[LaunchAction] = []
     for alternative in alternatives(launch_object.get(0, "event_handler")):
         handler = alternative.value
@@ -55,7 +55,10 @@ def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction
 
 
 def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[LaunchAction]:
-    """Return the actions that run when the event of one of the named arguments occurs."""
+    """Return the actions in the arguments ``names`` of an object, which run at an event: ``on_exit=[action]``.
+
+    Each argument may also be a function that returns the actions.
+    """
     actions: list[LaunchAction] = []
     for name in names:
         for alternative in alternatives(launch_object.get(-1, name)) if name in launch_object.keywords else ():
@@ -88,9 +91,9 @@ def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Co
 
 
 def _for_each(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return the actions of a function that launch calls once for each set of keyword values.
+    """Return the actions of the function of a ForEach, which launch calls for each set of keyword values.
 
-    Any keyword may be passed, and the number of calls may be 0.
+    The keyword values are unknown. The actions are under an unknown condition, because there may be no set at all.
     """
     function = plain(launch_object.get(1, "function"))
     spec = function.node.args if isinstance(function, Function) else None

@@ -56,7 +56,10 @@ _QUALIFIED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
 
 
 def misplaced_imports(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield names that are imported from a launch module that lacks them, if another launch module has them."""
+    """Yield a problem for each name that is imported from a launch module without that name.
+
+    The problem is reported only if another launch module has the name.
+    """
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
             for alias in node.names:
@@ -89,7 +92,7 @@ def _is_misplaced(module: str, name: str) -> bool:
 
 
 def _imported(tree: ast.Module) -> frozenset[str]:
-    """Return the launch libraries that are imported without an alias and whose names are not rebound."""
+    """Return the launch libraries that a source imports without an alias. A library whose name is rebound is omitted."""
     imported: set[str] = set()
     rebound: set[str] = set()
     for node in ast.walk(tree):
@@ -103,7 +106,10 @@ def _imported(tree: ast.Module) -> frozenset[str]:
 
 
 def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
-    """Return whether the called name is imported from a launch library, or qualified with one."""
+    """Return whether a called function is imported from a launch library, or qualified with one.
+
+    An example of a qualified name is ``launch.actions.TimerAction``.
+    """
     root = function
     while isinstance(root, ast.Attribute):
         root = root.value

@@ -1,4 +1,4 @@
-"""Results of the functions and classes of the launch libraries, and of functions on paths."""
+"""Models of the functions and classes of the launch libraries, and of functions on paths."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def _create(call: LibraryCall, name: str) -> LaunchObject:
 
 
 def _note_command(call: LibraryCall, launch_object: LaunchObject) -> None:
-    """Note the first place that runs xacro, which is a use of the package xacro."""
+    """Record that a Command of launch uses the package xacro, if it runs xacro. Only the first such Command is recorded."""
     command, expression = launch_object.get(0, "command"), launch_object.written(0, "command")
     if any(text.partition(" ")[0] == "xacro" for text in call.machine.texts(command)):
         first = expression.elts[0] if isinstance(expression, (ast.List, ast.Tuple)) and expression.elts else expression
@@ -94,7 +94,7 @@ def _note_command(call: LibraryCall, launch_object: LaunchObject) -> None:
 
 
 def _note_builder(call: LibraryCall, launch_object: LaunchObject) -> None:
-    """Note the package that a builder of moveit_configs_utils looks up immediately.
+    """Record that a builder of moveit_configs_utils looks up its package while the launch file is read.
 
     Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
     """
@@ -110,7 +110,10 @@ def _note_builder(call: LibraryCall, launch_object: LaunchObject) -> None:
 
 
 def package_of_builder(builder: LaunchObject) -> str:
-    """Return the package of a MoveIt builder, "" if unknown; the default is composed of the robot's name."""
+    """Return the name of the package that a MoveIt builder looks up, "" if it is unknown.
+
+    Without ``package_name``, the name for MoveItConfigsBuilder is ``<robot_name>_moveit_config``.
+    """
     of_robots = builder.name == "MoveItConfigsBuilder"
     package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
     if package is None and of_robots and isinstance(robot, str):
@@ -119,7 +122,7 @@ def package_of_builder(builder: LaunchObject) -> str:
 
 
 def _of_path(call: LibraryCall, owner: FilePath) -> Value:
-    """Return the result of a method of a path that needs the file."""
+    """Return the result of a method of a path that accesses the file system, such as ``exists()`` or ``read_text()``."""
     match call.name:
         case "resolve" | "absolute" | "expanduser":
             return owner
@@ -133,14 +136,14 @@ def _of_path(call: LibraryCall, owner: FilePath) -> Value:
 
 
 def member_of_library(name: str, node: ast.AST, source: Source) -> Value:
-    """Return the value of a dotted name of a library."""
+    """Return the value of a dotted name of a library, such as ``launch.actions.TimerAction``."""
     if name == "sys.executable" and isinstance(node, ast.expr):
         return written(UNKNOWN, node, source)
     return CONSTANTS.get(name) or LibraryName(name)
 
 
 def attribute_of_library(owner: LaunchObject, name: str) -> Value:
-    """Return an attribute of a library object."""
+    """Return the value of the attribute ``name`` of an object of the launch libraries."""
     match owner.name, name:
         case "LaunchDescription", "entities":
             return owner.entities
@@ -170,7 +173,10 @@ _FILE_POSITIONS: Mapping[str, int] = {
 
 
 def _note_built(call: LibraryCall, owner: LaunchObject) -> None:
-    """Note the file that MoveIt's builders read immediately, relative to the share folder of the package."""
+    """Record the file that a method of a MoveIt builder reads while the launch file is read.
+
+    Its path is relative to the share folder of the package of the builder.
+    """
     position = _FILE_POSITIONS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):
         return
@@ -279,12 +285,15 @@ def _configuration(call: LibraryCall) -> Value:
 
 
 def _xacro_output(call: LibraryCall) -> Value:
-    """Return the output of xacro, for ``xacro.process_file`` and similar functions."""
+    """Model of ``xacro.process_file()`` and similar functions: return the output of xacro."""
     return _create(call, "Command") if call.arguments else unknown(call)
 
 
 def _writes_file(position: int) -> Rule:
-    """Return the model of a function that writes a file. The file need not exist when the launch starts."""
+    """Return the model of a function that writes the file in its argument at ``position``.
+
+    The file is recorded like a file whose existence the program tests, because it need not exist before.
+    """
 
     def model(call: LibraryCall) -> Value:
         call.machine.ask(call.texts(position))
@@ -297,7 +306,11 @@ _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 
 
 def _runs_command(call: LibraryCall) -> Value:
-    """Note the output file of a command (after ``>`` or ``-o``), which need not exist when the launch starts."""
+    """Model of a function that runs a command line: return an unknown value.
+
+    The output file of the command, after ``>`` or ``-o``, is recorded like a file whose existence the program tests,
+    because it need not exist before.
+    """
     words = call.items(0)
     if words is None:
         call.machine.ask(tuple([path for command in call.texts(0) for path in _OUTPUT.findall(command)]))
@@ -310,7 +323,7 @@ def _runs_command(call: LibraryCall) -> Value:
 
 
 def subscript_library(machine: Interpreter, owner: Value, key: Value) -> Value:
-    """Return an item of a library object."""
+    """Return the value of ``owner[key]``, such as ``os.environ["A"]`` or ``context.launch_configurations["a"]``."""
     if isinstance(owner, LibraryName):
         if owner.name == "os.environ":
             return union(machine.variable(name) for name in text_of(key))

@@ -31,7 +31,7 @@ Their sources are not interpreted, even if the workspace contains them, because 
 
 
 class LaunchLibraries:
-    """An implementation of :class:`ros_lint.collectors.python.interpreter.protocol.Library`."""
+    """The models of the launch libraries, as :class:`ros_lint.collectors.python.interpreter.protocol.Library` requires them."""
 
     def describes(self, module: str) -> bool:
         return module in _DESCRIBED

@@ -1,4 +1,4 @@
-"""The nodes, components and processes that Python launch files start, with their arguments."""
+"""Conversion of nodes, components and processes of Python launch files to actions with their arguments."""
 
 from __future__ import annotations
 
@@ -54,7 +54,10 @@ _CLASSES = _NODES | {"ComposableNode"}
 def _note_rejected_keywords(
     walker: Walker, launch_object: LaunchObject, conditions: Conditions, keywords: Collection[str]
 ) -> None:
-    """Note removed and unknown keywords, unless a condition on ROS_DISTRO guards the call."""
+    """Record removed and unknown keyword arguments of a node as problems. ``keywords`` are the valid keywords.
+
+    Nothing is recorded under a condition on ROS_DISTRO.
+    """
     if any(_ROS_DISTRO in (named_in(text) or ()) for condition in conditions for text in condition.texts):
         return
     callee_name = callee(launch_object.node)
@@ -80,7 +83,7 @@ def _similar_keyword(name: str, keywords: Collection[str]) -> str:
 
 
 def started_node(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return a node with its arguments, and the actions that run when it ends."""
+    """Return the action of a node, and the actions that its argument ``on_exit`` starts."""
     _note_rejected_keywords(walker, launch_object, conditions, _PROCESS_KEYWORDS)
     children: list[LaunchAction] = []
     if launch_object.name == "ComposableNodeContainer":
@@ -102,7 +105,10 @@ def _component(walker: Walker, launch_object: LaunchObject, conditions: Conditio
 def _started(
     kind: Literal["node", "component"], target: str, walker: Walker, launch_object: LaunchObject, conditions: Conditions
 ) -> LaunchAction:
-    """Return the fields that nodes and components share, by their current and their former keywords."""
+    """Return the action of a node or component, with the fields that both have.
+
+    Their former keywords, such as ``node_name``, count, too. ``target`` is the keyword of the executable or plugin.
+    """
     return LaunchAction(
         kind,
         place_of(launch_object),
@@ -118,7 +124,7 @@ def _started(
 
 
 def _is_passed_by_caller(value: Value) -> bool:
-    """Return whether the caller of a built-in helper passes the text, so that its place is in the caller."""
+    """Return whether a text is an argument of the call of a modelled helper, so that its position is in the launch file."""
     return all(
         isinstance(alternative.value, Written) and not alternative.value.source.lent for alternative in alternatives(value)
     )
@@ -157,7 +163,11 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 
 
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
-    """Return the texts in the named arguments (lists or dictionaries), and those of ``prefix`` and ``cwd``."""
+    """Return the texts in the arguments ``names`` of a node, which are lists or dictionaries, and in ``prefix`` and ``cwd``.
+
+    Each text has a name: "" in ``arguments`` and ``ros_arguments``, the variable (``$A``) in an environment dictionary, else
+    the name of the argument.
+    """
     result: list[tuple[str, LaunchValue]] = []
     for name in names:
         if name not in launch_object.keywords:
@@ -218,7 +228,10 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, launch_object: Laun
 
 
 def _elements(node: ast.expr, count: int) -> list[ast.expr]:
-    """Return the expression of each item of a list or dictionary; ``node`` for each item if it is not literal."""
+    """Return the expressions of the ``count`` items of a list or dictionary.
+
+    If ``node`` is not a literal with ``count`` items, the result has ``node`` itself for each item.
+    """
     expressions: list[ast.expr] = []
     if isinstance(node, (ast.List, ast.Tuple)):
         expressions = [element if not isinstance(element, ast.Starred) else node for element in node.elts]
@@ -228,12 +241,12 @@ def _elements(node: ast.expr, count: int) -> list[ast.expr]:
 
 
 def _names_file(value: Value) -> bool:
-    """Return whether a value is a path or a part of one."""
+    """Return whether a parameter value may be a file name, that is, a text, a path or a substitution."""
     return isinstance(value, (str, FilePath)) or is_text(value)
 
 
 def _list(value: Value) -> Value:
-    """Return a list of texts in YAML notation, and any other value unchanged."""
+    """Return a list of texts and numbers as one text in YAML notation: ``[1, 2]``. Any other value is returned unchanged."""
     if not isinstance(value, (list, tuple)) or not all(isinstance(item, (str, int, float)) for item in value):
         return value
     return f"[{', '.join(map(str, value))}]"
@@ -255,13 +268,20 @@ def _remappings(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[Laun
                 result.append((walker.text(first, node, launch_object.source), walker.text(second, node, launch_object.source)))
             elif any(isinstance(alternative.value, str) if parts is None else len(parts) != 2 for parts, alternative in choices):
                 walker.problems.append(
-                    Problem("remapping", "a remapping must be a pair of names", span_of(node, launch_object.source))
+                    Problem(
+                        "remapping",
+                        "a remapping must be a pair of names; write ('from', 'to')",
+                        span_of(node, launch_object.source),
+                    )
                 )
     return tuple(result)
 
 
 def nested(walker: Walker, launch_object: LaunchObject) -> list[LaunchAction]:
-    """Return the actions among the arguments of an unknown class or function."""
+    """Return the actions in the arguments of a call of an unknown class or function.
+
+    The actions are under an unknown condition, because the class or function may not start them.
+    """
     result: list[LaunchAction] = []
     for value in (*launch_object.arguments, *launch_object.keywords.values()):
         for alternative in alternatives(value):

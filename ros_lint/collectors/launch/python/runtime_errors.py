@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 
 
 def undefined_names(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
-    """Yield the names that certainly raise NameError; ``names`` were unbound in the interpretation."""
+    """Yield a problem for each name that certainly raises NameError when the launch file runs.
+
+    ``names`` are all uses of names that had no value when the interpreter evaluated them.
+    """
     for node in unbound(tree, [node for node, module in names if module is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 
@@ -50,7 +53,7 @@ _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error"
 
 
 def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
-    """Yield the problems of misused substitutions in a module, at most one for each line."""
+    """Yield a problem for each substitution that a module uses as a text, at most one for each line."""
     misuses = [misuse for misuse in misuses if misuse.source is source]
     if not misuses:
         return
@@ -76,7 +79,10 @@ def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Mi
 
 
 def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:
-    """Return the replacement for ``and`` or ``or`` of two conditions, according to the kinds of both."""
+    """Return the correct code for two conditions that are joined by ``and`` or ``or``.
+
+    ``IfCondition(a) and IfCondition(b)`` -> ``IfCondition(AndSubstitution(a, b))``
+    """
     junction = next((node for node in combined if misuse.node in node.values), None)
     kinds = [callee(value) if isinstance(value, ast.Call) else "" for value in junction.values[:2]] if junction else []
     is_or = junction is not None and isinstance(junction.op, ast.Or)
@@ -87,7 +93,7 @@ def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:
 
 
 def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
-    """Return the nodes in a try statement that catches errors, or in the arguments of a logging call."""
+    """Return the syntax nodes in ``try`` blocks, where errors are caught, and in the arguments of logging calls."""
     result: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
@@ -98,7 +104,7 @@ def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all nodes in comparisons. A substitution formatted there is only compared, not launched."""
+    """Return all syntax nodes in comparisons. A substitution that is formatted there is only compared, and not launched."""
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 
@@ -108,7 +114,7 @@ def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]
 
 
 def _same_function(misuse: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
-    """Return whether a substitution is created in the body of the function that tests it."""
+    """Return whether the function that creates a substitution is also the function that uses it as a text."""
     if misuse.made.source is not misuse.source:
         return False
     return all(_contains(function, misuse.node) == _contains(function, misuse.made.node) for function in functions)
@@ -135,7 +141,10 @@ _TEXT_ARGUMENTS: Mapping[str, tuple[tuple[int, str], ...]] = {
 
 
 def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield numbers, booleans and actions given as a text, and launch_arguments given as a dictionary."""
+    """Yield a problem for each number, boolean or action in an argument that must be a text.
+
+    A dictionary as ``launch_arguments`` is a problem, too.
+    """
     errors: list[tuple[str, ast.expr]] = []
     for launch_object in launch_objects:
         for position, name in (
@@ -159,7 +168,7 @@ def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[Launc
 
 
 def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield values given as a condition that have no evaluate(), which launch calls."""
+    """Yield a problem for each argument ``condition`` that has no evaluate(), because launch calls that method."""
     errors: list[tuple[str, ast.expr]] = []
     for launch_object in launch_objects:
         if (
@@ -185,7 +194,10 @@ def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[
 
 
 def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return the first number or action in a value (the value itself, or in nested lists), else None."""
+    """Return the first number, boolean or action in an argument that must be a text, None if there is none.
+
+    Nested lists are searched, too.
+    """
     pending = [value]
     for _ in range(_MAX_ITEMS):
         if not pending:
@@ -199,7 +211,7 @@ def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
 
 
 def _replacement_hint(wrong_item: bool | int | float | LaunchObject, receiver: LaunchObject) -> str:
-    """Return the end of the message about a value that is not a text: what to write instead."""
+    """Return the end of the message about a value that must be a text: what to write instead."""
     if not isinstance(wrong_item, LaunchObject):
         return f"; write '{wrong_item}' instead of {wrong_item}"
     name = wrong_item.get(0, "name") if wrong_item.name == "DeclareLaunchArgument" else None

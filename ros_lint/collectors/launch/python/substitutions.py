@@ -1,4 +1,4 @@
-"""The symbolic texts of substitutions in Python launch files."""
+"""Symbolic texts of the substitutions in Python launch files."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ _MAX_STEPS = 2_000
 
 
 class TextEvaluation:
-    """The state of one evaluation of a value to its texts.
+    """The remaining depth and steps of one evaluation of a value to its texts.
 
-    Depth and steps are limited, because objects can contain each other or occur many times.
+    Both are limited, because objects can contain each other or occur many times.
     """
 
     __slots__ = ("depth", "remaining", "results", "spend")
 
     def __init__(self, spend: Callable[[int], None] = lambda steps: None) -> None:
-        """Start an evaluation. ``spend`` is called with numbers of steps, and may raise an exception."""
+        """Start an evaluation. It calls ``spend`` with the numbers of its steps; ``spend`` may raise an exception to stop it."""
         self.depth = 0
         self.remaining = _MAX_STEPS
         self.results: dict[int, tuple[Value, tuple[str, ...]]] = {}
@@ -45,7 +45,7 @@ class TextEvaluation:
 
 
 def texts(value: Value, evaluation: TextEvaluation | None = None) -> tuple[str, ...]:
-    """Return every text that a value can become when launch performs it; a list is concatenated."""
+    """Return every symbolic text that a value can have when launch performs its substitutions. Lists are concatenated."""
     if isinstance(value, str):
         return (str(value),)  # a plain str, so that facts contain no objects of the interpreter
     if evaluation is None:
@@ -160,7 +160,10 @@ def _join(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str,
 
 
 def _logic(name: str) -> Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]:
-    """Return the reader of a logical substitution; its text is a call of a function in ``expressions.py``."""
+    """Return the function that converts a logical substitution, such as AndSubstitution, to its symbolic texts.
+
+    A text is the call of the function ``name`` of ``ros_lint.collectors.launch.expressions``.
+    """
 
     def read(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:
         parts: list[Any] = [*launch_object.arguments, *launch_object.keywords.values()]
@@ -208,7 +211,7 @@ SUBSTITUTIONS = frozenset(_READERS) | {"AnonName", "Parameter", "FileContent", "
 
 
 def is_text(value: Value) -> bool:
-    """Return whether a value is a substitution."""
+    """Return whether a value is an object of a substitution class."""
     launch_object = plain(value)
     return isinstance(launch_object, LaunchObject) and launch_object.name in SUBSTITUTIONS
 
@@ -220,9 +223,10 @@ CONDITIONS = _PREDICATE_CONDITIONS | _COMPARISON_CONDITIONS
 
 
 def conditions_of(value: Value, evaluation: TextEvaluation | None = None) -> Conditions:
-    """Return the conditions of an IfCondition, UnlessCondition or comparison of a configuration.
+    """Return the conditions that a value of the argument ``condition`` of an action stands for.
 
-    Any other value gives an unknown condition.
+    The value is an IfCondition, UnlessCondition, LaunchConfigurationEquals or LaunchConfigurationNotEquals. Any other value
+    stands for an unknown condition.
     """
     conditions: list[LaunchCondition] = []
     for alternative in alternatives(value):

@@ -1,4 +1,4 @@
-"""Conversion of the objects of a Python launch file to actions: only returned or added objects count."""
+"""Conversion of the objects that a Python launch file returns, or adds to its launch description, to actions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _MAX_ACTIONS = 5_000
 
 
 def span_of(node: python_syntax.Node, source: Source) -> Span:
-    """Return the span of an expression."""
+    """Return the span of a syntax node in a module. In a model of a released helper, it is the span of the call."""
     if not source.ascii:
         return python_syntax.span_of(source.text, node)
     # Columns of the syntax tree count bytes. In ASCII files these are characters, which is the fast case.
@@ -48,17 +48,20 @@ def span_of(node: python_syntax.Node, source: Source) -> Span:
 
 
 def place_of(launch_object: LaunchObject) -> Span:
-    """Return the place where an object is created."""
+    """Return the span of the call that creates a launch object."""
     return span_of(launch_object.node, launch_object.source)
 
 
 class Walker:
-    """Converts the values that a launch file launches to actions."""
+    """Converts the objects that a Python launch file launches to actions."""
 
     def __init__(
         self, machine: Interpreter, source: Source, builders: Mapping[str, ActionBuilder], otherwise: ActionBuilder
     ) -> None:
-        """Create a walker. ``builders`` convert objects by the name of their class, ``otherwise`` all others."""
+        """Create a walker for one launch file.
+
+        ``builders`` convert objects of the classes with these names, ``otherwise`` converts objects of all other classes.
+        """
         self.machine = machine
         self._builders = builders
         self._otherwise = otherwise
@@ -72,7 +75,7 @@ class Walker:
         self._stopped = False
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
-        """Return the actions of a value when it is launched."""
+        """Return the actions that launching ``value`` starts, under ``conditions``. ``at`` is the span for an unknown value."""
         actions: list[LaunchAction] = []
         if self._depth > _MAX_DEPTH or self._remaining <= 0:
             self._stop("there are too many actions" if self._remaining <= 0 else "the actions are nested too deeply", at)
@@ -118,7 +121,10 @@ class Walker:
         return self._builders.get(launch_object.name, self._otherwise)(self, launch_object, conditions)
 
     def split_by_conditions(self, action: LaunchAction, target: Value, package: Value = None) -> list[LaunchAction]:
-        """Return one action for each alternative target if all their conditions are known, else the action itself."""
+        """Return one action for each alternative of ``target`` if the conditions of all alternatives are known.
+
+        Otherwise, the result is ``action`` alone.
+        """
         if action.target is None or len(action.target.texts) == 1:
             return [action]
         targets = self._alternatives(target)
@@ -156,18 +162,18 @@ class Walker:
         return actions
 
     def _stop(self, reason: str, at: Span | None) -> None:
-        """Note once that the conversion is incomplete."""
+        """Record, only once, that the conversion is incomplete, with the reason and its span."""
         if not self._stopped:
             self._stopped = True
             self.unknown_launches.append((reason, at or file_start(self._source.text.path)))
 
     def value(self, launch_object: LaunchObject, position: int, *names: str) -> LaunchValue | None:
-        """Return an argument as a text, None if it is missing."""
+        """Return the possible texts of an argument of a launch object, None if the argument is missing."""
         argument = launch_object.get(position, *names)
         return None if argument is None else self.text(argument, launch_object.written(position, *names), launch_object.source)
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
-        """Return the texts of a value, with the place of the literal that it comes from."""
+        """Return the possible texts of a value, with the span of the literal that the value comes from, else of ``node``."""
         choices = (str(value),) if isinstance(value, str) else _plain(texts(value, TextEvaluation(self.machine.spend)))
         origin = plain(value)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
@@ -188,9 +194,9 @@ class Walker:
         return LaunchValue(choices, source.text.span(at, at + len(choices[0])), exact=True)
 
     def each_text(self, value: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
-        """Return the alternatives of a value, each with its conditions.
+        """Return the possible texts of a value as separate results, each with its conditions.
 
-        A single value with all alternatives is returned if one of them has no conditions.
+        If one of the texts has no conditions, the only result has all texts.
         """
         combined = self.text(value, node, source)
         if len(combined.texts) == 1:
@@ -201,7 +207,7 @@ class Walker:
         return [combined._replace(texts=(str(text),), conditions=conditions) for text, conditions in pairs]
 
     def package_span(self, value: LaunchValue | None) -> Span | None:
-        """Return the place of the package name of the first install path in a value."""
+        """Return the span of the first look-up of a package whose install path is in a value, None if there is none."""
         for text in value.texts if value is not None else ():
             if text.isascii():
                 continue
@@ -211,14 +217,14 @@ class Walker:
         return None
 
     def look_up_span(self, package: str) -> Span:
-        """Return the place of the first look-up of a package. There must be one."""
+        """Return the span of the first look-up of a package. KeyError is raised if the file does not look it up."""
         node, source = self.machine.named[package]
         return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
 
     def run(
         self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], launch_object: LaunchObject
     ) -> Value:
-        """Return the result of a function that launch calls."""
+        """Return the result of a function that launch calls with these arguments, for example for an event."""
         frame = Frame(launch_object.source, None, {})
         try:
             return self.machine.call(plain(function), list(arguments), dict(keywords), launch_object.node, frame)
@@ -235,7 +241,7 @@ def _merged(left: Conditions, right: Conditions) -> Conditions:
 
 
 def _depends(text: str) -> bool:
-    """Return whether a text has conditions, all of which can be evaluated once the arguments have values."""
+    """Return whether a text has conditions, and all of them can be evaluated once the launch arguments have values."""
     conditions = symbolic_text.conditions_of(text)
     return bool(conditions) and not any(UNKNOWN in part for condition in conditions for part in condition.texts)
 

@@ -1,1 +1,1 @@
-"""XML schemas of package.xml (REP 127, 140 and 149), and the validation of a manifest by them."""
+"""The XML schemas of package.xml (REP 127, 140 and 149), and the validation of manifests with them."""

@@ -1,4 +1,4 @@
-"""The schema that a manifest names for ament_xmllint (ament_xmllint/main.py)."""
+"""The address of an XML schema in a manifest, which ament_xmllint validates with (ament_xmllint/main.py)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.collectors.manifest.xml import attribute, read
 
 
 class NamedSchema(NamedTuple):
-    """The published schema of a format of package.xml, named in a manifest."""
+    """The format of package.xml whose published schema a manifest names. ``span`` is the span of the format in the address."""
 
     format: int
     """Format of package.xml that the schema describes: 1, 2 or 3."""
@@ -27,10 +27,10 @@ _VALUE = re.compile(r"""\b(href|schematypens)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 
 
 def named_schema(source: Text) -> NamedSchema | None:
-    """Return the schema of a manifest that is well-formed XML; None if it names none, or another address.
+    """Return the published schema that a manifest names; the manifest must be well-formed XML.
 
-    ament_xmllint passes the schema of each ``<?xml-model ...?>`` to xmllint, then ``xsi:noNamespaceSchemaLocation`` of
-    the root. xmllint validates by the last one.
+    The result is None if the manifest names no schema, or another address. ament_xmllint passes the schema of each
+    ``<?xml-model ...?>`` to xmllint, then ``xsi:noNamespaceSchemaLocation`` of the root. xmllint validates by the last one.
     """
     *_, last = (None, *_addresses(source))
     if last is None or not (match := _PUBLISHED.fullmatch(source.text, *last)):
@@ -39,7 +39,7 @@ def named_schema(source: Text) -> NamedSchema | None:
 
 
 def _addresses(source: Text) -> Iterator[tuple[int, int]]:
-    """Yield the start and end offsets of the addresses of schemas."""
+    """Yield the start and end offset of each schema address in a manifest, in the order in which ament_xmllint uses them."""
     text = source.text
     for model in _MODEL.finditer(text) if "<?xml-model" in text else ():
         values = {value[1]: value for value in _VALUE.finditer(text, *model.span("data"))}

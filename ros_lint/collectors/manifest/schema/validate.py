@@ -1,4 +1,4 @@
-"""Validation of a manifest by the XML schema of a format, with lxml."""
+"""Validation of a manifest with the XML schema of its format, by lxml."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Violation(NamedTuple):
-    """A place of a manifest that its schema does not allow."""
+    """An element or attribute of a manifest that the schema does not allow."""
 
     kind: str
     """The violated rule as libxml2 names it, such as "ELEMENT_CONTENT", or "misplaced"; "" if libxml2 cannot read the file."""
@@ -46,11 +46,13 @@ BAD_VALUE: Final = ("CVC_PATTERN_VALID", "CVC_DATATYPE_VALID_1_2_1", "CVC_ENUMER
 
 
 def violations(source: Text, form: int) -> tuple[Violation, ...] | None:
-    """Return what the schema of a format does not allow in a manifest; empty exactly if xmllint accepts the file.
+    """Return the elements and attributes of a manifest that the schema of a format does not allow.
 
-    xmllint stops at the first misplaced element. Here the elements after it are checked as well, as if all were
-    sorted. None if the file is not checked: it is not well-formed, declares an entity, is too large or nested too deep,
-    or is in UTF-16, which versions of xmllint read differently.
+    ``form`` is the number of the format. The result is empty exactly if xmllint accepts the file. xmllint stops at the
+    first misplaced element; here the elements after it are checked as well, as if all were sorted.
+
+    The result is None if the file is not checked: it is not well-formed, declares an entity, is too large or nested too
+    deep, or is in UTF-16, which versions of xmllint read differently.
     """
     if len(source.text) > MOST_CHARACTERS or source.codec.startswith("utf-16") or read(source).faults:
         return None
@@ -83,9 +85,9 @@ _DECLARED = re.compile(r"""<\?xml\b[^>]*?\bencoding\s*=\s*["']([^"']*)""")
 
 
 def _misdeclared_encoding(source: Text) -> str:
-    """Return what is wrong with the declared encoding of a file in UTF-8 with a byte order mark, or "".
+    """Return the error in the encoding that a file in UTF-8 with a byte order mark declares, "" if there is none.
 
-    The xmllint of Ubuntu 22.04 and 24.04 reads such a file by its declaration, and newer versions ignore it.
+    The xmllint of Ubuntu 22.04 and 24.04 reads such a file in the declared encoding. Newer versions ignore the declaration.
     """
     declared = _DECLARED.match(source.text) if source.codec == "utf-8-sig" else None
     if declared is None:
@@ -101,7 +103,7 @@ def _misdeclared_encoding(source: Text) -> str:
 
 
 def _parse(data: bytes) -> etree._Element:
-    """Return the root of a tree. Raises XMLSyntaxError."""
+    """Return the root element of an XML file, as xmllint reads it. Raises XMLSyntaxError."""
     from lxml import etree  # noqa: PLC0415  (runs without the rule must not wait for it)
 
     parser = _parser(recover=False)
@@ -129,7 +131,7 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _entries(log: Any) -> Iterator[Any]:
-    """Yield the entries of an error log, whose type stubs lack the iteration."""
+    """Yield the entries of an error log of lxml. The type stubs of lxml do not allow to iterate over it directly."""
     yield from log
 
 
@@ -146,7 +148,7 @@ _STEP = re.compile(r"/[^/]+/([^/\[]+)(?:\[(\d+)\])?")
 
 
 def _errors(root: etree._Element, children: list[etree._Element], form: int) -> Iterator[Violation]:
-    """Yield the errors in a tree. ``children`` are the children of the root in the order of the file."""
+    """Yield the violations in the tree below ``root``. ``children`` are the children of the root in the order of the file."""
     schema = _schema(form)
     if schema.validate(root):
         return
@@ -169,6 +171,6 @@ def _errors(root: etree._Element, children: list[etree._Element], form: int) -> 
 
 
 def _written(element: etree._Element) -> str:
-    """Return the tag as libxml2 writes it in a path: ``*`` in a default namespace."""
+    """Return the tag of an element as libxml2 writes it in the path of an error: ``*`` if it is in a default namespace."""
     name = str(element.tag).rpartition("}")[2]
     return f"{element.prefix}:{name}" if element.prefix else name if name == element.tag else "*"

@@ -143,15 +143,15 @@ def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str,
             frame.names[name] = machine.joined([Guarded(frame.names[name], held), Guarded(value, conditions)])
 
 
-def _join_exit(machine: Interpreter, frame: Frame, one: Exit, around: Conditions) -> None:
-    taken = _beyond(one, around)
-    _join(machine, frame, (_complement(machine, taken),), one.names, taken)
+def _join_exit(machine: Interpreter, frame: Frame, way_out: Exit, around: Conditions) -> None:
+    taken = _beyond(way_out, around)
+    _join(machine, frame, (_complement(machine, taken),), way_out.names, taken)
 
 
-def _beyond(one: Exit, around: Iterable[LaunchCondition]) -> Conditions:
+def _beyond(way_out: Exit, around: Iterable[LaunchCondition]) -> Conditions:
     """Return the conditions of an exit that are not among the conditions ``around``."""
     known = list(around)
-    return tuple([condition for condition in one.conditions if condition not in known])
+    return tuple([condition for condition in way_out.conditions if condition not in known])
 
 
 def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
@@ -191,8 +191,8 @@ def _negated(condition: LaunchCondition) -> str | None:
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
     """Return whether a block of an if or try statement ends the launch file, so that the code after it is unconditional.
 
-    ``everywhere`` is True if no conditions hold around the statement. Under other conditions, ``raise Error("...")`` does
-    not count, because the message says what users of that branch have to install.
+    ``everywhere`` is True if no conditions hold around the statement. If it is False, ``raise Error("...")`` does not
+    count, because the message says what users of that branch have to install.
     """
     last = body[-1] if body else None
     return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))

@@ -155,9 +155,9 @@ def _isinstance(call: LibraryCall) -> Value:
 
 
 def _is_of(value: Value, name: str) -> bool:
-    """Return whether a known value is an instance of the class with a name of builtins, collections.abc, numbers or typing.
+    """Return whether a known value is an instance of the class ``name``: ``_is_of([1], "Sequence")`` -> True.
 
-    ``_is_of([1], "Sequence")`` -> True
+    The class is a class of builtins, collections.abc, numbers or typing.
     """
     if name == "NoneType":
         return value is None

@@ -66,13 +66,13 @@ Rule = Callable[[LibraryCall], Value]
 
 
 def unknown(call: LibraryCall) -> Value:
-    """Model of a function without a model: return an unknown value, and mark the arguments as escaped."""
+    """Model of a function whose effects are unknown: return an unknown value, and mark the arguments as escaped."""
     call.machine.escape([call.arguments, call.keywords])
     return Unknown(f"{call.name.rpartition('.')[2]}()")
 
 
 def unknown_text(call: LibraryCall) -> Value:
-    """Model of a function that returns a text which is never known."""
+    """Model of a function that returns a text which only a run of the program determines: return an unknown text."""
     return written(UNKNOWN, call.node, call.frame.source)
 
 

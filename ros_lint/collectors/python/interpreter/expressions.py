@@ -295,7 +295,10 @@ def _lambda(machine: Interpreter, node: ast.Lambda, frame: Frame) -> Value:
 
 
 def _inside(node: ast.expr, frame: Frame) -> Frame:
-    """Return a new frame for the names of a comprehension. A name that ``:=`` binds in it belongs to the outer frame."""
+    """Return a new frame for the names of a comprehension.
+
+    A name that ``:=`` binds in the comprehension belongs to the outer frame.
+    """
     inner = Frame(frame.source, frame, {})
     if frame.source.assigns_inside:
         names = [node_inside.target.id for node_inside in ast.walk(node) if isinstance(node_inside, ast.NamedExpr)]

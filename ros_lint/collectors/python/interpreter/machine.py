@@ -134,9 +134,10 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return a function of a modelled module for one call: a copy of its definition, and the module of the copy.
+        """Return a copy of the definition of a function, and the module of the copy.
 
-        The copy has the position of the call, so that findings are reported there.
+        The function belongs to the model of a released module. All nodes of the copy have the position of ``call``, so that
+        findings about the function are reported at the call.
         """
         key = id(function.node), id(call)
         if key not in self._placed:
@@ -293,7 +294,10 @@ class Machine(Interpreter):
         return union(guarded_text(text, FilePath(text)) for text in texts)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the content of a file of the workspace, which represents the opened file. It is Unknown for any other file."""
+        """Return the content of a file of the workspace, which represents the opened file.
+
+        The result is Unknown for any other file.
+        """
         if not self.guarded and not path.isascii():
             self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")

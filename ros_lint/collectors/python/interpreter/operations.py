@@ -100,7 +100,10 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 
 
 def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
-    """Return the truth of a list with guarded elements: False if all are missing, True if any exists, None if unknown."""
+    """Return the truth of a list with guarded elements, and a meaningless condition.
+
+    The truth is False if all elements are missing, True if any element exists, None if that is unknown.
+    """
     elements = machine.present(values)
     if not elements:
         return False, PERHAPS
@@ -410,9 +413,9 @@ def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
 
 
 def waits(text: str) -> bool:
-    """Return whether a symbolic text depends only on launch configurations and environment variables, so launch computes it.
+    """Return whether launch can compute a symbolic text, because it depends only on configurations and environment variables.
 
-    ``robot.yaml`` and UNKNOWN do not; the text of ``LaunchConfiguration("a")`` does.
+    True for the text of ``LaunchConfiguration("a")``. False for UNKNOWN, and for a plain text such as ``robot.yaml``.
     """
     return UNKNOWN not in text and bool(named_in(text))
 

@@ -1,4 +1,4 @@
-"""Order and equality of values, for sorted(), min(), max() and sets."""
+"""The order and equality of values, for sorted(), min(), max() and sets."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
 
 
 def unique(values: Iterable[Value]) -> list[Value]:
-    """Return the elements of a set with these values: values that certainly equal an earlier value are omitted."""
+    """Return ``values`` without those that certainly equal an earlier value, as the elements of a set."""
     elements: list[Value] = []
     seen: set[Any] = set()
     for value in values:

@@ -1,4 +1,4 @@
-"""Functions of os.path and pathlib on symbolic texts."""
+"""Models of the functions of os.path and the attributes of pathlib paths, for symbolic texts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The interfaces of the Python interpreter: to its handlers, and to models of libraries."""
+"""The interfaces between the Python interpreter, its handlers of statements and expressions, and the models of libraries."""
 
 from __future__ import annotations
 
@@ -137,7 +137,10 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the content of a file of the workspace, which represents the opened file. It is Unknown for any other file."""
+        """Return the content of a file of the workspace, which represents the opened file.
+
+        The result is Unknown for any other file.
+        """
 
     @abstractmethod
     def texts(self, value: Value) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Side effects recorded while a launch file is interpreted: look-ups, files, conditions, variables."""
+"""Side effects that are recorded while a program is interpreted: package look-ups, read files, conditions, variables."""
 
 from __future__ import annotations
 
@@ -198,7 +198,7 @@ class Recorder:
             self.lazily.add(package)
 
     def set_variable(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
-        """Record that ``at`` sets an environment variable, for all code that is interpreted after it."""
+        """Record that the call ``at`` sets an environment variable, for all code that is interpreted after the call."""
         made = LaunchObject("SetEnvironmentVariable", [name, value], {}, at, source)
         made.conditions = self.conditions
         self.variables.append(made)

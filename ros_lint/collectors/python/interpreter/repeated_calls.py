@@ -89,7 +89,7 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
 
 
 def _outline(names: dict[Any, Value], recorder: Recorder) -> Any:
-    """Return a value that is equal for all ``names`` whose values differ only in unknown parts, None if there are too many."""
+    """Return the outline of names with their values, see :class:`_Outliner`, None if there are too many values."""
     outliner = _Outliner(recorder)
     made = outliner.of(names)
     return None if outliner.too_much else made

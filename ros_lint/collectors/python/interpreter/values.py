@@ -214,7 +214,10 @@ class Function:
         return False
 
     def taking(self, arguments: list[Value], keywords: dict[str, Value]) -> dict[str, Value]:
-        """Return the values of the parameters, by name, if the function is called with these arguments."""
+        """Return the values of the parameters, by name, if the function is called with these arguments.
+
+        A parameter without argument has its default value, or is unknown if it has no default.
+        """
         spec = self.node.args
         names = [argument.arg for argument in (*spec.posonlyargs, *spec.args)]
         values: dict[str, Value] = dict(self.keyword_defaults)
@@ -414,9 +417,9 @@ def plain(value: Value) -> Value:
 
 
 def cause(value: Value, reason: str) -> Unknown:
-    """Return the cause of a value that is unknown because ``value`` is.
+    """Return the value that is reported as the cause if an unknown ``value`` makes the result of an operation unknown.
 
-    The cause is ``value``, if the interpreter recorded its origin, else a new unknown value with ``reason``.
+    This is ``value`` itself, if the interpreter recorded its origin, else a new unknown value with ``reason``.
     """
     return value if isinstance(value, Unknown) and value.node is not None else Unknown(reason)
 
@@ -430,14 +433,14 @@ def around(value: Value) -> Conditions:
     return conditions
 
 
-def same(one: Value, other: Value) -> bool:
+def same(left: Value, right: Value) -> bool:
     """Return whether two values are certainly equal."""
-    if one is other:
+    if left is right:
         return True
-    if isinstance(one, str) and isinstance(other, str):
-        return one == other
+    if isinstance(left, str) and isinstance(right, str):
+        return left == right
     simple = (int, float, bool, type(None), tuple)
-    return type(one) is type(other) and isinstance(one, simple) and bool(one == other)
+    return type(left) is type(right) and isinstance(left, simple) and bool(left == right)
 
 
 def environment(name: str, default: str | None) -> str:

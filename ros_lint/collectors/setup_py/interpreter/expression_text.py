@@ -1,4 +1,4 @@
-"""Short texts of expressions, for the reasons of unknown values."""
+"""Short texts of expressions, for the messages about unknown values."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def at(node: ast.AST | None) -> str:
-    """Return a short text of an expression, for use in a reason."""
+    """Return the source of an expression, shortened for a message."""
     text = ast.unparse(_shown(node, _DEEPEST)) if node is not None else "it"
     return text if len(text) <= 40 else text[:37] + "..."
 
@@ -17,10 +17,10 @@ _DEEPEST = 30
 
 
 def _shown(node: ast.AST, levels: int) -> ast.AST:
-    """Return a copy of a node to unparse.
+    """Return a copy of a syntax tree from which ``ast.unparse()`` writes the short text.
 
-    F-strings are replaced, because ast.unparse() writes them differently in each version of Python. Nodes that are nested too
-    deeply become ``...``.
+    F-strings are replaced, because ast.unparse() writes them differently in each version of Python. Nodes that are nested
+    too deeply become ``...``.
     """
     if isinstance(node, (ast.JoinedStr, ast.FormattedValue)):
         return ast.Name(_template(node))

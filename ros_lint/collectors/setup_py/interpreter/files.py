@@ -1,4 +1,4 @@
-"""Files of a package for its setup.py: existence, and the results of glob, os.walk and pathlib.
+"""The files of a package as its setup.py sees them: existence, and the results of glob, os.walk and pathlib.
 
 setup.py runs in the folder of the package. The analysis is independent of the place of that folder on the disk, so
 :data:`ROOT`, a path that exists on no file system, is used as its absolute path.
@@ -16,7 +16,7 @@ ROOT = "/\ue020"
 
 
 class Files:
-    """The files below a folder, as names only. Paths are relative to the folder, or below :data:`ROOT`."""
+    """The names of all files below the folder of a package. Paths are relative to the folder, or begin with :data:`ROOT`."""
 
     def __init__(self, files: Sequence[str]) -> None:
         self._files = frozenset(files)
@@ -34,7 +34,10 @@ class Files:
                 path = folder  # noqa: PLW2901  (up to a folder that is already known)
 
     def inside(self, path: str) -> str | None:
-        """Return a path relative to the folder, "" for the folder itself, None if it is outside of the folder."""
+        """Return a path relative to the folder of the package, "" for the folder itself.
+
+        The result is None for a path outside of the folder.
+        """
         if path in self._files or path in self._entries:
             return path
         path = posixpath.normpath(posixpath.join(ROOT, path))
@@ -52,12 +55,15 @@ class Files:
         return self.is_file(path) or self.is_folder(path)
 
     def names(self, path: str) -> list[str] | None:
-        """Return the sorted names in a folder, None if the path is no folder."""
+        """Return the sorted names of the files and folders in a folder, None if ``path`` is not a folder."""
         inside = self.inside(path)
         return None if inside is None or inside not in self._entries else sorted(self._entries[inside])
 
     def walk(self, top: str) -> Iterator[tuple[str, list[str], list[str]]]:
-        """Yield the results of ``os.walk``. A caller may remove names from the list of folders to skip them."""
+        """Yield the results of ``os.walk(top)``: each folder with the names of its folders and of its files.
+
+        The caller may remove names from the list of folders, which are then skipped.
+        """
         names = self.names(top)
         if names is None:
             return
@@ -67,7 +73,7 @@ class Files:
             yield from self.walk(posixpath.join(top, name))
 
     def glob(self, pattern: str, *, recursive: bool = False, hidden: bool = False) -> list[str]:
-        """Return the sorted result of ``glob.glob``."""
+        """Return the sorted result of ``glob.glob(pattern)``. ``hidden`` includes names that begin with a dot."""
         return sorted(filter(None, self._glob(pattern, recursive, hidden, False)))
 
     def _glob(self, pattern: str, recursive: bool, hidden: bool, folders: bool) -> Iterator[str]:
@@ -98,7 +104,10 @@ class Files:
                 yield from self._below(posixpath.join(top, name), f"{before}{name}/", hidden)
 
     def find(self, where: str, *, namespaces: bool, include: Sequence[str] = ("*",), exclude: Sequence[str] = ()) -> list[str]:
-        """Return the dotted names of the Python packages below a folder, like find_packages() of setuptools."""
+        """Return the dotted names of the Python packages below a folder, as find_packages() of setuptools does.
+
+        ``namespaces`` includes folders without ``__init__.py``, as find_namespace_packages() does.
+        """
         included, excluded = (_any_of(patterns) for patterns in (include, exclude))
         names = self._packages(where, "", namespaces)
         return [name for name in names if included.match(name) and not excluded.match(name)]
@@ -113,7 +122,7 @@ class Files:
                 yield from self._packages(path, f"{parent}{name}.", namespaces)
 
     def modules(self, folder: str) -> list[str]:
-        """Return the names of the Python modules directly in a folder, without their suffix."""
+        """Return the sorted names of the Python modules directly in a folder, without ``.py``."""
         inside = self.inside(folder)
         start = f"{inside}/" if inside else ""
         stems = (name[:-3] for name in self._entries.get(inside or "", ()) if name.endswith(".py"))

@@ -1,4 +1,4 @@
-"""Models of the functions that setup.py files call: setuptools, glob, os and pathlib on the files of the package."""
+"""Models of the functions that setup.py files call: those of setuptools, glob, os and pathlib."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ _EXTENSIONS = frozenset({"setup", "generate_parameter_module", "generate_distuti
 
 
 class Setup(NamedTuple):
-    """A call of setup()."""
+    """A call of setup() in a setup.py, with the values of its options."""
 
     options: dict[str, Value]
     node: ast.Call | None
@@ -72,7 +72,7 @@ class Setup(NamedTuple):
 
 
 class SetupLibrary:
-    """An implementation of :class:`ros_lint.collectors.python.interpreter.protocol.Library` for a package."""
+    """The models for a setup.py, as :class:`ros_lint.collectors.python.interpreter.protocol.Library` requires them."""
 
     def __init__(self, package: str, files: Files) -> None:
         self._package = package
@@ -152,7 +152,7 @@ class SetupLibrary:
         return None
 
     def _generate_distutils_setup(self, call: LibraryCall) -> Value:
-        """Return the options of generate_distutils_setup() in catkin_pkg, which adds data of package.xml."""
+        """Model of generate_distutils_setup() of catkin_pkg: return the given options, with name and version of the package."""
         version = Unknown("the version in package.xml is not looked at", None, call.node)
         return {"name": self._package, "version": version, **call.keywords}
 
@@ -161,7 +161,7 @@ class SetupLibrary:
 
 
 def _on_known(function: Callable[..., Value]) -> Rule:
-    """Return the model of a function that needs known arguments; paths are passed as texts."""
+    """Return the model of a function that can be applied only to known arguments. Paths of pathlib are passed as texts."""
 
     def rule(call: LibraryCall) -> Value:
         keywords = {name: _argument(plain(value)) for name, value in call.keywords.items()}
@@ -173,7 +173,10 @@ def _on_known(function: Callable[..., Value]) -> Rule:
 
 
 def _spread(arguments: list[Value], function: Callable[[list[Value]], Value]) -> Value:
-    """Return the result of a function for each choice of alternatives of its arguments."""
+    """Return the union of the results of a function for all combinations of alternatives of its arguments.
+
+    The result for an unknown argument is Unknown.
+    """
     if not arguments:
         try:
             return function([])

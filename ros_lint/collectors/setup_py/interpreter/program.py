@@ -1,4 +1,4 @@
-"""Interpretation of a setup.py, up to its calls of setup()."""
+"""The interpretation of a setup.py, including its calls of setup()."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 
 
 class Program(Machine):
-    """Interpreter of one setup.py. :meth:`follow` fills the attributes with the results.
+    """Interpreter of one setup.py. :meth:`follow` interprets it, and stores the results in the attributes.
 
-    It differs from the interpreter of launch files in its policy on unknown values. An expression that fails or has an
-    unknown part is unknown, with the reason and the origin of the unknown part, and the program continues.
+    It treats unknown values differently from the interpreter of launch files: an expression that fails or has an unknown
+    part is unknown, with the reason and the origin of the unknown part, and the program continues.
     """
 
     most_items = 50_000
@@ -51,7 +51,7 @@ class Program(Machine):
         """The reason why the evaluation stopped before the end, as a clause; "" if it did not."""
 
     def follow(self, tree: ast.Module, text: Text) -> None:
-        """Interpret the statements of a setup.py."""
+        """Interpret the statements of the setup.py, and store the results in the attributes."""
         source = Source(text)
         frame = Frame(source, None, {"__file__": f"{ROOT}/setup.py", "__name__": "__main__"})
         try:
@@ -67,7 +67,10 @@ class Program(Machine):
     # --- the policy on unknown values -----------------------------------------------------------------------------
 
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
-        """Return the value of an expression, an unknown value if it fails."""
+        """Return the value of an expression. If the expression raises an exception, the value is Unknown.
+
+        Raises ProgramRaised if a ``raise`` statement raises the exception, or a try statement may catch it.
+        """
         try:
             value = super().evaluate(node, frame)
         except ProgramRaised as error:
@@ -77,7 +80,7 @@ class Program(Machine):
         return self._with_origin(value, node, frame)
 
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
-        """Return the result ``value`` of an operation, or the unknown operand because of which it is unknown."""
+        """Return the value of an operation, or the unknown operand because of which the value is unknown."""
         fresh = isinstance(value, Unknown) and value.node is None and value.reason != TOO_LARGE
         if not fresh and not (isinstance(value, str) and UNKNOWN in value):
             return value
@@ -85,7 +88,7 @@ class Program(Machine):
         return unknown if unknown is not None and unknown.node is not None else value
 
     def _with_origin(self, value: Value, node: ast.expr, frame: Frame) -> Value:
-        """Return a value with an expression as its origin, if it has none yet."""
+        """Return ``value`` with the expression ``node`` as its origin, unless the value has an origin."""
         if isinstance(value, str):
             if UNKNOWN in value:
                 return Unknown(_reason(node), None, node)
@@ -120,7 +123,10 @@ class Program(Machine):
         return source
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        """Return the result of a call. An unknown function may change the lists and dictionaries in its arguments."""
+        """Return the result of a call.
+
+        A call of an unknown function marks the lists and dictionaries in its arguments as possibly changed.
+        """
         if isinstance(function, (Function, Class, Bound)):
             return super().call(function, arguments, keywords, node, frame)
         if isinstance(function, Method) or (isinstance(function, LibraryName) and function.name not in MODULES):
@@ -134,7 +140,7 @@ class Program(Machine):
         return Unknown(_reason(node), None, node)
 
     def _change(self, value: Value, node: ast.Call) -> None:
-        """Mark a container as possibly changed by a call."""
+        """Mark a list or dictionary as possibly changed by a call of an unknown function."""
         unknown = Unknown(f"{at(node)} may change it", None, node)
         for alternative in alternatives(value):
             if isinstance(alternative.value, list):
@@ -144,7 +150,7 @@ class Program(Machine):
 
 
 def _reason(node: ast.expr) -> str:
-    """Return why the value of an expression is unknown."""
+    """Return why the value of an expression is unknown, as a clause of a message: "glob2() cannot be evaluated"."""
     if isinstance(node, ast.Call):
         return f"{at(node.func)}() cannot be evaluated"
     return f"the operator of {at(node)} cannot be evaluated" if isinstance(node, ast.BinOp) else f"{at(node)} is not known"

@@ -1,4 +1,7 @@
-"""Values of the options of setup(): decided as far as possible, with the origins of texts and of unknown values."""
+"""The values of the options of setup(). Where conditions decide between alternative values, only the valid one is kept.
+
+Texts and unknown values keep their origins in the source.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +31,7 @@ REST: Final = UNKNOWN
 
 
 class Word(str):
-    """A text with its place in a configuration file."""
+    """A text from a configuration file such as setup.cfg. ``node`` is its span."""
 
     __slots__ = ("node",)
     node: Span
@@ -49,7 +52,10 @@ _ELEMENT: Final = 128
 
 
 def is_followed(values: Iterable[Value]) -> bool:
-    """Return whether values are neither too large nor too deep, if a container counts at each place that contains it."""
+    """Return whether values are small and flat enough to be evaluated.
+
+    A container that occurs in several containers counts each time.
+    """
     size = 0
     level = [*values]
     for _ in range(_DEEPEST):
@@ -63,7 +69,7 @@ def is_followed(values: Iterable[Value]) -> bool:
 
 
 def _inner(value: Value) -> tuple[Value, ...]:
-    """Return the values in a value."""
+    """Return the elements of a container, the alternatives of a Union, or the value in a guarded value; () for other values."""
     if isinstance(value, dict):
         return tuple(value.values())
     if isinstance(value, Guarded):
@@ -72,9 +78,10 @@ def _inner(value: Value) -> tuple[Value, ...]:
 
 
 def unknown_in(values: Iterable[Value], tests: Mapping[tuple[str, ...], ast.expr]) -> Unknown | None:
-    """Return the first of some values that is unknown or depends on an unknown condition, None if there is none.
+    """Return the first unknown value in ``values`` and their elements, None if everything is known.
 
-    ``tests`` are the expressions that are tested, by the texts of their conditions.
+    If there is none, but an element depends on an unknown condition, an Unknown for that condition is returned. ``tests``
+    are the tested expressions, by the texts of their conditions.
     """
     waiting = [*values]
     if not is_followed(waiting):
@@ -100,14 +107,18 @@ def _undecided(value: Value, tests: Mapping[tuple[str, ...], ast.expr]) -> Unkno
 
 
 class Deciding:
-    """Decides which alternatives of values hold under conditions."""
+    """Chooses the alternatives of values that hold under given conditions, for the options of a call of setup()."""
 
     def __init__(self, conditions: Conditions, tests: Mapping[tuple[str, ...], ast.expr]) -> None:
         self._conditions = conditions
         self._tests = tests
 
     def option(self, value: Value) -> Value:
-        """Return a value without unions, with Guarded only around elements that may be missing."""
+        """Return a value without alternatives that contradict the conditions.
+
+        A list element that may be missing is Guarded in the result. A value with several alternatives left is Unknown; if
+        all of them are lists, the result is one list with their different elements Guarded.
+        """
         return self._of(value) if is_followed((value,)) else Unknown("it is larger than is followed")
 
     def _of(self, value: Value) -> Value:
@@ -124,7 +135,7 @@ class Deciding:
         return Unknown("a part of it is not known") if isinstance(value, str) and UNKNOWN in value else value
 
     def _element(self, value: Value) -> Value:
-        """Return an element of a list, Guarded if it may be missing; None if it is missing."""
+        """Return the value of a list element under the conditions: Guarded if it may be missing, None if it is missing."""
         if not isinstance(value, Guarded):
             return self._of(value)
         conditions = around(value)
@@ -150,12 +161,12 @@ class Deciding:
 
 
 def _same(left: Value, right: Value) -> bool:
-    """Return whether two values are known to be equal."""
+    """Return whether two values are known, have the same type and are equal."""
     return left is right or (unknown_in((left, right), {}) is None and type(left) is type(right) and bool(left == right))
 
 
 def _merged(left: list[Value], right: list[Value]) -> list[Value]:
-    """Return the list that represents two lists: their common start and end, and the other elements as conditional."""
+    """Return one list for two alternative lists. Elements that are not in their common start or end are Guarded."""
     start, end, shorter = 0, 0, min(len(left), len(right))
     while start < shorter and _same(left[start], right[start]):
         start += 1

@@ -1,0 +1,69 @@
+"""Findings that explain others are shown in place of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ros_lint.analysis.finding import Confidence, Consequence, Finding, Severity
+from ros_lint.analysis.rule import Rule
+from ros_lint.base.text import Span
+from ros_lint.engine.explanations import without_explained
+from ros_lint.engine.report import EXPLAINED, HiddenCount, Issue
+from ros_lint.engine.selection import select, show
+
+CAUSE, OTHER = (Rule(name, f"T{name}", "s", Severity.WARNING, "1", "") for name in ("cause", "other"))
+
+
+def issue(rule: Rule, subject: str, *explains: Consequence, package: str = "p", sure: bool = True) -> Issue:
+    confidence = Confidence.HIGH if sure else Confidence.MEDIUM
+    return Issue(rule, package, Finding("m", Span("f", 1, 1, 1, 1), subject, confidence=confidence, explains=explains))
+
+
+def names(issues: Iterable[Issue]) -> list[str]:
+    return [issue.finding.subject for issue in issues]
+
+
+def test_a_cause_names_the_findings_that_it_explains() -> None:
+    issues = [issue(CAUSE, "a", Consequence("other", "b")), issue(OTHER, "b"), issue(OTHER, "c")]
+    cause, unexplained = without_explained(issues)
+    assert [(explained.rule, explained.subject) for explained in cause.explained] == [("other", "b")]
+    assert unexplained.finding.subject == "c"
+
+
+def test_an_empty_subject_means_all_findings_of_the_rule_in_the_package() -> None:
+    cause = issue(CAUSE, "a", Consequence("other"))
+    issues = [cause, issue(OTHER, "b"), issue(OTHER, "c"), issue(OTHER, "d", package="q"), issue(CAUSE, "e")]
+    assert names(without_explained(issues)) == ["a", "d", "e"]
+
+
+def test_a_doubtful_cause_explains_no_certain_finding() -> None:
+    cause = issue(CAUSE, "a", Consequence("other"), sure=False)
+    assert names(without_explained([cause, issue(OTHER, "b"), issue(OTHER, "c", sure=False)])) == ["a", "b"]
+
+
+def test_findings_that_only_explain_each_other_stay() -> None:
+    issues = [issue(OTHER, "a", Consequence("other", "b")), issue(OTHER, "b", Consequence("other", "a"))]
+    assert names(without_explained(issues)) == ["a", "b"]
+
+
+def test_consequences_of_consequences_are_explained() -> None:
+    issues = [issue(CAUSE, "a", Consequence("other", "b")), issue(OTHER, "b", Consequence("other", "c")), issue(OTHER, "c")]
+    assert names(without_explained(issues)) == ["a"]
+
+
+def test_a_cause_is_as_grave_as_what_it_explains_unless_the_settings_decide() -> None:
+    grave = issue(OTHER, "b")
+    grave = grave._replace(finding=grave.finding._replace(severity=Severity.ERROR))
+    issues = [issue(CAUSE, "a", Consequence("other")), grave]
+    assert without_explained(issues)[0].severity is Severity.ERROR
+    assert without_explained(issues, ["cause"])[0].severity is Severity.WARNING
+
+
+def test_explained_findings_are_counted_and_a_hidden_cause_explains_nothing() -> None:
+    rules = (CAUSE, OTHER)
+    issues = [issue(CAUSE, "a", Consequence("other")), issue(OTHER, "b")]
+    shown, hidden = show(issues, select(rules, chosen=("all",)))
+    assert names(shown) == ["a"]
+    assert hidden == (HiddenCount(EXPLAINED, 1),)
+    shown, _ = show(issues, select(rules, chosen=("all",), per_path={"f": ["cause"]}))
+    assert names(shown) == ["b"]
