@@ -124,7 +124,7 @@ def test_errors_of_commands_are_reported_by_kind(text: str, kinds: list[str]) ->
     [
         ("message(STATUS x)", Facet(0)),
         ("find_package(b)\nfind_package(${b_THING} REQUIRED)", Facet.USES),
-        ("what_is_this(a b)", Facet.USES),
+        ("what_is_this(a b)", Facet.USES | Facet.EXPORTS),
         ("find_package(b)\ninstall(FILES ${b_FILES} DESTINATION share/pkg)", Facet.SHARE),
         ("find_package(b)\ninstall(PROGRAMS ${b_FILES} DESTINATION lib/pkg)", Facet.EXECUTABLES),
         ("find_package(b)\ninstall(TARGETS ${b_TARGETS} DESTINATION lib/pkg)", Facet.EXECUTABLES | Facet.LIBRARIES),
@@ -132,7 +132,7 @@ def test_errors_of_commands_are_reported_by_kind(text: str, kinds: list[str]) ->
         ("ExternalProject_Add(x URL y)", Facet.USES | Facet.LIBRARIES),
         ('install(CODE "execute_process(COMMAND x)")', Facet(0)),
         ('option(A "" OFF)\nif(A)\nfind_package(b)\ninstall(FILES ${b_FILES} DESTINATION share/pkg)\nendif()', Facet(0)),
-        ('option(A "" OFF)\nif(A)\nwhat_is_this()\nendif()', Facet.USES),
+        ('option(A "" OFF)\nif(A)\nwhat_is_this()\nendif()', Facet.USES | Facet.EXPORTS),
         ("find_package(b)\nfind_package(Qt${b_VERSION})", Facet(0)),
         ("find_package(b)\nset(x ${b_A})\nadd_library(x ${x})", Facet(0)),
         ("find_package(b)\nwhile(b_A)\nset(x ${x}y)\nendwhile()", Facet(0)),
@@ -201,7 +201,7 @@ def test_branches_for_other_systems_are_optional() -> None:
     script = run(f"{text}if(MSVC OR APPLE)\nx_install()\nendif()\n")
     assert mentioned(script)["cmake", "xa"].optional
     assert not mentioned(script)["cmake", "xb"].optional
-    assert hidden(script) == Facet.USES
+    assert hidden(script) == Facet.USES | Facet.EXPORTS
 
 
 def test_the_status_of_a_download_is_unknown() -> None:
@@ -385,9 +385,9 @@ def test_a_file_in_an_unknown_folder_is_conditional_if_no_file_matches(path: str
 @pytest.mark.parametrize(
     ("name", "hides"),
     [
-        ('ament_index_get_resource(AT at acme)\ninclude("${AT}/acme-version.cmake")', Facet.USES),
-        ("include(${acme_DIR}/acme-version.cmake)", Facet.USES),
-        ("include(${acme_DIR}/../more.cmake)", Facet.USES),
+        ('ament_index_get_resource(AT at acme)\ninclude("${AT}/acme-version.cmake")', Facet.USES | Facet.EXPORTS),
+        ("include(${acme_DIR}/acme-version.cmake)", Facet.USES | Facet.EXPORTS),
+        ("include(${acme_DIR}/../more.cmake)", Facet.USES | Facet.EXPORTS),
         ('ament_index_get_resource(AT at acme)\ninclude("${AT}/${UNKNOWN}.cmake")', ALL_FACETS),
         ("include(${CMAKE_CURRENT_BINARY_DIR}/made.cmake)", ALL_FACETS),
         ("include(${acme_FILES}/acme-version.cmake)", ALL_FACETS),

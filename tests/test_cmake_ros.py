@@ -12,7 +12,7 @@ from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import parse
-from ros_lint.facts.visibility import Facet
+from ros_lint.facts.visibility import ALL_FACETS, Facet
 from tests.cmake_runs import HEAD, hidden, mentioned, paths, run, sources
 
 
@@ -164,10 +164,7 @@ def test_macros_of_the_workspace_are_evaluated(name: str) -> None:
     assert paths(script) == {"share/pkg/launch/a.launch.py": False}
     assert [(mention.name, mention.via) for mention in script.mentions] == [("tools", "cmake")]
     assert str(script.products.installs[0].span) == "src/pkg/CMakeLists.txt:4:13"
-    assert (
-        hidden(evaluate(package))
-        == Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
-    )
+    assert hidden(evaluate(package)) == ALL_FACETS
 
 
 @pytest.mark.parametrize(("point", "facets"), [("ament_package", Facet.COMPONENTS), ("ament_lint_auto", Facet(0))])
@@ -261,12 +258,21 @@ def test_no_command_fails_without_arguments() -> None:
 @pytest.mark.parametrize(
     ("command", "hides"),
     [
-        ("acme_set_compile_options(a)", Facet.USES),
-        ("pkg_acme_version(${PROJECT_NAME})", Facet.USES),
-        ("acme_add_filter(a)", Facet.USES | Facet.EXECUTABLES | Facet.LIBRARIES),
-        ("acme_static_library(a)", Facet.USES | Facet.EXECUTABLES | Facet.LIBRARIES),
+        ("acme_set_compile_options(a)", Facet.USES | Facet.EXPORTS),
+        ("pkg_acme_version(${PROJECT_NAME})", Facet.USES | Facet.EXPORTS),
+        ("acme_add_filter(a)", Facet.USES | Facet.EXPORTS | Facet.EXECUTABLES | Facet.LIBRARIES),
+        ("acme_static_library(a)", Facet.USES | Facet.EXPORTS | Facet.EXECUTABLES | Facet.LIBRARIES),
     ],
 )
 def test_unknown_commands_hide_targets_of_ament_auto_only_if_they_may_build(command: str, hides: Facet) -> None:
     script = run(f"find_package(ament_cmake_auto REQUIRED)\nfind_package(pk REQUIRED)\n{command}\nament_auto_package()")
     assert hidden(script) == hides
+
+
+def test_private_macros_of_ament_are_known() -> None:
+    script = run(
+        "find_package(ament_cmake_python REQUIRED)\n_ament_cmake_python_register_environment_hook()\n"
+        "_ament_cmake_gtest_find_gtest()\n_ament_cmake_gmock_find_gmock()\n"
+    )
+    assert not script.opaque
+    assert "share/pkg/environment/pythonpath.sh" in paths(script)

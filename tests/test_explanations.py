@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+import pytest
+
 from ros_lint.analysis.finding import Confidence, Consequence, Finding, Severity
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.text import Span
+from ros_lint.engine import registry
 from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.report import EXPLAINED, HiddenCount, Issue
 from ros_lint.engine.selection import select, show
+from tests.one_package import load
 
 CAUSE, OTHER = (Rule(name, f"T{name}", "s", Severity.WARNING, "1", "") for name in ("cause", "other"))
 
@@ -67,3 +71,13 @@ def test_explained_findings_are_counted_and_a_hidden_cause_explains_nothing() ->
     assert hidden == (HiddenCount(EXPLAINED, 1),)
     shown, _ = show(issues, select(rules, chosen=("all",), per_path={"f": ["cause"]}))
     assert names(shown) == ["b"]
+
+
+@pytest.mark.parametrize(("top", "explained"), [("", True), ("ament_export_libraries(robot)\n", False)])
+def test_lost_exports_explain_missing_ones_if_nothing_else_is_exported(top: str, explained: bool) -> None:
+    files = {"arm/CMakeLists.txt": "ament_export_include_directories(include)\n"}
+    (package,) = load(f"add_subdirectory(arm)\n{top}", files).packages
+    (rule,) = [rule for rule in registry.load() if rule.name == "export-scope"]
+    assert rule.package is not None
+    (finding,) = rule.package(package, load("", {}))
+    assert bool(finding.explains) is explained

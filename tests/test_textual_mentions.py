@@ -12,7 +12,7 @@ from ros_lint.workspace.usage.textual_mentions import find_code_mentions, find_m
 
 def test_a_name_is_found_in_many_spellings() -> None:
     files = [
-        ("a.cpp", b"// \xff\nacme::route_tools::Route route;\n"),
+        ("a.cpp", b"'\xff'\nacme::route_tools::Route route;\n"),
         ("b.cpp", b"auto message = tf2::toMsg(transform);\n"),
         ("c.yaml", b"key: my-own-tools\nother: nav_msgs_extra\n"),
     ]
@@ -63,3 +63,16 @@ def test_a_name_in_an_include_is_found_at_its_place() -> None:
     assert {name: span.line for name, span in places.items()} == {name: span.line for name, span in texts.items()}
     assert places.keys() == {"acme_route_tools", "acme_msgs", "eigen"}
     assert not find_code_mentions(names, package, words, lambda file: False)
+
+
+def test_names_in_comments_are_skipped() -> None:
+    files = [
+        ("a.cpp", "// angles é\n/* std_msgs */ std_msgs::msg::String text; // OpenCV\n".encode()),
+        ("b.py", b"# nav_msgs\nprint('nav_msgs # angles')\n"),
+    ]
+    places = find_mentions(("angles", "std_msgs", "nav_msgs", "libopencv-dev"), files, {"libopencv-dev": ("opencv",)})
+    assert {name: (span.path, span.line, span.column) for name, span in places.items()} == {
+        "angles": ("b.py", 2, 19),
+        "std_msgs": ("a.cpp", 2, 16),
+        "nav_msgs": ("b.py", 2, 8),
+    }

@@ -11,7 +11,7 @@ from ros_lint.base.text import Span
 
 
 class Severity(Sealed, IntEnum):
-    """The impact of a problem if the finding is right."""
+    """The impact of a problem, provided that the finding about it is right."""
 
     INFO = 1
     """A matter of style, or an improvement."""
@@ -68,7 +68,7 @@ class Related(NamedTuple):
 
 
 class Consequence(NamedTuple):
-    """Findings that another finding of the same package explains."""
+    """Reference to findings of the same package that need no report of their own, because another finding explains them."""
 
     rule: str
     """Name of their rule."""

@@ -9,7 +9,7 @@ from ros_lint.base.text import to_bytes
 
 
 def unified(path: str, before: str | None, after: str) -> str:
-    """Return the unified diff of two texts of a file, with one line of context and its line ends.
+    """Return the unified diff of two texts of a file, with one line of context. The line ends of the file are kept.
 
     ``before`` is None for a new file. The result is "" for equal texts.
     """
@@ -26,7 +26,10 @@ def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
 
 
 def _lines(text: str) -> list[str]:
-    """Split at line feeds only, because str.splitlines splits at more characters than the tool patch."""
+    """Return the lines of a text with their line ends.
+
+    Only line feeds end a line, as for the tool patch; str.splitlines splits at further characters.
+    """
     return re.findall(r"[^\n]*\n|[^\n]+", text)
 
 

@@ -101,7 +101,10 @@ def _compiled(glob: str) -> re.Pattern[str] | None:
 
 
 def _names(glob: str) -> list[list[str]]:
-    """Return the regular expressions between the stars of a pattern, as a list for each path component; [] for ``**``."""
+    """Return the parts of a pattern as regular expressions: a list for each path component, split at ``*``; [] for ``**``.
+
+    ``src/**/a*b`` -> ``[["src"], [], ["a", "b"]]``. Raises _MalformedError.
+    """
     if len(glob) > LONGEST:
         raise _MalformedError
     names = [[""]]

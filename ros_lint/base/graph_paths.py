@@ -24,7 +24,7 @@ class GraphPaths(NamedTuple):
 def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> GraphPaths:
     """Return the shortest ``most`` paths from ``start`` to ``end``. ``successors`` returns the direct successors of a node.
 
-    If both are the same node, the paths are the cycles through it.
+    If ``start`` and ``end`` are the same node, the paths are the cycles through this node.
     """
     distance = _distances(successors, start, end)
     if start not in distance:

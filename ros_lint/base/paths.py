@@ -8,32 +8,38 @@ from collections.abc import Iterable, Iterator
 
 
 def join(directory: str, name: str) -> str:
-    """Return the path of a name in a directory."""
+    """Return the path of an entry of a directory: ``a``, ``b/c`` -> ``a/b/c``, and ``""``, ``b`` -> ``b``."""
     return f"{directory}/{name}" if directory else name
 
 
 def resolve(directory: str, path: str) -> str:
-    """Return a path that is relative to ``directory`` as a path relative to the base. It may begin with ``..``."""
+    """Return a path relative to the base, given ``path`` relative to ``directory``: ``a/b``, ``../c.py`` -> ``a/c.py``.
+
+    The result begins with ``..`` if it is outside the base.
+    """
     return posixpath.normpath(join(directory, path))
 
 
 def relative(directory: str, path: str) -> str:
-    """Return ``path`` relative to ``directory``, with ``..`` if necessary: the inverse of :func:`resolve`."""
+    """Return ``path`` relative to ``directory``: ``a/b``, ``a/c.py`` -> ``../c.py``. The inverse of :func:`resolve`."""
     return posixpath.relpath(f"/{path}", f"/{directory}")
 
 
 def is_outside(path: str) -> bool:
-    """Return whether a relative path leads out of the directory that it is relative to."""
+    """Return whether a normalized relative path leads out of its base: it is ``..`` or begins with ``../``."""
     return path == ".." or path.startswith("../")
 
 
 def strip_folder(directory: str, path: str) -> str:
-    """Return ``path`` relative to ``directory`` if that contains it, else unchanged. The inverse of :func:`join`."""
+    """Return ``path`` without the leading ``directory``: ``a``, ``a/b/c`` -> ``b/c``. The inverse of :func:`join`.
+
+    A path outside ``directory`` is returned unchanged.
+    """
     return path.removeprefix(f"{directory}/") if directory else path
 
 
 def parent(path: str) -> str:
-    """Return the directory that contains a path."""
+    """Return the directory that contains a path: ``a/b/c`` -> ``a/b``, and ``a`` -> ``""``, the base."""
     return path.rpartition("/")[0]
 
 
@@ -48,7 +54,7 @@ def is_below_any(path: str, folders: Iterable[str]) -> bool:
 
 
 def folders_of(path: str) -> Iterator[str]:
-    """Yield the directories that contain a path, innermost first. The base is left out."""
+    """Yield the directories that contain a path, innermost first: ``a/b/c`` -> ``a/b``, ``a``. The base is left out."""
     while path := parent(path):
         yield path
 

@@ -1,7 +1,7 @@
-"""Fast checks of a Python source, on its code without strings and comments: whether it is plain, and how deep it nests.
+"""Fast checks of a Python source without its strings and comments: whether it is plain, and how deep it nests.
 
-A source is plain if each Python from 3.10 on parses it to the same tree, as nearly every source. Only the others need
-the slower :mod:`ros_lint.collectors.python.newer_syntax`.
+A source is plain if each Python from 3.10 on parses it to the same tree. Nearly all sources are plain; sources that are
+not need the slower :mod:`ros_lint.collectors.python.newer_syntax`.
 """
 
 from __future__ import annotations
@@ -44,7 +44,10 @@ _NAME_FIELD: Final = r"\{[\w.]+(?::[\w.]*)?\}"
 
 
 def _field(quote: str) -> str:
-    """Return a pattern of a field of an f-string with this quote, if every Python parses it to the same tree."""
+    """Return a pattern of a field such as ``{name!r:>{width}}`` in an f-string. ``quote`` is the quote of the f-string.
+
+    The pattern only matches fields that every Python from 3.10 on parses to the same tree.
+    """
     other_quote = "'" if quote == '"' else '"'
     string = rf"{other_quote}[^{{}}\"'\\\#\r\n]*{other_quote}"
     inside = rf"(?:[^(){{}}\[\]\"'\\\#\r\n]|{string})*"

@@ -1,8 +1,8 @@
 """The tokens of Python sources, independent of the interpreter that runs ros-lint.
 
-``tokenize`` of the standard library returns different tokens for f-strings from Python 3.12 on, and fails on other
-texts. The grammar here is that of Python 3.14: f-strings nest (PEP 701), and t-strings exist (PEP 750). Source:
-"Lexical analysis" of the language reference.
+``tokenize`` of the standard library is not used, because from Python 3.12 on it returns other tokens for f-strings and
+raises errors for other sources than before. The grammar here is that of Python 3.14: f-strings nest (PEP 701), and
+t-strings exist (PEP 750). Source: "Lexical analysis" of the language reference.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def template(text: str, start: int) -> Template:
 
 
 def _no_token(text: str, at: int) -> TokenError:
-    """Return the error for an offset at which no token begins."""
+    """Return the error that explains why no token begins at an offset, such as "this string is not closed"."""
     match = _QUOTE.match(text, at)
     if match is None and (prefix := re.compile(r"[a-zA-Z]{1,2}(?=[\"'])").match(text, at)):
         match = _QUOTE.match(text, prefix.end())

@@ -77,11 +77,14 @@ def tokens(text: str) -> list[tuple[int, int]]:
 
 @cache
 def _loader(*, fast: bool) -> Any:
-    """Return the safe loader of the library in C or in Python, with a limit for integers."""
+    """Return a subclass of the library's safe loader that limits the size of integers.
+
+    With ``fast`` it is the loader in C, if the library has it, else the loader in Python.
+    """
     import yaml  # noqa: PLC0415
 
     class LimitedLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
-        """A loader class of its own, because constructors belong to a class."""
+        """A subclass that gets the constructor ``integer`` below. Without it, every user of the library would get it."""
 
     def integer(loader: Any, node: yaml.ScalarNode) -> int:
         value: int = loader.construct_yaml_int(node)
@@ -94,7 +97,10 @@ def _loader(*, fast: bool) -> Any:
 
 
 def _read(text: str, kind: Any, take: Callable[[Any, str], _Result]) -> _Result:
-    """Return the result of ``take`` for a loader of a text. Raises YamlError for every error."""
+    """Return ``take(loader, text)``, where ``loader`` is a loader of the class ``kind`` for the text.
+
+    Raises YamlError for every error of the library.
+    """
     text = _bounded(text)
     loader = None
     try:
@@ -136,7 +142,10 @@ def _as_yaml_error(error: Exception, length: int) -> YamlError:
 
 
 def _bounded(text: str) -> str:
-    """Return a text as exact str, which the library needs. Raises YamlBoundError if it nests too deeply."""
+    """Return a text as a plain ``str``, because the library rejects subclasses of it.
+
+    Raises YamlBoundError if the text nests more deeply than DEEPEST.
+    """
     import yaml  # noqa: PLC0415
 
     text = str(text)  # the library rejects subclasses

@@ -15,5 +15,5 @@ class Sealed:
     __slots__ = ()
 
     def __setstate__(self, state: object) -> NoReturn:
-        """Reject a state: the opcode BUILD of a pickle calls this method."""
+        """Raise TypeError. The opcode BUILD of a pickle calls this method to set the attributes of the object."""
         raise TypeError(f"{type(self).__name__} takes no state")

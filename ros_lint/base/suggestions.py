@@ -18,13 +18,13 @@ def similar_names(name: str, names: Iterable[str], most: int = 1, least: float =
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
     """Return the end of a message that suggests ``names``: "; did you mean 'a' or 'b'?"; "" without names.
 
-    ``after`` separates it from the rest of the message.
+    ``after`` separates the suggestion from the beginning of the message.
     """
     return f"{after}did you mean {' or '.join(map(_quoted, names))}?" if names else ""
 
 
 def ask_if_meant(names: Sequence[str]) -> str:
-    """Return the end of a message that suggests the first of ``names``; "" without names."""
+    """Return the end of a message that suggests the first of ``names``: "; did you mean 'a'?"; "" without names."""
     return did_you_mean(names[:1])
 
 

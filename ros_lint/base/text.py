@@ -32,17 +32,17 @@ class Span(NamedTuple):
         return f"{self.path}:{self.line}:{self.column}"
 
     def start(self) -> Span:
-        """Return the empty span at the start."""
+        """Return the empty span at the start of this span."""
         return Span(self.path, self.line, self.column, self.line, self.column)
 
     def end(self) -> Span:
-        """Return the empty span at the end."""
+        """Return the empty span at the end of this span."""
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
     def inner(self, text: str) -> Span | None:
-        """Return the span of ``text`` within this span, which has ``text`` with or without quotes.
+        """Return the span of ``text`` without quotes, if this span is the place of ``text`` or of ``text`` in quotes.
 
-        None if the span has another length, for example because of an escape.
+        None if this span has another length, for example because the source writes ``text`` with an escape.
         """
         quotes, odd = divmod(self.end_column - self.column - len(text), 2)
         if self.line != self.end_line or odd or quotes not in (0, 1):
@@ -50,7 +50,7 @@ class Span(NamedTuple):
         return self._replace(column=self.column + quotes, end_column=self.end_column - quotes)
 
     def covers(self, span: Span) -> bool:
-        """Return whether a span is within this one, or equal to it."""
+        """Return whether this span contains ``span`` or is equal to it."""
         return self.path == span.path and self[1:3] <= span[1:3] and span[3:5] <= self[3:5]
 
 
@@ -119,17 +119,17 @@ class Text:
             yield _make(Span, (path, line, start - before, line, end - before))
 
     def offset(self, line: int, column: int) -> int:
-        """Return the offset of a place. Raises IndexError if the line does not exist."""
+        """Return the offset of a line and column, which count from 1. Raises IndexError if the line does not exist."""
         return self._line_starts()[line - 1] + column - 1
 
     def position(self, offset: int) -> tuple[int, int]:
-        """Return line and column of an offset."""
+        """Return the line and the column of an offset. Both count from 1."""
         starts = self._line_starts()
         line = bisect_right(starts, offset)
         return line, offset - starts[line - 1] + 1
 
     def line(self, number: int) -> str:
-        """Return a line without its line end. Raises IndexError if the line does not exist."""
+        """Return the line ``number`` (from 1) without its line end. Raises IndexError if the line does not exist."""
         starts = self._line_starts()
         end = starts[number] if number < len(starts) else None
         return self.text[starts[number - 1] : end].rstrip("\r\n")

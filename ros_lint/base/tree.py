@@ -20,7 +20,7 @@ Kind = Literal["file", "directory", "other"]
 
 
 class Entry(NamedTuple):
-    """A name in a directory. ``kind`` is that of a link's target; a broken link and a device are ``other``."""
+    """A file or folder in a directory. For a link, ``kind`` is that of its target; broken links and devices are ``other``."""
 
     name: str
     kind: Kind
@@ -60,7 +60,7 @@ class Tree(Protocol):
         """Return the state of a file, to detect changes."""
 
     def identity(self, path: str) -> str:
-        """Return a path that is equal for two paths of one directory.
+        """Return the real path: links are resolved, so that two paths of the same directory have equal identities.
 
         The identity of an entry that is not a link is the identity of its directory joined with its name.
         """
@@ -106,9 +106,11 @@ LEADS_OUT = "links to a place outside the workspace"
 class DiskTree:
     """The files below a directory, read-only.
 
-    ``inside`` are the real paths of the folders that links to files may lead into, by default the directory itself. A
-    folder may itself be a link to elsewhere. Links of files in it may also lead into its target, and into the
-    repository of the target.
+    A link to a file is followed only if its target is
+
+    * in a folder of ``inside`` (real paths, by default only the directory itself),
+    * or, if a link leads from the directory to the folder of the file, in the target of that folder's link or in the
+      git repository of that target.
     """
 
     __slots__ = ("_base", "_inside")
@@ -118,7 +120,7 @@ class DiskTree:
         self._inside = tuple(inside)
 
     def place(self, path: str) -> str:
-        """Return the path for the operating system."""
+        """Return the path for the operating system: the base of the tree joined with ``path``."""
         return f"{self._base}/{path}" if path else self._base
 
     def list(self, path: str) -> list[Entry]:
@@ -148,7 +150,7 @@ class DiskTree:
         return files.read(target)
 
     def _may_lead_to(self, target: str, folder: str) -> bool:
-        """Return whether a link in a folder may lead to a target."""
+        """Return whether a link to a file in ``folder`` may lead to the real path ``target``; see the class."""
         inside = self._inside or (self.identity(""),)
         if is_below_any(target, inside):
             return True

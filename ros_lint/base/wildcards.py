@@ -13,7 +13,7 @@ LONGEST = 4096
 
 
 def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
-    """Return a regular expression for ``pieces`` in order, with ``gap`` between two of them.
+    """Return a regular expression for ``pieces`` in order, with ``gap`` between each two: ``a``, ``b`` -> ``a[^/]*b``.
 
     ``pieces`` and ``gap`` are regular expressions; ``gap`` ends with ``*``. ``numbers`` are unused numbers for the
     names of groups. Each piece except the last one keeps its first match, because a later match would leave less text

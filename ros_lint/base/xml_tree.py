@@ -99,10 +99,9 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
 
 
 def unmarked(data: bytes) -> bytes:
-    """Return the bytes for expat, with a leading byte order mark replaced by an invalid character.
+    """Return ``data`` with a byte order mark at its start replaced by an invalid character, so that expat rejects it.
 
-    The first mark was removed when the file was decoded, so this is a second one. It is an error that expat would
-    ignore.
+    The mark is the second of the file, because decoding removed the first. XML forbids it, but expat would ignore it.
     """
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 

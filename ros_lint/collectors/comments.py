@@ -1,7 +1,7 @@
 """Comments of a file, in the languages of a workspace.
 
-Only files with a certain word are searched, so this is exact rather than fast. Strings that look like comments are
-left out. In a broken file, text that may be a comment or a string is left out.
+The search is exact rather than fast, because only files with the marker of a suppression are searched. Strings that look
+like comments are left out. In a file with syntax errors, text that may be a comment or a string is left out.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def _matched(pattern: re.Pattern[str], text: str) -> Ranges:
 
 @cache
 def _pattern(*parts: str) -> re.Pattern[str]:
-    """Return a pattern for the comments of a language, and for its strings, which may contain comment marks."""
+    """Return a pattern that matches any of ``parts``: the comments of a language, and strings that may contain ``#``, ``//``."""
     return re.compile("|".join(parts), re.DOTALL | re.MULTILINE)
 
 

@@ -1,4 +1,4 @@
-"""The collector of a file, by its path."""
+"""The choice of the collector that reads a file, by the path of the file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", 
 
 
 def kind_of(path: str) -> Kind | None:
-    """Return the kind of a file by its name, or None if no collector reads it."""
+    """Return which collector reads a file: ``src/a.cpp`` -> "cpp", ``a/package.xml`` -> "manifest"; None for no collector."""
     name = path.rpartition("/")[2]
     if name == "CMakeLists.txt":
         return "cmake"

@@ -41,7 +41,7 @@ _CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
 
 
 def java(source: Text) -> FileFacts:
-    """Return the packages of the interfaces that a Java source names, and those of the client library."""
+    """Return mentions of the packages whose interfaces a Java source names, and of the packages of the client library."""
     if not any(word in source.text for word in _JAVA_MARKS):
         return FileFacts()
     text = _STRING.sub(_spaces, blank_comments(source.text))
@@ -104,9 +104,9 @@ def _crates(source: Text) -> Iterator[Mention]:
 
 
 def matlab(source: Text) -> FileFacts:
-    """Return the packages of the interfaces with which a MATLAB script creates publishers and the like.
+    """Return mentions of the interface packages that a MATLAB script uses in calls such as ``ros2publisher``.
 
-    They are optional: MATLAB builds its own copy of them, and the script runs outside of the workspace.
+    All mentions are optional, because MATLAB builds its own copies of the packages and runs outside of the workspace.
     """
     text = _CONTINUED.sub(_spaces, source.text)
     names = [
@@ -127,7 +127,7 @@ def _spaces(match: re.Match[str]) -> str:
 
 
 def _facts(source: Text, places: list[tuple[tuple[int, int], str]], *, optional: bool = False) -> FileFacts:
-    """Return mentions of packages, each at its first place."""
+    """Return facts with one mention for each package, at its first place. ``places`` are offset ranges with packages."""
     first: dict[str, tuple[int, int]] = {}
     for place, package in sorted(places):
         first.setdefault(package, place)

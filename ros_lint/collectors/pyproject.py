@@ -23,7 +23,7 @@ def tables(source: Text) -> Mapping[str, Any]:
 
 
 def table(content: Any, *keys: str) -> Mapping[str, Any]:
-    """Return the table at a path of keys; empty if it is missing."""
+    """Return the table below nested keys: ``"tool", "black"`` -> the table ``[tool.black]``; empty if it is missing."""
     for key in keys:
         content = content.get(key) if isinstance(content, dict) else None
     return content if isinstance(content, dict) else {}

@@ -72,7 +72,10 @@ def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leadin
 
 
 def _problem(mark: re.Match[str], leading: bool) -> str | None:
-    """Return the error in a suppression, "" if it is valid, or None if it may not be a suppression at all."""
+    """Return the error in a suppression, "" for a valid suppression, None for a comment that only mentions ros-lint.
+
+    ``leading`` is True if only comments and XML declarations precede the comment in its file.
+    """
     if mark["word"] not in ("ignore", "ignore-file"):
         return f"'{mark[0].strip()}' has no effect; {_HOW}" if mark["word"] else None
     if mark["names"] is not None and not mark["close"]:
@@ -95,18 +98,24 @@ def _is_standalone(content: str, start: int, end: int) -> bool:
 
 
 def _is_prolog(between: str) -> bool:
-    """Return whether the text before a comment contains only space and XML declarations."""
+    """Return whether the text between two comments contains only white space and XML declarations."""
     return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
 
 
 def _reason_end(content: str, start: int, limit: int) -> int:
-    """Return where the reason ends: at the end of the line or comment, or at another comment sign."""
+    """Return the offset at which the reason of a suppression ends.
+
+    That is the end of its line or of its comment, or a further ``#`` or ``//``: ``# ros-lint: ignore[x] reason # noqa``.
+    """
     line = _REASON.match(content, start, limit)
     return start + len(_CLOSING.sub("", line[0] if line else "").rstrip("#/ \t"))
 
 
 def _cut_comment(content: str, start: int, end: int) -> tuple[int, int]:
-    """Return the range that removes a comment: its lines, or the comment with the space before it."""
+    """Return the offset range to delete in order to remove a comment with the white space before it.
+
+    If nothing else is on its lines, the range includes the line end.
+    """
     lines = _BLANK.match(content, end) if _is_standalone(content, start, end) else None
     while start and content[start - 1] in " \t":
         start -= 1
@@ -114,7 +123,10 @@ def _cut_comment(content: str, start: int, end: int) -> tuple[int, int]:
 
 
 def _cut_mark(content: str, comment: int, start: int, stop: int, end: int) -> tuple[int, int]:
-    """Return the range that removes a suppression from a longer comment, with one comment sign."""
+    """Return the offset range to delete in order to remove a suppression and keep the rest of its comment.
+
+    The range includes one comment sign: ``# a # ros-lint: ignore[x]`` -> ``# a``, ``# ros-lint: ignore[x] # a`` -> ``# a``.
+    """
     if _OPENING.fullmatch(content, comment, start):
         following = _SIGN.match(content, stop, end)
         return start, following.end() if following else stop
@@ -124,5 +136,5 @@ def _cut_mark(content: str, comment: int, start: int, stop: int, end: int) -> tu
 
 
 def _separator(content: str, start: int, end: int) -> str:
-    """Return a space if a cut would join two words."""
+    """Return the text that replaces a deleted range: a space if the words around the range would be joined, else ""."""
     return " " if start and end < len(content) and not (content[start - 1].isspace() or content[end].isspace()) else ""

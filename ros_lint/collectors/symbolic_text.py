@@ -102,25 +102,25 @@ def share(package: str) -> str:
 
 
 def configuration(name: str, default: str | None = None) -> str:
-    """Return the symbolic value of a launch configuration; ``default`` is its value if nothing sets it."""
+    """Return a text that stands for the value of a launch configuration; ``default`` is the value if nothing sets it."""
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
 
 
 @lru_cache(maxsize=8_192)
 def named_in(text: str) -> tuple[str, ...] | None:
-    """Return the names of the launch configurations in a text, None if a name is computed."""
+    """Return the names of the launch configurations in a text, in order; None if the name of a configuration is computed."""
     names = _NAME_OF_CONFIGURATION.findall(text)
     return None if any(mark == _CONFIGURATION[0] for _, mark in names) else tuple([name for name, _ in names])
 
 
 def expression(text: str) -> str:
-    """Return the symbolic value of a Python expression."""
+    """Return a text that stands for the value of the Python expression ``text``, as ``$(eval ...)`` does."""
     return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
 
 
 def has_expression(text: str) -> bool:
-    """Return whether a text contains the value of a Python expression."""
+    """Return whether a text contains the mark of a Python expression, made by :func:`expression`."""
     return _EXPRESSION[0] in text
 
 
@@ -143,12 +143,12 @@ def _escaped(text: str) -> str:
 
 
 def command(text: str) -> str:
-    """Return the symbolic output of a command."""
+    """Return a text that stands for the output of the command line ``text``, as ``$(command ...)`` does."""
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
 
 
 def presence(package: str) -> str:
-    """Return the symbolic truth of "the package is installed"."""
+    """Return a text that stands for the answer to "is this package installed?", for use as a launch condition."""
     return f"{_PRESENT}{package}"
 
 
@@ -158,7 +158,7 @@ def package_of_presence(text: str) -> str:
 
 
 def certain_part(text: str) -> str:
-    """Return a text without its unknown parts."""
+    """Return a text without its marks and the texts inside marks, so that only its literal characters remain."""
     while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
         text = text[: match.start()] + text[match.end() :]
     return _ANY_MARK.sub("", text)
@@ -170,12 +170,12 @@ def is_plain(text: str) -> bool:
 
 
 def is_settled(text: str) -> bool:
-    """Return whether a text is known except for install places of packages."""
+    """Return whether a text contains no marks other than the install places of packages."""
     return text.isascii() or not _UNSETTLED.search(text)
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Yield the launch configurations in a text: name, True if it has a default, and the text of its marks."""
+    """Yield the launch configurations in a text, innermost only: name, whether it has a default, and its symbolic text."""
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark), match[0]
@@ -200,7 +200,7 @@ def readable(text: str) -> str:
 
 
 def _with_logic(text: str) -> str:
-    """Return a text in which expressions of logic are replaced by their substitutions."""
+    """Return a text in which each expression such as ``_and('a', 'b')`` is replaced by a substitution: ``$(and a b)``."""
     while match := _INNER_EXPRESSION.search(text):
         prefix, substitution = text[: match.start()], _logic_substitution(match[1])
         is_inside = prefix.count(_EXPRESSION[0]) > prefix.count(_EXPRESSION[1])
@@ -234,9 +234,9 @@ def _readable_root(match: re.Match[str]) -> str:
 
 
 def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
-    """Return whether the value of a text may contain an install place, or a command of xacro.
+    """Return whether the value of a text may contain an install place of a package, or a command of xacro.
 
-    ``configurations`` are the launch configurations whose values may contain one.
+    ``configurations`` are the launch configurations whose values may contain an install place or a command of xacro.
     """
     if _ROOT in text or "xacro" in text:
         return True
@@ -244,7 +244,10 @@ def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
 
 
 def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
-    """Return the launch configurations whose values may contain an install place, directly or indirectly."""
+    """Return the names of the launch configurations whose values may contain an install place or a command of xacro.
+
+    ``values`` has the values of each configuration. A value may refer to a configuration that contains one.
+    """
     result: set[str] = set()
     candidates: dict[str, tuple[str, ...]] = {}
     for name, texts in values.items():
@@ -260,7 +263,7 @@ def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozens
 
 
 def installed(text: str) -> Iterator[InstallPlace]:
-    """Yield the install places in a text: one path, or several in a command line."""
+    """Yield the install places of packages in a text, in order. A command line may contain several."""
     if _ROOT not in text:
         return
     for match in _PREFIX.finditer(text):
@@ -280,7 +283,7 @@ def installed_place(text: str) -> InstallPlace | None:
 
 
 class Conditional(str):
-    """An alternative of a text that holds only under conditions."""
+    """A possible value of a text, such as the executable of a node, that applies only if all ``conditions`` hold."""
 
     __slots__ = ("conditions",)
 
@@ -288,7 +291,7 @@ class Conditional(str):
 
 
 def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
-    """Return a text that holds under conditions."""
+    """Return a text that applies only if all conditions hold: a Conditional, or ``text`` itself if there are none."""
     if not conditions:
         return text
     result = Conditional(text)
@@ -297,12 +300,15 @@ def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
 
 
 def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
-    """Return the conditions under which an alternative of a text holds."""
+    """Return the conditions of a text made by :func:`conditional`; () for any other text."""
     return text.conditions if isinstance(text, Conditional) else ()
 
 
 def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions can hold together: none is the opposite of another."""
+    """Return whether conditions can hold together.
+
+    False for a condition and its negation, and for two conditions that want a text to equal different values.
+    """
     truths: dict[tuple[tuple[str, ...], str | None], bool] = {}
     values: dict[tuple[str, ...], str] = {}
     for condition in conditions:
@@ -317,9 +323,10 @@ def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
 
 
 def distinct(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return the distinct pairs of text and conditions.
+    """Return texts without duplicates; equal texts with different conditions are distinct.
 
-    If there are more than ``MOST``, the conditions of texts that occur repeatedly are dropped.
+    A text with conditions is dropped if the same text occurs without conditions. If there are more than ``MOST`` pairs of
+    text and conditions, each text occurs once, without conditions if it had several.
     """
     by_conditions = {(text, conditions_of(text)): text for text in texts}
     if len(by_conditions) <= MOST:
@@ -333,9 +340,11 @@ def distinct(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]], str]) -> tuple[str, ...]:
-    """Return the results of a function for every consistent choice of one alternative from each row.
+    """Return the results of ``function`` for every choice of one alternative from each row.
 
-    ``(UNKNOWN,)`` if there are too many results.
+    Example: the rows ``("a",)`` and ``("x", "y")`` give ``function(("a", "x"))`` and ``function(("a", "y"))``. Choices
+    whose conditions contradict each other are left out. The result is ``(UNKNOWN,)`` if no choice remains, or if there
+    are more than ``MOST`` results.
     """
     rows = tuple(rows)
     if all(len(row) == 1 and not isinstance(row[0], Conditional) for row in rows):
@@ -352,10 +361,10 @@ def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]]
 
 
 def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
-    """Return the alternatives of a text if launch configurations have values.
+    """Return the possible values of a text after its launch configurations and expressions are replaced by their values.
 
-    ``values`` returns the alternatives of a configuration, None if it is not set; ``evaluate`` the value of a fully
-    known expression, or UNKNOWN.
+    ``values`` returns the possible values of the configuration with a name, None if it is not set. ``evaluate`` returns
+    the value of an expression without unknown parts, or UNKNOWN.
     """
     filled = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
     if len(filled) == 1:
@@ -364,7 +373,7 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
 
 
 class _Filling:
-    """Replaces configurations in a text by values, up to a limit, because each step can double the text."""
+    """Replaces launch configurations in a text by their values. The steps are limited, because each can double the text."""
 
     __slots__ = ("_remaining", "_values")
 
@@ -373,10 +382,10 @@ class _Filling:
         self._remaining = _MAX_FILLED
 
     def of(self, text: str, busy: frozenset[str]) -> tuple[str, ...]:
-        """Return the alternatives of a text after its configurations are replaced by their values.
+        """Return the possible values of a text after its launch configurations are replaced by their values.
 
-        The configurations in ``busy`` have values with this text. They are replaced by their defaults, because their
-        values would contain themselves.
+        ``busy`` are the configurations whose values contain ``text``. They are replaced by their defaults, because
+        otherwise a value would contain itself without end.
         """
         pending = [text]
         done: dict[str, None] = {}

@@ -73,6 +73,7 @@ def _blind_spots(packages: Sequence[Package]) -> tuple[BlindSpot, ...]:
         Facet.LIBRARIES: "libraries",
         Facet.INTERFACES: "interfaces",
         Facet.COMPONENTS: "components",
+        Facet.EXPORTS: "exported dependencies",
     }
     names_by_word = {
         word: tuple([_name(package) for package in packages if package.hidden(facet) and not package.is_ros1])

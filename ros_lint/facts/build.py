@@ -116,7 +116,7 @@ class ScriptFile(NamedTuple):
 
 
 class UninstalledImport(NamedTuple):
-    """An import, in an installed program, of a module that is next to the program only in the sources."""
+    """An import that may fail after installation: only in the sources is the module in the folder of the program."""
 
     program: str
     """Install path such as ``lib/<package>/talker.py``, or the dotted module of an entry point."""
@@ -135,7 +135,7 @@ REPOSITORIES: Final[Mapping[str, str]] = {"gtest": "googletest", "gmock": "googl
 
 
 class ExportedTarget(NamedTuple):
-    """A target that install(TARGETS ... EXPORT) puts into a set."""
+    """A target that install(TARGETS ... EXPORT) puts into an export set."""
 
     target: str
     """Name of the target."""
@@ -146,7 +146,7 @@ class ExportedTarget(NamedTuple):
 
 
 class BuildProject(NamedTuple):
-    """The project as the build script names it: the arguments of project() or setup()."""
+    """Name and version of the project, from the arguments of project() or setup() in the build script."""
 
     name: str = ""
     """Name, "" if unknown."""
@@ -176,7 +176,7 @@ class BuildProducts(NamedTuple):
 
     @property
     def installed(self) -> frozenset[str]:
-        """Installed files by their path in the package, without generated files."""
+        """Source paths of the installed files, relative to the package. Generated files have none and are left out."""
         return frozenset([provided.source for provided in self.installs if provided.source])
 
 
@@ -200,7 +200,7 @@ class BuildFiles(NamedTuple):
 
 
 class BuildExports(NamedTuple):
-    """What the CMake script passes on to each package that finds this one."""
+    """What a package passes on by its CMake script to each package that calls find_package() for it."""
 
     config_extras: tuple[str, ...] = ()
     """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
@@ -214,7 +214,7 @@ class BuildExports(NamedTuple):
 
 
 class CMakeCommands(NamedTuple):
-    """The commands of the CMake files, and the place for a new one."""
+    """The commands of the CMake files, and the place at which a fix inserts an install rule."""
 
     names: tuple[str, ...] = ()
     """Names of the commands that ran: lower case, sorted, without duplicates."""
@@ -284,9 +284,9 @@ class SetupScript(NamedTuple):
 
 
 class BuildScript(NamedTuple):
-    """The build of a package, evaluated.
+    """The result of evaluating the build script of a package.
 
-    The source is CMakeLists.txt with the files that it includes, or setup.py with setup.cfg.
+    The script is CMakeLists.txt with the files that it includes, or setup.py with setup.cfg.
     """
 
     path: str
@@ -325,7 +325,7 @@ class BuildScript(NamedTuple):
     def hides(self, facet: Facet) -> bool:
         """Return whether a part of the script that cannot be evaluated hides ``facet``.
 
-        What the built code computes at run time does not matter here.
+        Only the build script counts: an import or a lookup by a computed name in the sources hides nothing here.
         """
         return any(opaque.hides & facet for opaque in self.opaque)
 

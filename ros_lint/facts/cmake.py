@@ -89,7 +89,7 @@ class Call(NamedTuple):
 
     @property
     def name_span(self) -> Span:
-        """Span of the name."""
+        """Span of the name of the command."""
         return Span(self.path, self.line, self.column, self.line, self.column + len(self.name))
 
     @property
@@ -98,7 +98,7 @@ class Call(NamedTuple):
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
     def span(self, index: int) -> Span:
-        """Return the span of an argument, quotes included."""
+        """Return the span of the argument with this index (from 0), quotes included."""
         _, _, start, end = self.args[index]
         return Span(self.path, *self._position(start), *self._position(end))
 
@@ -107,9 +107,10 @@ class Call(NamedTuple):
 
 
 def position(offset: int, start: int, line: int, column: int, breaks: tuple[int, ...]) -> tuple[int, int]:
-    """Return line and column of ``offset`` in a text that begins at ``start``, ``line`` and ``column``.
+    """Return the line and the column of ``offset``, a place in a command.
 
-    ``breaks`` are the offsets at which further lines of the text begin.
+    The command begins at the offset ``start``, which is at ``line`` and ``column``. ``breaks`` are the offsets at which
+    its second and later lines begin.
     """
     lines = bisect_right(breaks, offset)
     return (line + lines, offset - breaks[lines - 1] + 1) if lines else (line, column + offset - start)

@@ -33,7 +33,7 @@ class LaunchValue(NamedTuple):
 
 
 class LaunchCondition(NamedTuple):
-    """A condition of an action."""
+    """A condition under which an action runs: a text equals a value (or is true), or does not if negated."""
 
     texts: tuple[str, ...]
     """Alternatives of the text, with the same marks as ``LaunchValue.texts``."""
@@ -48,7 +48,7 @@ UNSCOPED: Final = "unscoped"
 
 
 class LaunchAction(NamedTuple):
-    """An action of a launch file, before its arguments are known. The kind decides which fields are used."""
+    """An action of a launch file, before the values of launch arguments are known. The kind decides which fields are used."""
 
     kind: str
     """Kind of the action.
@@ -111,7 +111,7 @@ class LaunchAction(NamedTuple):
 
     @property
     def has_scope(self) -> bool:
-        """True if settings inside end with the action: a group, unless it is unscoped."""
+        """True for a group without ``scoped=False``: launch configurations and remappings in it end with the group."""
         return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 

@@ -27,7 +27,7 @@ class Role(Sealed, Flag):
 
 
 class DependencyKind(NamedTuple):
-    """The meaning of a dependency tag for ROS, for colcon and in the data of released packages."""
+    """The meaning of a dependency tag such as ``exec_depend``: its role, its letters in our data, its order in colcon."""
 
     role: Role
     letters: str
@@ -75,7 +75,7 @@ class Element(NamedTuple):
     """Place of the text."""
 
     def get(self, attribute: str, default: str = "") -> str:
-        """Return the value of an attribute."""
+        """Return the value of an attribute, or ``default`` if the element does not have it."""
         return dict(self.attributes).get(attribute, default)
 
 
@@ -173,7 +173,7 @@ class ColconSettings(NamedTuple):
 
 
 class ColconMeta(NamedTuple):
-    """A ``colcon.meta``."""
+    """The settings in a ``colcon.meta``: for packages given by name, and for packages given by path."""
 
     path: str
     by_name: tuple[tuple[str, ColconSettings], ...]

@@ -8,7 +8,7 @@ from ros_lint.base.text import Span
 
 
 class EntryPoint(NamedTuple):
-    """An entry point of a Python distribution."""
+    """An entry point that a setup.py or setup.cfg declares: ``talker = robot.talker:main`` in the group console_scripts."""
 
     group: str
     """Group, such as "console_scripts"."""

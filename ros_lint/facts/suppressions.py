@@ -60,7 +60,7 @@ class Suppression(NamedTuple):
 
 
 class Unused(NamedTuple):
-    """Names in a suppression whose rules reported nothing there."""
+    """Names of rules in a suppression that hides no finding of these rules, so that the names can be removed."""
 
     suppression: Suppression
     """The comment."""
@@ -90,7 +90,7 @@ def lines_of(span: Span) -> tuple[int, int]:
 
 
 class SuppressionUse(NamedTuple):
-    """Suppressions without effect, by reason."""
+    """The suppressions without effect, or with names without effect, in a list for each reason."""
 
     unused: tuple[Unused, ...]
     """Names of rules that reported nothing at the place."""

@@ -10,7 +10,10 @@ from ros_lint.base.text import Span
 
 
 class Facet(Sealed, Flag):
-    """A part of a package that something unresolved can hide."""
+    """A part of a package that a place without a known value can hide.
+
+    Example: ``install(FILES ${UNKNOWN} DESTINATION lib/robot)`` hides EXECUTABLES.
+    """
 
     USES = auto()
     """Packages that this package uses."""
@@ -26,9 +29,11 @@ class Facet(Sealed, Flag):
     """Messages, services and actions of the package."""
     COMPONENTS = auto()
     """Component and plugin classes of the package."""
+    EXPORTS = auto()
+    """Packages that CMake finds for the dependents of the package."""
 
 
-ALL_FACETS = Facet.USES | Facet.EXECUTABLES | Facet.SHARE | Facet.PYTHON | Facet.LIBRARIES | Facet.INTERFACES | Facet.COMPONENTS
+ALL_FACETS = ~Facet(0)
 """All parts of a package."""
 
 
@@ -54,7 +59,7 @@ class Opaque(NamedTuple):
     """True if a limit or a bug of ros-lint is the reason, so that the file counts as not checked."""
 
     def reaches(self, path: str) -> bool:
-        """Return whether the hidden files may include ``path`` in the install prefix, or a file below it."""
+        """Return whether this place may hide ``path``, a file or folder in the install prefix, or a file below ``path``."""
         return not self.below or f"{path}/".startswith(f"{self.below}/") or self.below.startswith(f"{path}/")
 
 
@@ -83,6 +88,6 @@ class Problem(NamedTuple):
     subject: str = ""
     """Subject of the problem, if a rule needs it.
 
-    A path relative to the package, the pattern of a glob, a key, the manifest format that has a tag or attribute,
-    or the new name of a keyword.
+    A path relative to the package (that of a missing folder to install ends with a slash), the pattern of a glob, a key,
+    the manifest format that has a tag or attribute, or the new name of a keyword.
     """

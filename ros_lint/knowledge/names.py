@@ -41,7 +41,9 @@ def has_ended(distro: str) -> bool:
     return any(name.endswith(f" {distro.capitalize()}") for name in END_OF_LIFE.values())
 
 
-_COMMON_WORDS = frozenset({"lib", "dev", "python", "python3", "pip", "all", "core", "data", "tools"})
+_COMMON_WORDS = frozenset({
+    "lib", "dev", "python", "python3", "pip", "all", "core", "cpp", "data", "json", "tools", "xml", "yaml",
+})  # fmt: skip
 """Words in the names of rosdep keys that do not identify the library."""
 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})

@@ -16,14 +16,14 @@ Call the command in the `CMakeLists.txt` of the package, before `ament_package()
 although `install(TARGETS ... EXPORT ...)` is in the subfolder. If no other package uses what the subfolder builds, such as
 plugins, remove the call.
 
-What `unexported-dependency` and `unexported-headers` report for the package is probably a consequence. It is not shown as long
-as this finding is.
+If nothing else is exported, what `unexported-dependency` and `unexported-headers` report for the package is probably a
+consequence. It is not shown as long as this finding is.
 
 ## Limitations
 
 Not reported:
 
-- Calls in conditions, except conditions for tests.
+- Calls in conditions and for tests only.
 - Packages that pass the variables of ament to the scope of `ament_package()` themselves.
 - Calls in macros, which run in the scope of their caller, and in files of `include()`.
 """
@@ -45,8 +45,15 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         first.span,
         first.name,
         first_related(Related("has no effect here either", call.span) for call in others),
-        explains=(Consequence("unexported-dependency"), Consequence("unexported-headers")),
+        explains=() if _exports_elsewhere(package) else (Consequence("unexported-dependency"), Consequence("unexported-headers")),
     )
+
+
+def _exports_elsewhere(package: Package) -> bool:
+    """Return whether the top CMakeLists.txt exports something with effect."""
+    lost = {call.span for call in package.built.cmake.lost_exports}
+    calls = (call for call in package.built.commands.calls if call.path == package.cmake_lists)
+    return any(call.name.startswith("ament_export_") and call.name_span not in lost for call in calls)
 
 
 RULE = Rule(

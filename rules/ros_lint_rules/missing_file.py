@@ -64,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     seen: set[str] = set()
     for problem in script.problems:
-        path = problem.subject
+        path = problem.subject.rstrip("/")
         if problem.kind in _KINDS and path not in seen and not _is_unseen(package, path):
             seen.add(path)
             hint = _hint(package, path) if problem.kind != "file-is-directory" else ""
@@ -82,7 +82,8 @@ def _is_unseen(package: Package, path: str) -> bool:
 def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Confidence:
     script = package.script
     assert script is not None
-    if any(workspace.is_made(package, path) for path in (problem.subject, f"{problem.subject}/*")):  # or everything in it
+    missing = problem.subject.rstrip("/")
+    if any(workspace.is_made(package, path) for path in (missing, f"{missing}/*")):  # or everything in it
         return Confidence.MEDIUM
     if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
         return Confidence.MEDIUM

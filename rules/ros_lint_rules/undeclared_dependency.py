@@ -29,6 +29,8 @@ Declare the package in `package.xml`, with the tag that the message names. The f
 - `<exec_depend>`: needed only at run time;
 - `<test_depend>`: needed only for tests.
 
+If `find_package()` names a package that a package of interfaces does not use, remove the call.
+
 If the package is declared under a condition that is false, widen the condition.
 
 The fix is safe if the name resolves in the chosen distribution, or in every active one if none was chosen. Otherwise
@@ -121,6 +123,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
             finding = finding._replace(message=message, fix=None)
+        elif call := _leftover(package, workspace, need):
+            message = f"package.xml does not declare '{need.name}', and nothing in this package uses it; remove {call}"
+            finding = finding._replace(message=message, fix=None)
         if finding.fix:
             finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
         yield finding._replace(severity=severity)
@@ -170,6 +175,18 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
     )
+
+
+def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
+    """Return the find_package() of an undeclared package that a package of interfaces does not use, "" if there is none."""
+    products = package.built.products
+    if not products.interfaces or any(target.kind != "other" for target in products.targets):
+        return ""
+    finds = {mention.span: mention.name for mention in dependencies.unused_find_packages(package, workspace)}
+    name = next((finds[use.span] for use in need.uses if use.span in finds), "")
+    if not name:
+        return ""
+    return f"find_package({name})" + (" and the other places that name it" if len(need.uses) > 1 else "")
 
 
 def _brought(

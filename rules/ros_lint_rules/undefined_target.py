@@ -31,7 +31,8 @@ there.
 
 Not reported:
 
-- Scripts with commands, names or included files that cannot be followed.
+- Scripts with commands, names or included files that cannot be followed, except install() before them, because CMake looks for
+  the target when install() is called.
 - Uses under a condition.
 - Uses in functions and loops, except names in `target_link_libraries()` and `ament_target_dependencies()` that can be
   evaluated.
@@ -81,7 +82,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "cmake"):
         return
     all_names = sorted({target.name for target in script.products.targets})
-    if build.opaque_except_undefined_targets(package, ALL_FACETS):
+    rejected = {problem.subject for problem in script.problems if problem.kind == "undefined-target"}
+    hidden = bool(build.opaque_except_undefined_targets(package, ALL_FACETS))
+    if hidden and not rejected:
         return
     defined = set(all_names)
     for call in package.calls(*_DEFINING, anywhere=True):
@@ -94,10 +97,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name = build.evaluated_name(package, call.texts[index])
             if name is None or call.blocks or name in defined or "::" in name:
                 continue
-            if call.name == "install" or not finds_unknown or names.similar_names(name, all_names, 1, 0.8):
+            if hidden:
+                is_wrong = call.name == "install" and name in rejected
+            else:
+                is_wrong = call.name == "install" or not finds_unknown or bool(names.similar_names(name, all_names, 1, 0.8))
+            if is_wrong:
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
         yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, all_names, places)
+    if hidden:
+        return
     for problem in script.cmake.errors:  # these include computed names
         name = problem.subject
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:

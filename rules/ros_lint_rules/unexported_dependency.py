@@ -9,7 +9,8 @@ Dependencies that `ament_export_dependencies()` lacks:
 
 Also `Qt5` and `Qt6` in `ament_export_dependencies()`, which cannot pass components.
 
-This rule reports both because a package that finds this one lacks the dependency in either case.
+This rule reports both because a package that finds this one lacks the dependency in either case. All packages that are certainly
+missing in `ament_export_dependencies()` are one finding.
 
 ## Why it matters
 
@@ -56,7 +57,7 @@ package that exists only in ROS 1.
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Sequence
 
 from ros_lint.api import (
     BuildScript,
@@ -87,17 +88,45 @@ _TOOL_PREFIX = "ament_cmake_"
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     included = list(_included(package, workspace))
-    all_findings = [*included, *_linked(package, workspace, {finding.subject for _, finding in included})]
-    sure = list(
-        dict.fromkeys(
-            [name for all_names, finding in all_findings if finding.confidence is Confidence.HIGH for name in all_names]
-        )
-    )
-    for all_names, finding in all_findings:
-        together = sure if finding.confidence is Confidence.HIGH else all_names
-        edit = edits.cmake.export_dependencies(package, " ".join(all_names), together) if all_names else None
+    linked = list(_linked(package, workspace, {finding.subject for _, finding in included}))
+    certain = [lack for lack in (*included, *linked) if _is_certain(lack)]
+    lacks = [lack for lack in (*included, *linked) if lack not in certain]
+    if certain:
+        lacks.insert(0, _together(certain, [lack for lack in linked if lack in certain]))
+    for all_names, finding in lacks:
+        edit = edits.cmake.export_dependencies(package, all_names) if all_names else None
         yield finding._replace(fix=Fix.of(f"export {names.shorten_list(all_names)}", edit, safe=False))
     yield from _without_components(package, workspace)
+
+
+Lack = tuple[tuple[str, ...], Finding]
+"""A finding with the CMake names of the packages to export, () if it is uncertain that this suffices."""
+
+
+def _is_certain(lack: Lack) -> bool:
+    all_names, finding = lack
+    return bool(all_names) and finding.confidence is Confidence.HIGH
+
+
+def _together(lacks: Sequence[Lack], linked: Sequence[Lack]) -> Lack:
+    """Return one finding for all packages that a single ament_export_dependencies() has to export.
+
+    ``linked`` are those of the lacks that concern targets.
+    """
+    (first_names, first), *others = lacks
+    if not others:
+        return first_names, first
+    all_names = tuple(dict.fromkeys(name for cmake_names, _ in lacks for name in cmake_names))
+    who = "installed headers or exported libraries use" if linked else "installed headers include"
+    related = (
+        Related(f"{names.shorten_list(cmake_names)} {'is' if len(cmake_names) == 1 else 'are'} needed here", finding.span)
+        for cmake_names, finding in others
+    )
+    message = (
+        f"{who} {names.shorten_list(all_names)}, but packages that use this one do not find them; "
+        f"add ament_export_dependencies({' '.join(all_names)})"
+    )
+    return all_names, Finding(message, first.span, first.subject, first_related([*related, *first.related]))
 
 
 def _is_seen(package: Package) -> bool:
@@ -105,7 +134,7 @@ def _is_seen(package: Package) -> bool:
     script = package.script
     if script is None or build.stops_early(script) or package.builds_with != "ament_cmake":
         return False
-    return not (script.hides(Facet.USES) or _EXPORTS_ALL.intersection(script.commands.names))
+    return not (script.hides(Facet.EXPORTS) or _EXPORTS_ALL.intersection(script.commands.names))
 
 
 def _exported(script: BuildScript) -> set[str]:
@@ -114,7 +143,7 @@ def _exported(script: BuildScript) -> set[str]:
     return exported.union(mention.name for mention, _ in script.exports.packages)
 
 
-def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[tuple[tuple[str, ...], Finding]]:
+def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
     """Yield the packages whose targets exported libraries link but which dependents do not find, with the finding.
 
     The names are () if it is uncertain that dependents do not find them.
@@ -220,7 +249,7 @@ def _linked_publicly(package: Package, workspace: Workspace) -> Iterator[tuple[s
 _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
 
 
-def _included(package: Package, workspace: Workspace) -> Iterator[tuple[tuple[str, ...], Finding]]:
+def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
     """Yield the CMake name of each package that installed headers include but that is not exported, with the finding.
 
     The names are () if the finding is uncertain.

@@ -10,7 +10,10 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def build_types(workspace: Workspace) -> Iterator[tuple[Package, list[Element]]]:
-    """Yield each package with a readable manifest, also unusable ones, and the build types that certainly apply to it."""
+    """Yield each package whose manifest has no problems, with the ``<build_type>`` elements whose condition is certainly true.
+
+    Packages that colcon cannot use (``workspace.unusable``) are included.
+    """
     for package in (*workspace.packages, *workspace.unusable):
         if package.manifest and not package.manifest.problems:
             exports = (export for export in package.manifest.exports if export.tag == "build_type")

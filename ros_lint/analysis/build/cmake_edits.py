@@ -43,7 +43,7 @@ def install_program(script: BuildScript, kind: str, name: str) -> Edit | None:
 
 
 def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
-    """Return the edit that installs files into a folder below ``share/<package>``; "" is that folder itself."""
+    """Return the edit that installs files into ``share/<package>/<folder>``, or into ``share/<package>`` if ``folder`` is ""."""
     words = " ".join([*map(_word, paths), "DESTINATION", _word(join("share/${PROJECT_NAME}", folder))])
     return at_end(script, f"install(FILES {words})")
 
@@ -64,16 +64,12 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     return at_end(package.built, f"install(DIRECTORY {_word(folder)} DESTINATION share/${{PROJECT_NAME}})")
 
 
-def export_dependencies(package: Package, name: str, all_names: Sequence[str]) -> Edit | None:
-    """Return the edit that exports a dependency by ament_export_dependencies().
-
-    It extends the existing call, or else adds a call with ``all_names``, all names that are not exported. Then the edit
-    is the same for each of these names.
-    """
+def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
+    """Return the edit that exports dependencies by ament_export_dependencies(): by the existing call, or else by a new one."""
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
-        return add_argument(call, name)
-    return at_end(package.built, f"ament_export_dependencies({' '.join(all_names)})")
+        return add_argument(call, *names)
+    return at_end(package.built, f"ament_export_dependencies({' '.join(names)})")
 
 
 LINKED = "link to the targets of the packages"
@@ -85,8 +81,8 @@ _NAME = re.compile(r"[A-Za-z]\w*")
 def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edit | None]:
     """Yield the edits that replace each ``ament_target_dependencies()`` by ``target_link_libraries()``.
 
-    Yields None for a package whose name is computed, or that is not known to export targets. For such a package,
-    ``ament_target_dependencies()`` uses variables (ament_cmake_target_dependencies).
+    ``rclcpp`` becomes ``${rclcpp_TARGETS}``. Yields None for an argument that contains a variable, and for a package
+    without exported targets (:func:`exports_targets`), which can only be used by its variables.
     """
     for call in calls:
         yield Edit(call.name_span, "target_link_libraries")
@@ -97,7 +93,11 @@ def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edi
 
 
 def exports_targets(name: str, workspace: Workspace) -> bool:
-    """Return whether a package is known to export CMake targets, in ``<package>_TARGETS``."""
+    """Return whether a package certainly exports CMake targets, so that ``<package>_TARGETS`` is set.
+
+    Every package of the workspace with this name has to export targets. A package outside of the workspace counts if the
+    data about released packages list its exported targets.
+    """
     local_packages = workspace.by_name.get(name)
     if local_packages is None:
         return workspace.world.exports_targets(name)
@@ -107,20 +107,24 @@ def exports_targets(name: str, workspace: Workspace) -> bool:
 _EXPORTS_TARGETS = frozenset({"ament_export_targets", "rosidl_generate_interfaces"})
 
 
-def add_argument(call: Call, text: str) -> Edit:
-    """Return the edit that adds an argument at the end of a call. The call must have arguments."""
-    return _append(call, len(call.args) - 1, text)
+def add_argument(call: Call, *texts: str) -> Edit:
+    """Return the edit that adds arguments at the end of a call. The call must have arguments."""
+    return _append(call, len(call.args) - 1, *texts)
 
 
-def _append(call: Call, last: int, text: str) -> Edit:
-    """Add an argument after the argument ``last``, on its own line if that argument is on its own line."""
+def _append(call: Call, last: int, *texts: str) -> Edit:
+    """Return the edit that adds arguments after argument number ``last`` of a call.
+
+    Each new argument gets its own line if argument ``last`` is not on the line of the argument before it.
+    """
     span = call.span(last)
     above = call.span(last - 1).line if last else call.line
-    return Edit(span.end(), f" {text}" if span.line == above else f"\n{' ' * (span.column - 1)}{text}")
+    separator = " " if span.line == above else f"\n{' ' * (span.column - 1)}"
+    return Edit(span.end(), "".join(f"{separator}{text}" for text in texts))
 
 
 def _beside(package: Package) -> Call | None:
-    """Return a command that installs unchanged folders to share/<package> and nothing else."""
+    """Return an unconditional ``install(DIRECTORY a b DESTINATION share/<package>)`` without variables and options, or None."""
     for call in package.calls("install"):
         texts = call.texts
         if texts[:1] != ("DIRECTORY",) or call.blocks or texts[-2:-1] != ("DESTINATION",):
@@ -142,11 +146,11 @@ def keep_permissions(call: Call) -> Edit:
 
 
 def write(call: Call, index: int, text: str) -> Edit:
-    """Return the edit that replaces the argument with an index."""
+    """Return the edit that replaces argument number ``index`` of a call, counted from 0, by ``text``."""
     return Edit(call.span(index), text)
 
 
 def drop(call: Call, first: int, last: int) -> Edit:
-    """Return the edit that removes the arguments ``first`` to ``last``, both included. ``first`` is not 0."""
+    """Return the edit that removes the arguments ``first`` to ``last`` of a call, both included. ``first`` is at least 1."""
     gap, span = call.span(first - 1).end(), call.span(last)
     return Edit(gap._replace(end_line=span.end_line, end_column=span.end_column), "")

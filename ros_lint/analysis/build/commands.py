@@ -30,9 +30,10 @@ def stops_early(script: BuildScript) -> bool:
 
 
 def unconditional_calls(package: Package, *names: str) -> tuple[Call, ...]:
-    """Return the calls in the CMakeLists.txt that have arguments and are in no block and not only for tests.
+    """Return the calls of the commands ``names`` in CMakeLists.txt that have arguments and run in every build.
 
-    Return () if ament_cmake does not build the package.
+    Calls inside of blocks such as if(), and calls for tests, are left out. The result is () for a package that
+    ament_cmake does not build.
     """
     if package.builds_with != "ament_cmake":
         return ()
@@ -43,7 +44,7 @@ _STOPS = ("cmake-syntax", "missing-folder", "missing-script")
 
 
 def config_names(name: str) -> tuple[str, str]:
-    """Return the names of the files that find_package() looks for: xConfig.cmake and x-config.cmake."""
+    """Return the two files that find_package() looks for: ``MyLibConfig.cmake`` and ``mylib-config.cmake`` for ``MyLib``."""
     return f"{name}Config.cmake", f"{name.lower()}-config.cmake"
 
 
@@ -78,7 +79,10 @@ _OWN_TARGET = re.compile(r"[^:\s]+")
 
 
 def opaque_except_undefined_targets(package: Package, facet: Facet) -> tuple[Opaque, ...]:
-    """Return the places that hide a facet, without undefined targets in install(), because CMake rejects these."""
+    """Return the places that cannot be evaluated and may therefore hide parts of the package in ``facet``.
+
+    Left out is an install() of an undefined target of this package: it hides nothing, because CMake rejects it.
+    """
     return tuple(opaque for opaque in package.hidden(facet) if not _OWN_TARGET.fullmatch(opaque.undefined))
 
 
@@ -86,7 +90,7 @@ _PROJECT_NAME = re.compile(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}")
 
 
 def evaluated_name(package: Package, text: str) -> str | None:
-    """Return the value of an argument, in which ${PROJECT_NAME} is evaluated; None if it has other variables."""
+    """Return the value of a CMake argument after replacing ${PROJECT_NAME}; None if it is empty or has other variables."""
     name = _PROJECT_NAME.sub(package.built.project.name or package.name, text)
     return None if "$" in name or not name else name
 
@@ -103,9 +107,10 @@ _FOR_TESTS = frozenset({*_TEST_COMMANDS.values(), "ament_lint_auto", "ament_lint
 
 
 def unguarded_tests(package: Package) -> dict[str, Call]:
-    """Return the test packages that CMake needs even if no tests are built, each with the first call.
+    """Return the test packages that CMake requires even if no tests are built, each with the first call that requires it.
 
-    Packages that are declared for the build are left out.
+    Example: ``find_package(ament_cmake_gtest REQUIRED)`` outside of ``if(BUILD_TESTING)``. Left out are packages that
+    package.xml declares by another tag than ``<test_depend>``.
     """
     result: dict[str, Call] = {}
     if package.builds_with != "ament_cmake":

@@ -15,7 +15,7 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 class Plugins(NamedTuple):
-    """The plugins of a package."""
+    """The plugins that a package registers in its sources, and the plugin descriptions (XML files) that it contains."""
 
     macros: Sequence[Registration]
     """All registrations in the sources."""
@@ -52,16 +52,17 @@ def plugins(package: Package) -> Plugins | None:
 
 
 def _needs_no_description(macro: Registration) -> bool:
-    """Return whether a registered class needs no description: nodelets of ROS 1, and components registered as in Crystal.
+    """Return whether a registered class needs no plugin description.
 
-    A package may contain sources for ROS 1 and ROS 2; those for ROS 1 are not built here.
+    True for nodelets of ROS 1, which are not built in ROS 2, and for components, which ROS 2 Crystal registered by
+    ``PLUGINLIB_EXPORT_CLASS`` too.
     """
     return macro.base.startswith("nodelet::") or macro.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
 
 
 @cached_by_workspace
 def plugin_loaders(workspace: Workspace) -> Mapping[str, Sequence[PluginLoader]]:
-    """Return the loaders of all packages by the base class of the plugins that they load."""
+    """Return the plugin loaders in all packages. The keys are the base classes of the plugins that they load."""
     loaders: dict[str, list[PluginLoader]] = {}
     for package in workspace.packages:
         for loader in package.loaders:

@@ -16,22 +16,26 @@ from ros_lint.workspace.model import Package
 
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
-    """Yield the executables that are no tests, by their commands and names."""
+    """Yield the executable targets of a build script, without those for tests.
+
+    A target is for tests if it is only built for tests, or if its name contains "test".
+    """
     for target in script.products.targets:
         if target.kind == "executable" and not target.test and "test" not in target.name:
             yield target
 
 
 def is_optional_target(package: Package, target: BuildTarget) -> bool:
-    """Return whether a target is an example, or is left out of some builds."""
+    """Return whether only some builds compile the sources of a target, or whether the target belongs to examples or tests."""
     conditional = bool(target.sources) and set(target.sources) == set(target.optional_sources)
     return conditional or is_auxiliary(package.relative(target.span.path))
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
-    """Return whether a program that is not in ``lib/<package>`` is built by CMake, or installed into bin by Python.
+    """Return whether a program that is missing in ``lib/<package>`` exists elsewhere, so that another rule reports it.
 
-    Other rules report such a program.
+    True if CMake builds a program of this name, or if a Python package installs ``bin/<name>``. Callers check before that
+    ``lib/<package>`` does not contain the program.
     """
     script = package.script
     if script is None:
@@ -66,9 +70,9 @@ def files_using_client_library(package: Package) -> frozenset[str]:
 
 
 def node_targets(package: Package) -> frozenset[str]:
-    """Return the names of the executables that are nodes: one of their files includes a client library.
+    """Return the names of the executables that are nodes: one of their files includes rclcpp or a library that extends it.
 
-    The file is a source, or a header with the name of a source.
+    The files of an executable are its sources, and headers of the package with the file stem of a source.
     """
     files = files_using_client_library(package)
     return frozenset(
@@ -79,18 +83,18 @@ def node_targets(package: Package) -> frozenset[str]:
 
 
 def has_header(target: BuildTarget, files: Iterable[str]) -> bool:
-    """Return whether one of the files is a header with the name of a source of the target."""
+    """Return whether one of the files is a header with the file stem of a source of the target: ``node.hpp``, ``node.cpp``."""
     stems = {stem(source) for source in target.sources}
     return any(file.endswith(HEADERS) and stem(file) in stems for file in files)
 
 
 def stem(path: str) -> str:
-    """Return the name of a file without its folder and without everything from the first dot."""
+    """Return the name of a file without its folder and without everything from the first dot: ``src/a.b.cpp`` -> ``a``."""
     return path.rpartition("/")[2].partition(".")[0]
 
 
 def library_calls(package: Package, name: str) -> Iterator[Call]:
-    """Yield the commands that create a library with a name, in order."""
+    """Yield the calls of add_library() and ament_auto_add_library() that create the library ``name``, in order."""
     for call in package.calls("add_library", "ament_auto_add_library", anywhere=True):
         if call.args and evaluated_name(package, call.texts[0]) == name:
             yield call
@@ -103,7 +107,10 @@ def is_declared_shared(package: Package, name: str) -> bool:
 
 
 def library_registering(package: Package, registration: Registration) -> str:
-    """Return the library with the source in which a class is registered, or "". Libraries of tests do not count."""
+    """Return the name of the library target that compiles the source in which a class is registered.
+
+    Libraries that are only built for tests do not count. The result is "" if no library compiles the source.
+    """
     path = package.relative(registration.span.path)
     for target in package.built.products.targets:
         if target.kind == "library" and not target.test and path in target.sources:
@@ -133,9 +140,10 @@ def install_arguments(package: Package) -> frozenset[str]:
 
 
 def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
-    """Return the libraries that are installed into ``lib/<package>`` only, each with its first file.
+    """Return the libraries that every build installs into ``lib/<package>`` and nowhere else.
 
-    Only files with one of the endings count.
+    The keys are the names of the targets, the values are the first installed file of each target. Only installed files
+    with one of the endings, such as ".so", count.
     """
     places: dict[str, list[InstalledFile]] = {}
     for provided in package.built.products.installs:
@@ -150,9 +158,10 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
 
 
 def never_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the names of the nodes of a package that installs none of its programs and libraries.
+    """Return the names of the node executables of a package that installs none of its programs and libraries.
 
-    Empty if the package has nodes that the build may run.
+    The result is empty if a custom command may run a program during the build, because that program needs no installation,
+    or if the installation cannot be fully analysed.
     """
     script = package.script
     if (
@@ -166,12 +175,12 @@ def never_installed_nodes(package: Package) -> frozenset[str]:
 
 
 def partly_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the names of the nodes that are not installed although other nodes of the package are.
+    """Return the names of the node executables that are not installed although another node of the package is.
 
     Left out are:
     - tests, examples and benchmarks, by the name of the target or the folder of a source,
     - nodes that are built under a condition,
-    - all nodes if the build may run one.
+    - all nodes if a custom command may run a program during the build.
     """
     script = package.script
     if script is None or opaque_except_undefined_targets(package, Facet.EXECUTABLES) or may_run_built(script):

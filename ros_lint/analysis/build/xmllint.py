@@ -44,14 +44,17 @@ def _in_every_test_build(call: Call) -> bool:
 
 
 def _may_exclude(call: Call) -> bool:
-    """Return whether a command may exclude the linter, or mark its package as found already."""
+    """Return whether a set() or list() command may exclude ament_cmake_xmllint from the linters that are run.
+
+    True if an argument contains the name of the linter, or if AMENT_LINT_AUTO_EXCLUDE gets the value of a variable.
+    """
     named = any(_LINTER in text for text in call.texts)
     return named or (_EXCLUDED in call.texts and any("$" in text for text in call.texts))
 
 
 def _brings_linter(workspace: Workspace, name: str) -> bool:
-    """Return whether a package is the linter, or a collection of linters such as ament_lint_common.
+    """Return whether a test dependency makes CMake run ament_xmllint: the linter itself or a package ``*_lint_common``.
 
-    Some other packages depend on the linter at run time too, but do not find it for the packages that find them.
+    A ``*_lint_common`` package exports its linters. Other packages that depend on the linter at run time do not.
     """
     return name == _LINTER or (name.endswith("_lint_common") and _LINTER in (workspace.world.depends(name, "x") or ()))

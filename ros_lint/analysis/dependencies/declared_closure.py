@@ -15,14 +15,15 @@ _ANY = ~Role(0)
 
 @cached_by_package
 def all_declared(package: Package, workspace: Workspace) -> Closure:
-    """Return the closure of all declared dependencies, members of groups included."""
+    """Return all declared dependencies of a package with their transitive dependencies, members of groups included."""
     return declared_closure(package, workspace, _ANY)
 
 
 def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
-    """Return the declared dependencies with any of the roles, ``others``, and all that they provide transitively.
+    """Return declared dependencies of a package together with everything that they provide transitively.
 
-    Members of the groups that the package depends on are included.
+    The start of the closure are the dependencies declared for any role in ``role``, the packages ``others``, and the
+    members of the groups that the package depends on.
     """
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
     starts += others
@@ -34,9 +35,10 @@ def declared_closure(package: Package, workspace: Workspace, role: Role, others:
 def provided_transitively(
     package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False
 ) -> bool:
-    """Return whether another declared dependency with any of the roles provides one of the names.
+    """Return whether one of ``names`` is a transitive dependency of a declared dependency that is not in ``names`` itself.
 
-    Dependencies whose own dependencies are unknown count as providing it, unless ``surely``.
+    Only dependencies declared for any role in ``role`` count. A dependency whose own dependencies are unknown counts if it
+    could provide a name, unless ``surely`` is true.
     """
     names = frozenset(names)
     starts = {declared.name for declared in package.declared if declared.role & role and declared.name not in names}

@@ -45,7 +45,7 @@ def explain(package: Package, workspace: Workspace, name: str, confidences: Mapp
 
 
 def used_in(uses: Sequence[Use]) -> Iterator[str]:
-    """Yield a line for each file that uses the dependency, with the purposes."""
+    """Yield a line for each of the first five uses: place, what is used, and the purposes. A last line counts further uses."""
     for use in uses[:_MOST]:
         yield f"{use.span}: {use.what}, {_needed_for(use)}"
     if len(uses) > _MOST:
@@ -106,7 +106,10 @@ def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: 
 
 
 def _of_itself(name: str, uses: list[Use]) -> list[Use]:
-    """Return the required uses that name the package itself, or the next best uses if there are none."""
+    """Return the uses that refer to the package ``name`` itself and not to another package that ``name`` may provide.
+
+    If no use refers to the package itself, return all uses. Optional uses are left out if any use is required.
+    """
     needed = [use for use in uses if not use.optional] or uses
     return [use for use in needed if use.package == name] or needed
 

@@ -29,21 +29,24 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
 
 
 def finds_declared(package: Package) -> bool:
-    """Return whether CMake finds all declared build dependencies and links them to every target."""
+    """Return whether a CMake macro finds all declared build dependencies and links them to every target, as ament_cmake_auto."""
     return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.commands.names)
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
-    """Return the packages that find_package() finds for some names, with their transitive dependencies.
+    """Return the packages that ``find_package()`` of each name finds, their transitive dependencies, and the names.
 
-    None if a name cannot be resolved, or if the dependencies of its package are unknown.
+    The result is None if a name belongs to no known package, or if the dependencies of a found package are unknown.
     """
     closure = partial_closure(workspace, names)
     return closure.names.union(names) if closure.complete else None
 
 
 def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
-    """Return the packages that find_package() finds for some names, as far as they are known."""
+    """Return the packages that ``find_package()`` of each name finds, with their transitive dependencies.
+
+    Names and packages without data are in ``Closure.unknown``.
+    """
     starts: set[str] = set()
     for name in names:
         providers = workspace.world.by_cmake(name)

@@ -1,4 +1,4 @@
-"""Unused dependencies with an effect: they provide undeclared packages or are found by CMake."""
+"""Unused dependencies that must not be removed, because they transitively provide an undeclared package that is used."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _TEST: Role = Role.TEST
 
 
 class LostProvision(NamedTuple):
-    """An undeclared package that is lost if a dependency is removed, because no other one provides it."""
+    """An undeclared but used package that is no longer provided if a certain dependency tag is removed."""
 
     name: str
     """The undeclared package."""
@@ -31,10 +31,11 @@ class LostProvision(NamedTuple):
 
 
 def needed_transitively(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, LostProvision]:
-    """Return the unused dependencies that cannot be removed, each with the provision that would be lost.
+    """Return the names of unused dependencies that must not be removed, each with a package that would no longer be provided.
 
-    A lost provision is used but not declared by this package or another one of the workspace, and no other dependency
-    provides it. If several dependencies provide it, only the last one is returned.
+    Example: this package uses ``b`` without declaring it, and only its unused dependency ``a`` depends on ``b``. Then the
+    result is ``{"a": b}``. Packages of the workspace that get ``b`` through this package count, too. If several unused
+    dependencies provide ``b``, only the last of them is returned.
     """
     result: dict[str, LostProvision] = {}
     if not _lost(package, workspace, unused):  # common case: if all can be removed, each can
@@ -55,7 +56,7 @@ def needed_transitively(package: Package, workspace: Workspace, unused: Sequence
 
 
 def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> LostProvision | None:
-    """Return a provision that is lost if the tags are removed, or None."""
+    """Return an undeclared but used package that is no longer provided if the tags ``removed`` are removed, or None."""
     spans = {declared.depend.span for declared in removed}
     remaining = [declared for declared in package.declared if declared.depend.span not in spans]
     return _lost_here(package, workspace, remaining, removed) or _lost_above(package, workspace, remaining, removed)
@@ -102,13 +103,16 @@ def _lost_above(
 
 @cached_by_package
 def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
-    """Return the uses of packages that are not declared but provided by a declared dependency."""
+    """Return the uses of packages that this package does not declare, but that a declared dependency provides transitively."""
     return tuple([use for need in needs(package, workspace) if need.is_transitive and not need.declared for use in need.uses])
 
 
 @cached_by_workspace
 def _undeclared_uses_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
-    """Return, for each undeclared but provided name, the packages that use it, with one use each."""
+    """Return the uses of :func:`undeclared_uses` in all packages of the workspace, by the name of a package that satisfies them.
+
+    Each use comes with the package that contains it. Uses of a package that the same names satisfy are listed once.
+    """
     result: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:
         answers = {use.providers: use for use in undeclared_uses(package, workspace)}

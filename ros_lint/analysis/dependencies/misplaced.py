@@ -2,8 +2,8 @@
 
 Where a package is built, only its ``build_depend``, ``buildtool_depend`` and ``depend`` are certainly installed; where it
 runs, only its ``exec_depend``, ``build_export_depend`` and ``depend`` (REP 149; bloom/generators/debian/generator.py).
-What these need at run time or to build against them is installed with them, because bloom makes it the ``Depends`` of
-their binary packages. So the tag of this package decides, and all edges of its dependencies that others follow count.
+The run-time and export dependencies of an installed package are always installed with it, because bloom writes them
+into ``Depends`` of its binary package. So only the tag in the manifest of the analysed package matters.
 """
 
 from __future__ import annotations
@@ -42,7 +42,10 @@ class Misplaced(NamedTuple):
 
 
 class _Phase(NamedTuple):
-    """A purpose of uses, and the tags that are installed for it."""
+    """A situation in which only some dependencies are installed: the build of the package, or its execution.
+
+    ``uses`` and ``vias`` select the uses that matter in this situation, ``tags`` has the roles of the installed dependencies.
+    """
 
     purpose: str
     uses: Role
@@ -67,12 +70,13 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
     """Return the undeclared needs that only dependencies with the wrong tag provide.
 
     Left out are:
-    - packages for tests, because their dependencies serve tests anyway,
-    - needs of unguarded tests, because they have to move to the tests,
+    - all needs of packages for tests, because all of their dependencies serve tests,
+    - needs of unguarded tests, because the tests have to be guarded,
     - parts of launch that only launch files import, because ``ros2 launch`` provides them,
-    - needs that come with a declared name which itself needs another tag, because that tag is reported,
-    - needs that a dependency with the right tag may provide: its dependencies are unknown, or it does so in another
-      distribution and none was chosen.
+    - needs that are provided as soon as another declared dependency gets the tag that it needs, because the wrong tag of that
+      dependency is reported,
+    - needs that a dependency with the right tag may provide: its dependencies are unknown, or it provides the need in
+      another distribution and the user chose no distribution.
     """
     every = needs(package, workspace)
     waiting = [need for need in every if need.is_transitive and not need.declared]
@@ -103,12 +107,16 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
 
 
 def _outside(closure: Closure, uses: Iterable[Use]) -> list[Use]:
-    """Return the uses that no name of a closure satisfies."""
+    """Return the uses that no package of a closure satisfies."""
     return [use for use in uses if not any(name in closure for name in use.providers)]
 
 
 def _may_provide(closure: Closure, name: str, workspace: Workspace) -> bool:
-    """Return whether a dependency may provide a name: an unknown one, or any in the distribution of the user."""
+    """Return whether a package of a closure may provide ``name``, although the closure does not contain it.
+
+    This may be a package with unknown dependencies. If the user chose no distribution, it may also be a package that
+    provides ``name`` in another distribution.
+    """
     if may_provide(closure.unknown, name, workspace):
         return True
     provides = workspace.world.knowledge.provides_elsewhere
@@ -121,7 +129,7 @@ def _of_phase(phase: _Phase, uses: Iterable[Use]) -> list[Use]:
 
 
 def _provider(package: Package, workspace: Workspace, names: Iterable[str]) -> Depend | None:
-    """Return the tag of a declared dependency that provides one of the names."""
+    """Return the first tag of a declared dependency that provides one of the names transitively, or None."""
     starts = tuple(dict.fromkeys(declared.name for declared in package.declared))
     for name in names:
         if path := workspace.world.path(starts, name):

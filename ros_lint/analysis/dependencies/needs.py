@@ -33,7 +33,7 @@ class Need(NamedTuple):
 
     @property
     def sure(self) -> bool:
-        """True if the best evidence is certain: the file is in use and the name is known."""
+        """True if the first use is certain: its file is part of the build or installation, and its package is unambiguous."""
         return self.uses[0].certain
 
     @property
@@ -53,7 +53,7 @@ _TEST = Role.TEST
 
 @cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return all needs of a package, in the order of their best evidence. Optional uses are left out.
+    """Return all needs of a package that result from uses that are not optional, by the place of their first use.
 
     A package of ROS 1 has no needs, because its dependencies are not analysed.
     """
@@ -62,11 +62,11 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 
 @cached_by_package
 def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return the optional undeclared needs of a package, in the order of their best evidence.
+    """Return the undeclared needs of a package that result only from optional uses, by the place of their first use.
 
-    Left out are:
-    - symbols, because in languages other than C++ they may come from elsewhere,
-    - packages that depend on this one, because they cannot be declared.
+    An optional use is, for example, an import in a ``try`` block. Left out are:
+    - uses of C++ symbols, because a header of another package may define the symbol,
+    - packages that depend on this package, because declaring them would close a cycle.
     """
     needed = {name for use in package.uses if not use.optional for name in use.providers}
     uses = [use for use in package.uses if use.optional and use.via != "symbol" and needed.isdisjoint(use.providers)]
@@ -75,7 +75,7 @@ def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 
 
 def is_found_by_cmake(need: Need) -> bool:
-    """Return whether find_package() needs the package outside of tests."""
+    """Return whether a find_package() that is neither optional nor only for tests certainly needs the package."""
     return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
 
 
@@ -109,10 +109,10 @@ def _needs(
     closure_of: Callable[[tuple[str, ...]], Closure],
     is_runtime_library: Callable[[str], bool],
 ) -> Iterator[Need]:
-    """Yield the needs that some uses of a name result in. ``uses`` is sorted by place.
+    """Yield one or two needs that result from ``uses``, the uses of the package ``name``: the declared and the undeclared part.
 
-    Each use has to be satisfied by its own providers. Examples: find_package(Eigen3) by its find module, a header of
-    Eigen by the library. A key that ``is_runtime_library`` does not satisfy a build use.
+    Each use has to be satisfied by one of its own providers. Examples: find_package(Eigen3) needs the find module, but a
+    header of Eigen only needs the library. A rosdep key of a runtime library (``is_runtime_library``) satisfies no build use.
     """
     if len(uses) > 1:
         uses.sort(key=_rank)
@@ -152,16 +152,16 @@ def _needs(
 
 
 def _is_meant(name: str, best: str, closure_of: Callable[[tuple[str, ...]], Closure]) -> bool:
-    """Return whether a declared name satisfies the need by itself and not only by its dependencies.
+    """Return whether the declared name ``name`` satisfies a need for ``best`` itself, not only because it depends on ``best``.
 
-    True for a vendor package of a library, which provides it where the system has none, and for a library with its
-    parts.
+    True for ``best``, an alternative that does not depend on ``best``, a vendor package of ``best``, and a library of which
+    ``best`` is a part.
     """
     return name == best or best not in closure_of((name,)) or is_vendor(name, best) or is_part(best, name)
 
 
 def _rank(use: Use) -> int:
-    """Return a sort key: the best evidence first."""
+    """Return a sort key of a use, low for strong evidence: certain before uncertain, code before tests, includes first."""
     rank = _RANKS[use.via]
     if not use.certain:
         rank += 32

@@ -82,7 +82,7 @@ def availability_remark(workspace: Workspace, name: str) -> str:
 
 @cached_by_workspace
 def _remarks(workspace: Workspace) -> dict[str, str]:  # noqa: ARG001  (the key of the cache)
-    """Return the remarks made so far, by name: hundreds of findings are about few names."""
+    """Return the cache of :func:`availability_remark`: the remark of each name for which it was computed."""
     return {}
 
 
@@ -108,10 +108,11 @@ def _availability(workspace: Workspace, name: str) -> str:
 
 
 def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
-    """Return a path by which a name depends on the package itself, both ends included, or ().
+    """Return the packages on a dependency path from ``name`` to this package, both included, or () if there is no path.
 
-    In the workspace every tag counts, because colcon orders packages by all of them. Elsewhere the run-time
-    dependencies of the released package count, of any distribution if the target distribution has no such package.
+    Declaring ``name`` would close a cycle then. Between packages of the workspace every dependency tag counts, because colcon
+    orders packages by all tags. Of released packages only run-time dependencies count; if the target distribution lacks
+    ``name``, those in any distribution.
     """
     graph = dependency_graph(workspace) if name in workspace.by_name else None
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):
@@ -142,7 +143,7 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
 
 
 def is_of_pip(workspace: Workspace, name: str) -> bool:
-    """Return whether a name is a rosdep key that only pip installs, which the build farm does not accept."""
+    """Return whether a name is a rosdep key that is installed by pip and not by apt, which the build farm does not accept."""
     key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
     return key is not None and bool(key.pip) and not key.apt
 

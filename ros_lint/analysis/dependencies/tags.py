@@ -42,7 +42,10 @@ def _always_depend(package: Package) -> bool:
 
 
 def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
-    """Return whether one of the <depend> tags is needed at run time only, by its uses or by convention."""
+    """Return whether the manifest contains a ``<depend>`` tag for a dependency that is only needed at run time.
+
+    The uses of the dependency decide; without uses, the tags that released packages mostly use for it.
+    """
     roles: dict[str, Role] = {}
     for use in package.uses:
         for name in use.providers:
@@ -92,9 +95,9 @@ def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
 
 
 def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:
-    """Return whether released packages mostly declare a name as a build tool.
+    """Return whether most released packages that declare a name declare it as a build tool.
 
-    Test dependencies are not counted, unless the package exports the dependency in its public headers.
+    Packages that declare the name only for tests do not count, unless the needed roles include exporting.
     """
     counts = workspace.world.knowledge.index.declared_as(name)
     declared = {kinds: count for kinds, count in counts.items() if kinds != "s" or _has(needed, Role.EXPORT)}
@@ -102,7 +105,7 @@ def _is_tool(workspace: Workspace, name: str, needed: Role) -> bool:
 
 
 def _is_only_run(workspace: Workspace, name: str) -> bool:
-    """Return whether many released packages declare a name, mostly for run time only."""
+    """Return whether many released packages declare a name, and most of them only for run time."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * declared.get("x", 0) > max(_FEW, sum(declared.values()))
 
@@ -112,7 +115,7 @@ _FEW = 40
 
 
 def _is_only_for_building(workspace: Workspace, name: str) -> bool:
-    """Return whether released packages mostly declare a name for building only."""
+    """Return whether most released packages that declare a name declare it only for building."""
     declared = workspace.world.knowledge.index.declared_as(name)
     return 2 * sum(count for kinds, count in declared.items() if set(kinds) <= {"b", "t"}) > sum(declared.values())
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def is_library(world: World, name: str) -> bool:
-    """Return whether a name is a key of a compiled library, which a launch file cannot use."""
+    """Return whether a name is a rosdep key other than ``python*``. Such a key is a compiled library, useless to launch files."""
     return world.is_key(name) and not name.startswith("python")
 
 
@@ -22,11 +22,12 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
     """Return whether a package can use a dependency without naming it in its sources.
 
     True for:
-    - names that are not known as a package,
-    - packages that provide others, CMake macros or plugins,
+    - names that are no known package, and rosdep keys,
+    - packages whose name suggests it, such as linters and generators,
+    - packages with plugins, and packages of the workspace with CMake macros or without any content,
+    - metapackages,
     - packages of the workspace with a submodule that is not cloned,
-    - names that indicate a substitute or a collection,
-    - packages that the code generated from interfaces needs.
+    - packages that the code generated from the interfaces of this package needs.
 
     See also :func:`is_mostly_runtime`.
     """
@@ -44,7 +45,10 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
 
 
 def only_brings(world: World, name: str) -> bool:
-    """Return whether a released package is a metapackage, by its manifest or for lack of content."""
+    """Return whether a released package is a metapackage, which only installs other packages.
+
+    Its manifest says so, or it has only run-time dependencies and no known content.
+    """
     released = world.released(name)
     if released is None or "m" in released.flags[1:]:
         return released is not None
@@ -66,7 +70,7 @@ def _stands_for_others(package: Package, world: World, name: str) -> bool:
 
 
 def _offers_nothing(world: World, released: Released) -> bool:
-    """Return whether no content of a released ament_cmake package is known."""
+    """Return whether a released ament_cmake package certainly contains no interfaces, programs, launch files or other content."""
     if released.build_type != "ament_cmake" or released.interfaces:
         return False
     known = (world.executables, world.launch_files, world.components, world.plugins, world.python_modules, world.programs)
@@ -74,10 +78,10 @@ def _offers_nothing(world: World, released: Released) -> bool:
 
 
 def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
-    """Return whether released packages mostly declare a name without a build tag.
+    """Return whether most released packages that declare a name declare it without a build tag.
 
-    The use of such a package may leave no trace in the sources. Always false for packages that contain only interfaces,
-    because code has to name them.
+    The use of such a package may leave no trace in the sources. False for packages of the workspace, and for packages
+    with interfaces but no programs, because code has to name interfaces.
     """
     world = workspace.world
     if name in workspace.by_name or not world.is_package(name):
@@ -90,15 +94,16 @@ def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
 
 
 def has_programs(world: World, name: str) -> bool:
-    """Return whether a package is known to have executables, launch files, components or plugins."""
+    """Return whether a package has executables, launch files, components or plugins, as far as its content is known."""
     offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
     return any(offer(name).names for offer in offers)
 
 
 def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a use of the dependency has to be visible in the sources.
+    """Return whether the sources of a package must name the dependency ``name`` if they use it.
 
-    This holds for interfaces. It also holds for Python modules without executables if the package has no Python code.
+    True if ``name`` is a released package with interfaces, or if it has Python modules but no programs and this package has
+    no file that can contain Python code.
     """
     world = workspace.world
     released = world.released(name)

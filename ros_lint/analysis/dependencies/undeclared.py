@@ -28,18 +28,19 @@ _CUT_SHORT = frozenset({"bare-ampersand", "encoding", "entity", "invalid-xml", "
 
 @cached_by_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
-    """Return the needs that no declared dependency provides, each with True if it is certain.
+    """Return the needs that no declared dependency provides, each with True if the need is certain.
 
     Left out are:
-    - names that only launch files outside of tests start, include or look up, because another rule reports them,
-    - dependencies that are declared by another name,
-    - CMake commands that come with another missing dependency.
+    - packages that only launch files outside of tests name, because another rule reports them,
+    - packages that are declared by another name, such as a rosdep key,
+    - packages that only CMake macros name, if another undeclared package provides them.
 
     Not certain are:
-    - names that are only used in launch modules, because the caller may provide them,
-    - names that are declared under a false condition, unless CMake needs them: their files may be unused here, too,
-    - files of a metapackage, because it has none,
-    - the probable meaning of a misspelled declared name, because that name is reported.
+    - packages that only launch modules name, because the launch file that imports the module may provide them,
+    - packages declared under a false condition, unless CMake needs them, because the files with the uses may be unused, too,
+    - files of a metapackage, because a metapackage has no files, so the name is probably wrong,
+    - packages that a misspelled declared name probably means, because the misspelled name is reported,
+    - packages that a dependency with unknown dependencies may provide.
     """
     unknown = all_declared(package, workspace).unknown
     result = []
@@ -69,7 +70,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 
 
 def is_declared_misspelled(package: Package, workspace: Workspace, need: Need) -> bool:
-    """Return whether a misspelled declared name probably means this need, and is reported instead."""
+    """Return whether package.xml probably declares the needed package by a misspelled name, which another rule reports."""
     names = set(misspelled_names(package, workspace).values())
     return any(names.intersection(use.providers) for use in need.uses)
 
@@ -78,14 +79,17 @@ _BUILT = frozenset({"cmake", "macro", "target"})
 
 
 def _looks_into_nothing(need: Need, workspace: Workspace) -> bool:
-    """Return whether only files of a metapackage are used: it has none, so another package is intended."""
+    """Return whether only launch files and look-ups of files use the package, although it is a metapackage without files.
+
+    Probably another package is intended.
+    """
     if need.name in workspace.by_name or any(use.via not in ("package", "launch") for use in need.uses):
         return False
     return only_brings(workspace.world, need.name)
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a former package is declared as a key of the system: libnlopt-dev for nlopt."""
+    """Return whether a rosdep key for the library ``name`` is declared: libnlopt-dev for the former ROS package nlopt."""
     return any(workspace.world.is_key(declared.name) and is_part(declared.name, name) for declared in package.declared)
 
 
@@ -96,7 +100,7 @@ def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
 
 
 def provided_in_other_distros(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a declared dependency provides the name in a distribution other than the target."""
+    """Return whether a declared dependency provides ``name`` transitively in a distribution other than the target."""
     starts = {declared.name for declared in package.declared}
     closure = all_declared(package, workspace)
     for name_here, namesakes in workspace.by_name.items():
@@ -106,7 +110,7 @@ def provided_in_other_distros(package: Package, workspace: Workspace, name: str)
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:
-    """Join needs for one package that find_package() and #include name differently."""
+    """Return the needs, with two needs joined into one if find_package() and #include name the needed package differently."""
     result: list[Need] = []
     for need in missing:
         for number, earlier in enumerate(result):
@@ -131,10 +135,10 @@ def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> boo
 
 
 def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
-    """Return the uses of a name, those first that no declared unknown name could satisfy.
+    """Return ``uses`` if an unknown dependency cannot satisfy every certain use of them, else ().
 
-    () if the unknown names could satisfy every certain use. Each use is judged for itself: an unknown package may
-    provide a library, but that does not help a script that calls find_package().
+    ``unknown`` are the declared names whose dependencies are unknown. The uses that none of them could satisfy come first.
+    Each use counts separately: an unknown package may provide a library, but not the file that find_package() needs.
     """
     uses = tuple(uses)
     answers = dict.fromkeys([use.providers for use in uses])
@@ -156,6 +160,6 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
 
 
 def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
-    """Return whether only launch files import the package, and each installation of launch contains it."""
+    """Return whether all uses are imports, in launch files, of packages that are installed together with ``ros2 launch``."""
     launched = {launch.path for launch in package.launch}
     return all(use.via == "import" and use.package in LAUNCH_RUNTIME and use.span.path in launched for use in uses)

@@ -1,4 +1,4 @@
-"""Estimates whether an unknown declared dependency provides a package: then a need is uncertain."""
+"""Whether an unknown declared dependency may provide a package. If it may, an undeclared need is not certain."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ros_lint.workspace.model import Workspace
 
 
 def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
-    """Return whether one of the unknown declared names could provide a package.
+    """Return whether one of the declared names ``unknown``, about which there are no data, could provide the package ``name``.
 
     The answer follows from these assumptions:
     - Unknown packages do not depend on packages of this workspace, because repositories do not depend on each other in
       a cycle.
-    - Packages of interfaces provide only interfaces.
-    - Build tools and linters are provided by packages of that kind.
-    - Libraries may be provided by any package.
+    - Unknown packages that are named like packages of interfaces provide only interfaces.
+    - Only unknown packages that are named like build tools or linters provide build tools and linters.
+    - Any unknown package may provide a library.
     - A package that few released packages provide is not provided by an unknown package with a quite different name.
     """
     if name in workspace.by_name:

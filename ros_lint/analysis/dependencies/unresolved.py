@@ -14,7 +14,7 @@ _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
 
 
 class UnresolvedDependency(NamedTuple):
-    """A declared name that does not resolve."""
+    """A declared name that is neither a package nor a rosdep key."""
 
     package: Package
     """The package that declares the name."""
@@ -32,7 +32,7 @@ class UnresolvedDependency(NamedTuple):
 
     @property
     def runs_python(self) -> bool:
-        """True if the name may be needed only to run Python code, as far as its tags and uses show."""
+        """True if the tags and uses of the name allow that only Python code needs it at run time."""
         if self.package.builds_with == "ament_python":
             return True
         vias = {use.via for use in self.matching_uses}
@@ -64,7 +64,7 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield the unresolved dependency on a name once for each package that certainly declares it.
+    """Yield an unresolved dependency for each of ``packages`` that certainly declares ``name``, a name that does not resolve.
 
     A tag under a condition of unknown value is not certain.
     """
@@ -86,9 +86,9 @@ def resembles_ament_package(name: str, workspace: Workspace) -> bool:
 
 @cached_by_package
 def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the packages that the misspelled dependencies of a package probably mean.
+    """Return the packages that the unresolved names in a package's manifest probably mean: ``rclcpp`` for ``rclcp``.
 
-    They are not reported as undeclared, because the misspelled name is reported.
+    The packages are not reported as undeclared, because the unresolved name is reported.
     """
     result = (
         workspace.world.meant(unresolved_dependency.name, python=unresolved_dependency.runs_python)
@@ -115,10 +115,10 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDepen
 
 
 def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> str:
-    """Return the intended package of an unresolved name, or "" if it is not certain.
+    """Return the package that an unresolved name probably means, or "" if there is no such package or more than one.
 
-    It is the only similar package that is used and not declared. A name of the same words in another order or spelling
-    is similar. Any other similar name counts only if the unresolved name appears nowhere but in the manifest.
+    The package has a similar name, and this package uses it without declaring it. Names with the same words
+    (``robot-talk``, ``talk_robot``) always count as similar. Otherwise the unresolved name must appear only in the manifest.
     """
     package, name = dependency.package, dependency.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]

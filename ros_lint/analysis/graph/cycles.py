@@ -42,7 +42,10 @@ def arcs_within(arcs: Mapping[str, Collection[str]], nodes: Collection[str]) -> 
 
 
 def shortest_cycle(arcs: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return the nodes of a shortest cycle, beginning with the first name, or () if there is no cycle."""
+    """Return the nodes of a shortest cycle, or () if there is no cycle.
+
+    The alphabetically first node of the cycle comes first.
+    """
     best: tuple[str, ...] = ()
     for start in sorted(arcs):
         candidate = _cycle_through(arcs, start, len(best) or len(arcs) + 1)
@@ -123,7 +126,10 @@ def _cut_component(arcs: Edges, weight: Callable[[Edge], int]) -> Iterable[Edge]
 
 
 def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
-    """Compare all orders of the nodes: an edge to a node that comes later in the order has to be cut."""
+    """Return the cheapest edges whose removal breaks all cycles, found by comparing all orders of the nodes.
+
+    For an order of the nodes, each edge from a node to a later node has to be cut.
+    """
     names = sorted(arcs)
     number = {name: index for index, name in enumerate(names)}
     weights = [[(1 << number[dependency], weight((name, dependency))) for dependency in sorted(arcs[name])] for name in names]
@@ -148,7 +154,10 @@ def _cut_by_orders(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
 
 
 def _cut_by_branching(arcs: Edges, weight: Callable[[Edge], int], depth: int) -> list[Edge]:
-    """Cut each edge of a shortest cycle in turn, because every cut contains one of them."""
+    """Return the cheapest cut of at most ``depth`` edges, or [] if every cut needs more edges.
+
+    Each edge of a shortest cycle is tried as a part of the cut, because every cut contains at least one of these edges.
+    """
     cycle = shortest_cycle(arcs)
     best: list[Edge] = []
     for edge in zip(cycle, (*cycle[1:], cycle[0]), strict=True):
@@ -165,7 +174,7 @@ def _cut_by_branching(arcs: Edges, weight: Callable[[Edge], int], depth: int) ->
 
 
 def _cut_by_greed(arcs: Edges, weight: Callable[[Edge], int]) -> list[Edge]:
-    """Order the nodes by their degrees (Eades, Lin and Smyth), then drop needless edges of the cut."""
+    """Return a cut without needless edges, from an order of the nodes by their degrees (Eades, Lin and Smyth)."""
     cut = set(_against(arcs, _greedy_order(arcs, weight)))
     for edge in sorted(cut, key=lambda edge: (-weight(edge), edge)):
         smaller = cut - {edge}

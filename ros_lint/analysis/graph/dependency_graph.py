@@ -44,7 +44,7 @@ class Reason(NamedTuple):
 
 
 class Order(NamedTuple):
-    """A build order, as complete as the cycles allow."""
+    """A build order of the packages, and the packages that cannot be ordered because of a cycle."""
 
     names: tuple[str, ...]
     """Packages in an order in which dependencies come first."""
@@ -183,7 +183,7 @@ def _categories(role: Role) -> Iterator[str]:
 
 
 def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ...]:
-    """Return the strongly connected components with a cycle, each sorted, by their first names."""
+    """Return the strongly connected components that contain a cycle, sorted by their first name. Each component is sorted."""
     import networkx as nx  # noqa: PLC0415  (costs more than a run without a cycle)
 
     # Nodes without predecessors or without successors lie on no cycle.
@@ -195,7 +195,7 @@ def components(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], ..
 
 
 def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
-    """Return the edges reversed."""
+    """Return the graph with each edge reversed."""
     result: dict[str, set[str]] = {name: set() for name in arcs}
     for name, dependencies in arcs.items():
         for dependency in dependencies:
@@ -204,7 +204,7 @@ def reverse(arcs: Mapping[str, Collection[str]]) -> Edges:
 
 
 def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]:
-    """Return the nodes that can be reached over at least one edge."""
+    """Return the nodes that can be reached from ``start`` over at least one edge; ``start`` itself only if it is on a cycle."""
     result: set[str] = set()
     waiting = [start]
     while waiting:
@@ -215,14 +215,15 @@ def reachable(arcs: Mapping[str, Collection[str]], start: str) -> frozenset[str]
 
 
 def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:
-    """Return whether there is an order in which each node follows its successors."""
+    """Return whether a graph has no cycle."""
     return not sort(arcs)[1]
 
 
 def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the nodes in an order that puts dependencies first, and the nodes that are in or behind a cycle.
+    """Return the nodes with dependencies first, and separately the nodes that cannot be ordered.
 
-    Of several orders, this is the first one by name.
+    Nodes on a cycle, and nodes that depend on such a node, cannot be ordered. Of several possible orders, the
+    alphabetically first is returned.
     """
     missing = {name: len(dependencies) for name, dependencies in arcs.items()}
     before = reverse(arcs)

@@ -1,4 +1,4 @@
-"""Metrics of the packages of a graph. Sets of packages are bits of integers, for speed."""
+"""Metrics of the packages of a graph. For speed, a set of packages is an integer with one bit for each package."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def measure(graph: Graph) -> Mapping[str, Metrics]:
 
 
 def _knots(graph: Graph) -> dict[str, str]:
-    """Return the first member of the component of each package."""
+    """Return, for each package, the first member of its strongly connected component: the package itself if on no cycle."""
     first_members = {name: name for name in graph.names}
     if graph.order.stuck or graph.possible_cycles:
         for members in components(graph.arcs):
@@ -95,7 +95,10 @@ def _on_the_way(knot: Mapping[str, str], end: str, below: Mapping[str, int], bit
 
 
 def _shortest(graph: Graph, starts: Collection[str], end: str, useful: Callable[[str], bool]) -> tuple[str, ...]:
-    """Return a shortest path from one of the starts to the end."""
+    """Return a shortest path from one of ``starts`` to ``end``, through packages for which ``useful`` is true.
+
+    There has to be such a path.
+    """
     predecessor = dict.fromkeys(starts, "")
     level = list(starts)
     while end not in predecessor:

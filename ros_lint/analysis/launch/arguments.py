@@ -17,7 +17,7 @@ _DIGITS = re.compile(r"\d+")
 
 
 class SimilarRead(NamedTuple):
-    """A configuration that is read with a default but never declared."""
+    """A launch configuration that a file reads with a default but does not declare, although it declares a similar argument."""
 
     span: Span
     """The first place where it is read."""
@@ -39,7 +39,10 @@ class ArgumentUse(NamedTuple):
 
 
 def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
-    """Return how a launch file uses its arguments, None if other files may use or declare them in unknown ways."""
+    """Return how a launch file declares and reads launch arguments.
+
+    None if a file that it includes, that includes it or that is unreadable may declare or read further arguments.
+    """
     tree, resolver = include_tree(workspace), include_resolver(workspace)
     own = tree.names(file)
     if workspace.unread() or not own.complete or not resolver.takes(file).complete:
@@ -55,7 +58,10 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
 
 
 def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, SimilarRead]]:
-    """Yield the names that are read with a default and resemble a declared argument with the same digits."""
+    """Yield those of ``names`` that the file reads with a default and that resemble a declared argument.
+
+    Names with different digits are not similar: ``camera1`` and ``camera2``.
+    """
     for (name, has_default), span in read_sites(file, names).items() if names else ():
         digits = _DIGITS.findall(name)
         near = similar_names(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)

@@ -29,7 +29,7 @@ class FileConfigurations(NamedTuple):
 
 
 def names_of(file: LaunchFile) -> FileConfigurations:
-    """Return the configurations of a launch file, without those of included files."""
+    """Return the launch configurations that a file declares, sets, passes and reads, without those of included files."""
     declared: dict[str, Span] = {}
     set_or_passed: set[str] = set()
     read = configurations_read(file)
@@ -46,12 +46,12 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
-    """Return the names that have to be set because the file reads them without a default."""
+    """Return those of ``names`` that the file reads without a default, so that they have to be set; each with the first place."""
     return {name: span for (name, has_default), span in read_sites(file, names).items() if not has_default}
 
 
 def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
-    """Return the first place where a file reads each name, separately with and without a default."""
+    """Return the first place where a file reads each of ``names``. The keys are pairs: the name, and True if with a default."""
     result: dict[tuple[str, bool], Span] = {}
     for action in walk_actions(file.actions):
         for text, span in values_of_action(action):
@@ -82,7 +82,10 @@ class IncludeTree:
         return self._names[file.path]
 
     def fill(self, file: LaunchFile) -> bool:
-        """Return whether the file, an included or an including one substitutes configurations in parameters."""
+        """Return whether this file, a file that it includes or a file that includes it may read any launch configuration.
+
+        Such a file substitutes configurations in a parameter file, and users can replace the parameter file.
+        """
         if not self._filling:
             return False
         path = file.path
@@ -104,7 +107,7 @@ def include_tree(workspace: Workspace) -> IncludeTree:
 
 
 def _reached(edges: Mapping[str, set[str]], start: str) -> set[str]:
-    """Return the paths that can be reached from a path, without the path itself."""
+    """Return the paths that can be reached over ``edges`` from the path ``start``, without ``start`` itself."""
     seen = {start}
     waiting = [start]
     while waiting:

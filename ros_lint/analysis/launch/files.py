@@ -20,7 +20,7 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 class PackageLaunchFile(NamedTuple):
-    """A launch file with its path in the package."""
+    """A launch file of a package, with its path and with whether it is installed and launched."""
 
     file: LaunchFile
     """The launch file."""
@@ -33,7 +33,7 @@ class PackageLaunchFile(NamedTuple):
 
 
 def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[PackageLaunchFile]:
-    """Yield the launch files that users launch. ``apart`` adds those of tests and examples.
+    """Yield the launch files of a package that users launch. ``apart`` adds the launch files of tests and examples.
 
     Python modules without generate_launch_description() are left out.
     """
@@ -61,7 +61,7 @@ def is_launch_file(package: Package, path: str) -> bool:
 
 
 def used_files(package: Package) -> frozenset[str]:
-    """Return the files that are certainly installed, compiled or launched, or part of the build script.
+    """Return the files of a package that are certainly used: installed, compiled, launched or part of the build script.
 
     Paths are relative to the package.
     """
@@ -79,9 +79,9 @@ def used_files(package: Package) -> frozenset[str]:
 def references_by_name(
     package: Package, kinds: Container[str], *, apart: bool = False
 ) -> dict[tuple[str, str], list[LaunchReference]]:
-    """Return the references of some kinds in the launch files of a package, by package and name.
+    """Return the references in the launch files of a package whose kind is in ``kinds``, such as "node" or "include".
 
-    The launch files are those of :func:`package_launch_files`.
+    The keys are the package and the name that a reference contains. ``apart`` is that of :func:`package_launch_files`.
     """
     result: dict[tuple[str, str], list[LaunchReference]] = {}
     for launch in package_launch_files(package, apart=apart):
@@ -92,9 +92,10 @@ def references_by_name(
 
 
 def rename_fix(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
-    """Return the unsafe fix that writes a text at some places, or None if it is "" or a place is not exact.
+    """Return the unsafe fix that replaces the text at each place by ``text``.
 
-    Each place has a flag that is true if the span covers exactly the name (``LaunchReference.exact``).
+    A place is a span, and True if the span covers exactly the name to replace (``LaunchReference.exact``). The result is
+    None if ``text`` is "" or if a place is not exact.
     """
     if not text or not all(exact for _, exact in places):
         return None
@@ -152,7 +153,7 @@ def is_excluded_from_install(package: Package, path: str) -> bool:
 
 @cached_by_workspace
 def nodes_started(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
-    """Return the places where launch files start executables, by package and executable."""
+    """Return the places where launch files start executables: package -> executable -> references. See `node_references`."""
     return node_references(workspace.packages)
 
 
@@ -163,10 +164,10 @@ def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
 
 
 def node_references(packages: Iterable[Package], *, excluded: bool = False) -> dict[str, dict[str, list[LaunchReference]]]:
-    """Return the places where launch files start executables, by package and executable, tests included.
+    """Return the places where launch files start executables, tests included: package -> executable -> references.
 
-    ``excluded`` selects the launch files that are deliberately not installed (:func:`is_excluded_from_install`).
-    Otherwise these are left out.
+    If ``excluded`` is true, only launch files that are deliberately not installed (:func:`is_excluded_from_install`) are
+    searched, otherwise all other launch files.
     """
     result: dict[str, dict[str, list[LaunchReference]]] = {}
     for package in packages:

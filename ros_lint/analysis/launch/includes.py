@@ -73,7 +73,10 @@ class IncludeResolver:
                 self._places.setdefault(file.path, linked)
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> InstalledLaunchFile | None:
-        """Return the launch file of the workspace that an include refers to, or None if unknown or ambiguous."""
+        """Return the launch file of the workspace that an include in ``source`` refers to.
+
+        None if the path is unknown, or if not exactly one launch file of the workspace is installed there.
+        """
         texts = (
             () if value is None else value.texts if all(map(is_settled, value.texts)) else substitute(value, self._set_in(source))
         )
@@ -84,7 +87,10 @@ class IncludeResolver:
         return candidates[0] if len(candidates) == 1 else None
 
     def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
-        """Return the configurations that a file sets, without its launch arguments, which callers can change."""
+        """Return the values of the launch configurations that a file sets.
+
+        Launch arguments of the file are left out, because callers can change them.
+        """
         done = self._sets.get(file.path)
         if done is None:
             targets = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
@@ -94,9 +100,9 @@ class IncludeResolver:
         return done
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
-        """Return the package and the path below its share folder to which a path in a launch file refers.
+        """Return where the path ``text`` in the launch file ``source`` leads: a package, and the path below its share folder.
 
-        None if the path is unknown or elsewhere.
+        None if the path is not completely known or leads to no share folder.
         """
         if not is_settled(text):
             return None
@@ -113,7 +119,7 @@ class IncludeResolver:
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return the launch file at an install path, as includes refer to it."""
+        """Return the launch file of the workspace that is installed at ``path``, or None if there is not exactly one."""
         place = installed_place(path)
         candidates = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
         return candidates[0].file if len(candidates) == 1 else None
@@ -183,7 +189,7 @@ def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the possible values of a text if launch configurations have the values in ``defaults``.
+    """Return the possible values of a launch text after replacing launch configurations by their values in ``defaults``.
 
     () if there is no text.
     """

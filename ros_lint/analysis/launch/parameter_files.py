@@ -42,7 +42,10 @@ class ParameterFiles:
                 self._by_path[key] = None if key in self._by_path else file
 
     def given(self, file: LaunchFile) -> Iterator[NodeParameterFile]:
-        """Yield the parameter files that a launch file passes to nodes, as far as they can be resolved."""
+        """Yield the parameter files of the workspace that a launch file passes to nodes.
+
+        Files with an unknown path are left out.
+        """
         defaults: Mapping[str, tuple[str, ...]] | None = None
         for action in walk_actions(file.actions):
             for name, value in action.parameters if action.kind in ("node", "component") else ():

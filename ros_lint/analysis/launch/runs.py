@@ -30,7 +30,7 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class PassedFile(NamedTuple):
-    """A file that an included launch file refers to, resolved with the arguments of the including file."""
+    """A launch or parameter file to which an included launch file refers, given the arguments that the include passes."""
 
     package: str
     """Package whose share folder contains the file."""
@@ -51,7 +51,7 @@ class PassedFile(NamedTuple):
 def expand_defaults(
     file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], arguments: Mapping[str, str] = _NOTHING
 ) -> Expansion:
-    """Return what a launch file starts with some launch arguments, none by default.
+    """Return the processes and includes that result from launching a file with ``arguments``; other arguments have defaults.
 
     ``follow`` returns True for each included file that is to be expanded.
     """
@@ -115,7 +115,10 @@ def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:
 
 
 def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
-    """Yield the texts with expressions, each with its place and whether its action is conditional."""
+    """Yield the texts of a launch file that contain a Python expression.
+
+    Each text comes with its place, and with True if its action runs only under a condition.
+    """
     waiting = [(action, False) for action in reversed(file.actions)]
     while waiting:
         action, conditional = waiting.pop()
@@ -131,7 +134,10 @@ def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
 
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
-    """Yield the argument, the expression and the unknown name of each failing expression in a text."""
+    """Yield each Python expression in a launch text that fails because an argument has its default.
+
+    Each result has the argument, the expression, and the undefined name ("" if the expression is no valid Python).
+    """
     from ros_lint.collectors.launch.expressions import evaluate, unresolved_names  # noqa: PLC0415  (imports the Python parser)
 
     known = {
@@ -164,7 +170,10 @@ _TRUTHS = frozenset({"true", "false"})
 
 
 def _expressions(text: str, values_of: Callable[[str], tuple[str, ...] | None]) -> list[str]:
-    """Return the expressions in a text with the values of configurations, nested ones included."""
+    """Return the Python expressions in a launch text, after replacing launch configurations by ``values_of`` their names.
+
+    Nested expressions are included.
+    """
     result: list[str] = []
 
     def take(expression: str) -> str:

@@ -1,4 +1,4 @@
-"""Scopes of launch: arguments of an include stay set up to the end of the scoped group."""
+"""Scopes of launch: an argument passed to an include stays set after the include, up to the end of the scoped group."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ros_lint.workspace.model import Workspace
 
 
 class PlacedInclude(NamedTuple):
-    """An include and its position in the launch file."""
+    """An include, and the actions that run after it in the same scope."""
 
     action: LaunchAction
     """The include."""
@@ -24,7 +24,7 @@ class PlacedInclude(NamedTuple):
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
-    """Yield the includes of a file, in order."""
+    """Yield the includes of a launch file, nested ones too, in the order of the file."""
     return _includes(file.actions, (), leaves=True)
 
 
@@ -40,7 +40,7 @@ def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction], *,
 
 
 class ScopeLeaks:
-    """Finds the launch files that read configurations which an include leaves set."""
+    """Finds launch files that may read a launch configuration which an earlier include has left set."""
 
     def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._links = links
@@ -51,11 +51,14 @@ class ScopeLeaks:
                     self._above.setdefault(target.file.path, []).append((file, include))
 
     def is_taken_later(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
-        """Return whether a later action of ``source``, the file of the include, may read the configuration."""
+        """Return whether an action after ``include`` in the launch file ``source`` may read the configuration ``name``."""
         return any(self._may_take(action, name, source) for action in include.later)
 
     def is_taken_above(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
-        """Return whether a file that includes ``source`` may read the configuration after the include."""
+        """Return whether a launch file that includes ``source`` may read the configuration ``name`` after ``source`` has run.
+
+        ``include`` is the include in ``source`` that sets ``name``.
+        """
         seen, waiting = {source.path}, [source.path] if include.leaves else []
         while waiting:
             for file, above in self._above.get(waiting.pop(), ()):
@@ -80,6 +83,6 @@ class ScopeLeaks:
 
 @cached_by_workspace
 def scope_leaks(workspace: Workspace) -> ScopeLeaks:
-    """Return which launch files of the workspace read configurations that an include leaves set."""
+    """Return the object that answers, for this workspace, whether a configuration left set by an include is read later."""
     files = [file for package in workspace.packages for file in package.launch]
     return ScopeLeaks(files, include_resolver(workspace))

@@ -43,7 +43,7 @@ def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
 
 
 def _enclosing(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
-    """Return the names of the enclosing blocks, and whether one of their conditions depends on tests."""
+    """Return the names of the enclosing blocks, outermost first, and whether one of them is ``if(BUILD_TESTING)``."""
     return tuple([block for block, _ in blocks]), any(for_tests for _, for_tests in blocks)
 
 

@@ -192,9 +192,10 @@ _OF_AMENT: Final = re.compile(r"_?AMENT_(?:CMAKE_)?E")
 
 
 def _exported_packages(run: Run) -> Iterator[tuple[Mention, bool]]:
-    """Yield the packages that CONFIG_EXTRAS and templates search, with whether the search always runs.
+    """Yield the packages that this package finds for its dependents, each with True if find_package() always runs.
 
-    Searches in functions and macros are left out, because they run only when the macro is called.
+    The calls of find_package() and find_dependency() are in CONFIG_EXTRAS and in templates of CMake configurations. Calls
+    in functions and macros are left out, because they run only if the function or macro is called.
     """
     for file in dict.fromkeys([*run.results.config_extras, *run.results.config_templates]):
         blocks: list[bool | None] = []  # for each enclosing block, whether it always runs; None for a function or macro
@@ -225,7 +226,7 @@ _PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
 
 
 def _tests_existence(words: Sequence[str]) -> bool:
-    """Return whether a condition only tests if a target, a package or a policy already exists."""
+    """Return whether a condition only tests whether a target, a package or a policy exists: ``NOT TARGET fmt::fmt``."""
     return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
 
 
@@ -264,23 +265,30 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 
 
 def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
-    """Return the mentions of other packages. Those in find_package() without REQUIRED are classified.
+    """Return the mentions of other packages, after those in find_package(X) without REQUIRED are classified.
 
-    Such a mention is optional if a condition tests X_FOUND. It is for tests if only tests use the targets, variables or
-    macros of the package. ``used`` is the result of :func:`_used_packages`.
+    Such a mention becomes optional if a condition tests X_FOUND, unless the script stops when X is not found. It becomes a
+    mention for tests if only tests use the targets, variables or macros of X. ``used`` is the result of
+    :func:`_used_packages`.
     """
     if not run.packages.optional_finds:
         return tuple(run.results.mentions)
+    checked = run.packages.required_by_check
+    required = {name for name in run.packages.optional_finds if name in checked or name.upper() in checked}
+    quiet = {span for name in required for span in run.packages.optional_finds[name]} & run.packages.quiet_finds
     guarded = {
         span
         for name in run.packages.optional_finds
-        if f"{name}_FOUND" in run.tested_variables
+        if name not in required and f"{name}_FOUND" in run.tested_variables
         for span in run.packages.optional_finds[name]
     }
     tests = {span for name in run.packages.optional_finds if used.get(folded(name)) for span in run.packages.optional_finds[name]}
     return tuple(
         [
-            mention._replace(optional=mention.optional or mention.span in guarded, test=mention.test or mention.span in tests)
+            mention._replace(
+                optional=(mention.optional and mention.span not in quiet) or mention.span in guarded,
+                test=mention.test or mention.span in tests,
+            )
             if mention.via == "cmake"
             else mention
             for mention in run.results.mentions
@@ -289,9 +297,9 @@ def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
 
 
 def _used_packages(run: Run) -> dict[str, bool]:
-    """Return the packages whose targets, variables or macros are used, with whether only tests use it.
+    """Return the packages whose targets, variables or macros the scripts use; the value is True if only tests use them.
 
-    The keys are folded names (see :func:`folded`).
+    The keys are folded names of packages (see :func:`folded`).
     """
     used: dict[str, bool] = {}
     for mention in run.results.mentions:
@@ -318,7 +326,7 @@ They provide commands, find modules or settings."""
 
 
 def _unmentioned(run: Run, names: Iterable[str]) -> list[str]:
-    """Return the names that occur in no command of the package except find_package()."""
+    """Return the elements of ``names`` that occur in no command of the package except find_package()."""
     candidates = list(names)
     if not candidates:
         return candidates
@@ -336,19 +344,15 @@ def _missing_files(run: Run) -> list[Problem]:
         if not unsure and run.paths.generated.isdisjoint((source, path)) and not run.paths.is_folder(source):
             empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
             message = f"'{source}' does not exist" if source == path else empty
-            problems.append(Problem("missing-file", message, span, subject=source))
+            problems.append(Problem("missing-file", message, span, subject=path))
     return list(dict.fromkeys(problems))
 
 
 def _undefined_targets(run: Run) -> list[Problem]:
-    if run.any_variable_may_be_set or any(
-        opaque.hides & Facet.LIBRARIES and not opaque.undefined for opaque in run.results.opaques
-    ):
-        return []
     return [
-        Problem("undefined-target", f"install() fails because '{name}' is not a target", span)
-        for name, span, conditional in run.results.undefined_targets
-        if not conditional and "__rosidl" not in name
+        Problem("undefined-target", f"install() fails because '{name}' is not a target", span, subject=name)
+        for name, span, certain in run.results.undefined_targets
+        if certain and "__rosidl" not in name
     ]
 
 

@@ -60,7 +60,7 @@ class Command(NamedTuple):
         return Span(path, *self._position(start), *self._position(end))
 
     def place(self, path: str) -> Span:
-        """Return the span of the name."""
+        """Return the span of the name of the command, in the file ``path``."""
         return tuple.__new__(Span, (path, self.line, self.column, self.line, self.column + len(self.written)))
 
     def _position(self, offset: int) -> tuple[int, int]:
@@ -232,7 +232,7 @@ class _Reader:
         return _OPENING.match(self.text, offset) is not None
 
     def _wrong(self, at: int) -> _SyntaxError:
-        """Return the error for an offset at which no token begins."""
+        """Return the error that explains why no token begins at an offset, such as "a string is not closed"."""
         letter = self.text[at]
         reasons = {
             '"': "a string is not closed",
@@ -242,7 +242,7 @@ class _Reader:
         return _SyntaxError(reasons.get(letter, f"{letter!r} is not allowed here"), at, at + 1)
 
     def _count_lines(self) -> None:
-        """Recount the lines of commands in a file with carriage returns, because Text ends lines at these too."""
+        """Recount the lines of commands in a file with carriage returns, because Text ends lines at carriage returns, too."""
         for number, command in enumerate(self.commands):
             line, column = self.source.position(command.start)
             last = self.source.position(command.end)[0]

@@ -45,7 +45,7 @@ class Project(NamedTuple):
 
 
 def project(text: Text) -> Project:
-    """Return the name that colcon gives to the folder of a ``CMakeLists.txt``."""
+    """Return the data that colcon reads from a ``CMakeLists.txt``: the project name, which names the package."""
     match = _PROJECT.search(_PlainText(text).closed())
     name = match[2] if match else ""
     toplevel = name == "Project" and "catkin_workspace()" in text.text.splitlines()
@@ -67,7 +67,7 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
 
 
 def subdirectories(text: Text) -> frozenset[str]:
-    """Return the literal folders that a ``CMakeLists.txt`` adds to its build, relative to it.
+    """Return the folders that a ``CMakeLists.txt`` adds by add_subdirectory() with a literal path, relative to its folder.
 
     Calls of functions that wrap add_subdirectory() count if their name is add_subdirectory with a word inserted.
     """
@@ -81,7 +81,7 @@ def _modules(content: str) -> Iterator[tuple[str, int, int]]:
 
 
 class _PlainText:
-    """A text without comments, and without quotes that are not closed on their line."""
+    """The content of a CMake file without comments and unclosed quotes; converts offsets in it to spans of the file."""
 
     def __init__(self, text: Text) -> None:
         self._text = text
@@ -103,7 +103,10 @@ class _PlainText:
         self.content = "".join(pieces)
 
     def closed(self) -> str:
-        """Return the content up to its last closing parenthesis, because each unclosed one costs a search."""
+        """Return the content up to its last closing parenthesis.
+
+        The rest has no complete command, and each unclosed parenthesis in it would cost a search to the end.
+        """
         return self.content[: self.content.rfind(")") + 1]
 
     def span(self, start: int, end: int) -> Span:

@@ -1,8 +1,7 @@
-"""Setup scripts of a folder without a usable manifest, as colcon reads them.
+"""Name and dependencies of a Python package without a usable package.xml, from its setup scripts, as for colcon.
 
-The result is the name of the package and its dependencies. colcon runs setup.py to get them. Here the file is read, so
-a name that is not a literal is unknown. Source: package identification and augmentation of colcon-core and
-colcon-python-setup-py.
+colcon runs setup.py to get the name and the dependencies. Here setup.py is only read, so a name that is not a literal is
+unknown. Source: package identification and augmentation of colcon-core and colcon-python-setup-py.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ _REQUIREMENT = re.compile(r"\s*([\w.-]+)")
 
 
 class PythonProject(NamedTuple):
-    """The data that colcon reads from the scripts of a Python project."""
+    """The name and the dependencies that colcon gets from setup.py, setup.cfg and pyproject.toml of a Python package."""
 
     name: str
     """The name of the package, or "" if there is none or it is unknown."""
@@ -42,7 +41,7 @@ NO_PROJECT = PythonProject("", "", ())
 
 
 def needs_no_run(setup_py: Text) -> bool:
-    """Return whether colcon does not run a setup.py, and reads setup.cfg instead."""
+    """Return whether colcon reads setup.cfg and does not run setup.py, because setup() has no arguments."""
     return "setup()" in setup_py.text or "setup(cmdclass=cmdclass)" in setup_py.text
 
 
@@ -117,7 +116,7 @@ def _pyproject_name(pyproject: Text | None) -> str:
 
 
 class _Script:
-    """The names to which a module assigns exactly once."""
+    """A setup.py, and the values of the variables to which it assigns exactly once."""
 
     def __init__(self, text: Text, module: ast.Module) -> None:
         self._text = text
@@ -131,7 +130,7 @@ class _Script:
                     self._values[target.id] = statement.value
 
     def arguments(self, call: ast.Call) -> tuple[dict[str, ast.expr], bool]:
-        """Return the keyword arguments of a call, and whether they are complete."""
+        """Return the keyword arguments of a call, and True if all are known: each ``**mapping`` could be read."""
         result: dict[str, ast.expr] = {}
         complete = True
         for keyword in call.keywords:
@@ -161,7 +160,7 @@ class _Script:
         return node
 
     def value(self, node: ast.expr) -> object:
-        """Return the constant value of an expression, or None."""
+        """Return the value of an expression if it is constant, also through variables, ``+`` and f-strings; else None."""
         node = self._resolved(node)
         if isinstance(node, ast.Constant):
             return node.value

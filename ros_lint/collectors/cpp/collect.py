@@ -50,7 +50,10 @@ def collect(source: Text) -> FileFacts:
 
 
 def _implements(path: str, included: Iterable[Mention]) -> bool:
-    """Return whether a source includes the header of its own name, which may declare its plugin loaders."""
+    """Return whether a source includes the header of the same name, such as ``a.hpp`` in ``a.cpp``.
+
+    Such a header may declare the plugin loaders of the source.
+    """
     name = path.rpartition("/")[2]
     stem = name[: name.rfind(".") + 1]
     return name.endswith(SOURCES) and any(header[header.rfind("/") + 1 :].startswith(stem) for header, *_ in included)

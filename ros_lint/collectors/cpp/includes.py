@@ -1,8 +1,8 @@
 """The include directives of C and C++, and which of them depend on the build.
 
-Comments, raw strings, line continuations and ``#if 0`` are handled exactly, without lexing every file. A scan for
-directives is sufficient if none of them is where a comment or a raw string might be. Otherwise comments and raw strings
-are blanked out, and the scan is repeated.
+Comments, raw strings, line continuations and ``#if 0`` are handled exactly, without lexing every file. One search for
+directives is sufficient if no directive is where a comment or a raw string might be. Otherwise comments and raw strings
+are replaced by blanks, and the search is repeated.
 """
 
 from __future__ import annotations
@@ -129,7 +129,10 @@ def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
 
 
 def _scan_fast(source: Text) -> IncludeScan | None:
-    """Return the result of one scan, or None if a directive may be hidden or a macro names an include."""
+    """Return the result of one scan without removing comments; None if this is not exact, so that scan_exactly() is needed.
+
+    It is not exact if a directive may be in a comment or a raw string, or if the name of an include is a macro.
+    """
     text, path = source.text, source.path
     if "\r" in text and text.count("\r") != text.count("\r\n"):
         return None
@@ -172,9 +175,10 @@ def _scan_fast(source: Text) -> IncludeScan | None:
 
 @cache
 def _parse_include(directive: str) -> tuple[str, str, int, int]:
-    """Return the name in an include directive ("" for standard headers), its text, column and length.
+    """Return the header in an include directive: its name, the directive, and the column and the length of the name.
 
-    Packages include the same headers repeatedly, so their names are cached.
+    ``#include  <a.h>`` -> ``("a.h", "#include <a.h>", 12, 3)``; ``("", "", 0, 0)`` for a standard header. Results are
+    cached, because packages include the same headers repeatedly.
     """
     match = _DIRECTIVE.match(directive)
     assert match is not None
@@ -188,7 +192,7 @@ def _parse_include(directive: str) -> tuple[str, str, int, int]:
 def _mark_conditional(
     text: str, directives: list[re.Match[str]], mentions: list[Mention], starts: list[int]
 ) -> tuple[list[Mention], list[int]]:
-    """Return the reachable includes, with the optional ones marked, and their offsets."""
+    """Return the includes outside ``#if 0``, and their offsets. Includes that depend on the build become optional."""
     skipped, optional = _conditional(text, directives)
     rows = [
         (mention._replace(optional=True) if start in optional else mention, start)
@@ -245,17 +249,20 @@ def _blank(match: re.Match[str]) -> str:
 
 
 def _before(text: str, at: int) -> str:
-    """Return the text before an offset in its line."""
+    """Return the text between the start of the line and the offset ``at``."""
     return text[text.rfind("\n", 0, at) + 1 : at]
 
 
 def _without_comments(line: str) -> str:
-    """Return the rest of a directive's line without comments."""
+    """Return the operand of a directive without a comment after it: ``DEBUG  // only here`` -> ``DEBUG``."""
     return line.partition("//")[0].partition("/*")[0].strip()
 
 
 def _may_be_directive(text: str, at: int) -> bool | None:
-    """Return whether a directive can be at an offset, or None after a comment or a continued line."""
+    """Return whether the ``#`` at an offset begins a directive, because only blanks precede it in its line.
+
+    None if a comment or a continued line precedes the ``#``, so that an exact scan must decide.
+    """
     before = _before(text, at)
     if before and not before.isspace():
         return None if before.rstrip().endswith("*/") else False
@@ -265,7 +272,7 @@ def _may_be_directive(text: str, at: int) -> bool | None:
 
 
 def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
-    """Return whether an include guard is the only conditional."""
+    """Return whether a file has no conditional, or only an include guard or a condition that always holds."""
     conditionals = [match for match in directives if match.lastindex == _CONDITIONAL]
     if len(conditionals) != 2:
         return not conditionals
@@ -293,13 +300,13 @@ def _may_hide(text: str, starts: Sequence[int]) -> bool:
 
 
 def _any_between(starts: Sequence[int], begin: int, end: int) -> bool:
-    """Return whether one of the sorted starts is between ``begin`` and ``end``, where -1 means no end."""
+    """Return whether one of the sorted offsets ``starts`` is between ``begin`` and ``end``; -1 as ``end`` means no limit."""
     at = bisect_right(starts, begin)
     return at < len(starts) and (end < 0 or starts[at] < end)
 
 
 class _Conditional:
-    """An open conditional, and the includes of its branches so far."""
+    """An ``#if`` whose ``#endif`` was not read yet, and the includes in its branches so far."""
 
     __slots__ = ("common", "complete", "folders", "includes", "live")
 
@@ -311,13 +318,13 @@ class _Conditional:
         self.complete = value is True  # whether a branch is always taken
 
     def branch(self, value: bool | None) -> None:
-        """Go to the next branch. ``value`` is None if its condition depends on the build."""
+        """Begin the next branch at ``#elif`` or ``#else``. ``value`` is None if its condition depends on the build."""
         self._close()
         self.live = value is not False and not self.complete
         self.complete |= value is True
 
     def end(self) -> set[str]:
-        """Return the folders that are included in every build."""
+        """End the conditional, and return the folders from which each of its branches includes a header."""
         self._close()
         return self.common if self.common and self.complete else set()
 
@@ -328,7 +335,7 @@ class _Conditional:
 
 
 def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], Set[int]]:
-    """Return the starts of unreachable include directives, and of those that depend on the build."""
+    """Return the offsets of the include directives that no build reaches, and of those that only some builds reach."""
     skipped: set[int] = set()
     optional: set[int] = set()
     stack: list[_Conditional] = []
@@ -362,7 +369,7 @@ def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], 
 
 
 def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
-    """Return the ranges of offsets that are compiled in some builds only, or in none."""
+    """Return the offset ranges of the branches of ``#if`` that are compiled in some builds only, or in none."""
     result = []
     stack: list[tuple[bool, int]] = []  # whether the branch is always taken, and where it begins
     for match in directives:
@@ -380,9 +387,9 @@ def branches(text: str, directives: list[re.Match[str]]) -> list[range]:
 
 
 def _value(text: str, match: re.Match[str], *, first: bool) -> bool | None:
-    """Return the value of a condition, or None if it depends on the build.
+    """Return the value of the condition of an ``#if`` or ``#elif`` directive, or None if it depends on the build.
 
-    ``first`` is True if no other directive precedes it.
+    ``first`` is True if no directive precedes this directive in the file.
     """
     word, condition = match[5], _without_comments(match[6])
     if word in ("if", "elif"):

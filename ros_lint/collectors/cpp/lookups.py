@@ -27,7 +27,7 @@ _MAX_DISTANCE = 200
 
 
 def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
-    """Return the packages and the files that a source looks up.
+    """Return the packages that a source looks up by name in the ament index, and the files in their share folders.
 
     ``code`` are sorted offsets known to be code.
     """
@@ -76,7 +76,7 @@ _BRACE = re.compile(r"[{}]")
 
 
 def _block_end(text: str, at: int) -> int:
-    """Return where the block ends that contains an offset."""
+    """Return the offset of the brace that closes the block around the offset ``at``."""
     depth = 1
     for brace in _BRACE.finditer(text, at):
         depth += 1 if brace[0] == "{" else -1
@@ -86,7 +86,7 @@ def _block_end(text: str, at: int) -> int:
 
 
 def _try_start(text: str, end: int) -> int:
-    """Return where the block begins that a closing brace ends, -1 if it is not a try block."""
+    """Return the offset of the opening brace of the try block whose closing brace is at ``end``; -1 for other blocks."""
     depth = 0
     at = end + 1
     while (at := max(text.rfind("{", 0, at), text.rfind("}", 0, at))) >= 0:
@@ -97,7 +97,11 @@ def _try_start(text: str, end: int) -> int:
 
 
 def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
-    """Yield each looked-up file: the place of its first literal, its package and its path."""
+    """Yield each file that the code looks up: the offset range of its first literal, its package and its path.
+
+    ``get_package_share_directory("robot") + "/maps/a.yaml"`` -> ``maps/a.yaml`` of ``robot``; the result of the call may
+    be stored in a variable first.
+    """
     variables: dict[str, set[str]] = {}
     for call in calls:
         if call[1] == "get_package_prefix":
@@ -118,13 +122,13 @@ def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, i
 
 
 def _statement_start(text: str, at: int) -> int:
-    """Return where the statement begins, or where the search for it stops."""
+    """Return the offset at which the statement around ``at`` begins, at most ``_MAX_DISTANCE`` characters before."""
     farthest = max(0, at - _MAX_DISTANCE)
     return max(farthest, text.rfind(";", farthest, at) + 1)
 
 
 def _uses(text: str, name: str) -> Iterator[int]:
-    """Yield the ends of the uses of a variable, closing brackets included."""
+    """Yield the offset after each use of the variable ``name``, and after a closing bracket that follows it."""
     start = text.find(name)
     while start >= 0:
         end = start + len(name)

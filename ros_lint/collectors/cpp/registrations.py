@@ -44,7 +44,7 @@ _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\
 
 
 def wrapper_macros(source: Text) -> tuple[Opaque, ...]:
-    """Return the definitions of macros that register components: their calls determine which components.
+    """Return the definitions of macros that register components. The components are unknown, because calls name them.
 
     Plugins are searched by the names in their descriptions, see
     :func:`ros_lint.workspace.usage.textual_mentions.find_unwritten_classes`.
@@ -60,9 +60,9 @@ def wrapper_macros(source: Text) -> tuple[Opaque, ...]:
 
 
 def _matches(text: str) -> Iterator[re.Match[str]]:
-    """Yield the calls at the beginning of a line, except those in macro definitions.
+    """Yield the calls of registration macros at the beginning of a line, except the calls in macro definitions.
 
-    Literal searches are many times faster than a search for the pattern.
+    The names are searched as plain texts first, because this is many times faster than a search for the pattern.
     """
     places = sorted(place for name in _NAMES for place in _places(text, name))
     for place in places:

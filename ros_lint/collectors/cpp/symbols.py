@@ -1,8 +1,8 @@
 """Names in C++ code that imply a package without an include: interface types and a few namespaces.
 
 The generators put the interfaces of each package into a namespace of the package's name, ``pkg::msg::Type``
-(rosidl_generator_cpp), so such a name is as good as an include. Other namespaces have the name of a package only by
-convention: those that count are known to belong to one package only.
+(rosidl_generator_cpp), so such a name proves the use of the package like an include. Other namespaces have the name of a
+package only by convention: only the namespaces in ``_NAMESPACES`` count, each of which belongs to one package.
 """
 
 from __future__ import annotations
@@ -59,10 +59,10 @@ def symbols(source: Text, excluded: Collection[str], directives: IncludeScan) ->
 
 
 def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool, str] | None:
-    """Return the first name of a package in plain code: start, end, whether optional, package.
+    """Return the first qualified name such as ``package::msg::Type`` in code: start, end, whether optional, ``package``.
 
-    Lines that may be comments, strings or directives are skipped, because a source usually names a package more than
-    once.
+    Lines that may be comments, strings or directives are skipped, because a source usually has more such names. None if
+    there is no name.
     """
     optional = None
     qualifier = f"{package}::"

@@ -63,10 +63,10 @@ def _blank(match: re.Match[bytes]) -> bytes:
 
 
 def first_use(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Container[bytes]) -> Span | None:
-    """Return the first place where the code uses a name, unqualified or qualified by one of some namespaces.
+    """Return the first place where C++ code uses ``name`` alone, or qualified by one of ``namespaces``.
 
-    None if the code defines the name itself, or also uses it from another namespace. For the name of a namespace, it is
-    the first place where one of its members is used.
+    ``texts`` are pairs of path and code. None if the code does not use the name, defines it itself, or also uses it from
+    a namespace that is not in ``namespaces``. If ``name`` is a namespace, only ``name::`` counts as a use.
     """
     result: Span | None = None
     for path, text in texts:
@@ -84,7 +84,7 @@ def first_use(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Conta
 
 
 def _places(text: bytes, name: bytes) -> Iterator[int]:
-    """Yield the offsets of ``name`` as a whole word, except as a member such as ``a.name``."""
+    """Yield the offsets at which ``name`` is a whole word. Members such as ``a.name`` are left out."""
     start = text.find(name)
     while start >= 0:
         previous, following = text[max(start - 1, 0) : start], text[start + len(name) : start + len(name) + 1]

@@ -62,7 +62,7 @@ _SCOPED = re.compile(r"([a-z]\w*)(?:/|::|\.)msg(?:/|::|\.)([A-Z]\w*)")
 
 
 class _LineError(Exception):
-    """A part of a line that rosidl rejects, by its offsets in the line."""
+    """An error of a line that rosidl rejects: the message, and the offsets of the wrong part in the line."""
 
     def __init__(self, message: str, start: int, part: str, instead: str | None = None) -> None:
         super().__init__(message)
@@ -73,7 +73,7 @@ class _LineError(Exception):
 
 
 class _Element(NamedTuple):
-    """A field or a constant."""
+    """A field or a constant of an interface definition, such as ``geometry_msgs/Pose pose`` or ``int32 LIMIT=5``."""
 
     name: str
     start: int
@@ -145,7 +145,10 @@ def _encoding(source: Text, start: int, end: int) -> InterfaceProblem:
 
 
 def _separation(source: Text, text: str, suffix: str, marks: list[int]) -> Iterator[InterfaceProblem]:
-    """Yield the problem of too few or too many lines ``---``."""
+    """Yield the problems of a definition whose number of separator lines ``---`` is wrong.
+
+    ``suffix`` is "msg", "srv" or "action"; ``marks`` are the offsets of the separator lines.
+    """
     count = _SEPARATORS[suffix]
     parts = {"msg": "a message has no parts", "srv": "a service has two parts", "action": "an action has three parts"}[suffix]
     similar = [match for match in _SIMILAR_SEPARATOR.finditer(text) if match.start() not in marks]
@@ -218,7 +221,10 @@ def _field(kind: str, name: str, value: str, start: int, value_start: int) -> _E
 
 
 def _type(kind: str) -> str:
-    """Return the message type in a field type without brackets, "" for a plain type. Raises _LineError."""
+    """Return the message type in a field type: ``geometry_msgs/Pose[3]`` -> ``geometry_msgs/Pose``, ``int32[]`` -> "".
+
+    Raises _LineError for an invalid type.
+    """
     base, bracket, _ = kind.rpartition("[")
     if kind[-1] != "]":
         base = kind
@@ -265,7 +271,10 @@ def _integer(text: str) -> int | None:
 
 
 def _check_value(kind: str, value: str, start: int) -> None:
-    """Raise _LineError if a value does not have a type. For arrays of strings, only the brackets are checked."""
+    """Raise _LineError if ``value`` is not a valid default or constant of the field type ``kind``.
+
+    ``start`` is the offset of the value in its line. For arrays of strings, only the brackets are checked.
+    """
     comment = value.find("//")
     base, bracket, size = kind.removesuffix("]").partition("[")
     if bracket:

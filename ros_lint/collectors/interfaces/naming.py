@@ -22,7 +22,7 @@ _BEFORE_CAPITAL = re.compile("([a-z0-9])([A-Z])")
 
 
 def is_message(name: str) -> bool:
-    """Return whether a name is valid for an interface."""
+    """Return whether a name is a valid name of a message, service or action: ``LaserScan``, not ``laser_scan``."""
     name = name.removeprefix("Sample_")
     for end in _GENERATED_SUFFIXES:
         name = name.removesuffix(end)
@@ -30,27 +30,27 @@ def is_message(name: str) -> bool:
 
 
 def is_field(name: str) -> bool:
-    """Return whether a name is valid for a field, or for a package with interfaces."""
+    """Return whether a name is a valid name of a field, or of a package with interfaces: ``range_min``, not ``rangeMin``."""
     return _LOWER.fullmatch(name) is not None
 
 
 def is_constant(name: str) -> bool:
-    """Return whether a name is valid for a constant."""
+    """Return whether a name is a valid name of a constant: ``MAX_SPEED``."""
     return _CONSTANT.fullmatch(name) is not None
 
 
 def snake(name: str) -> str:
-    """Return the name of an interface as rosidl writes it in the names of headers."""
+    """Return the name of an interface as rosidl writes it in the names of headers: ``LaserScan`` -> ``laser_scan``."""
     return _BEFORE_CAPITAL.sub(r"\1_\2", _BEFORE_WORD.sub(r"\1_\2", name)).lower()
 
 
 def camel(name: str) -> str:
-    """Return a name in CamelCase, which rosidl requires for interfaces."""
+    """Return a name in CamelCase, which rosidl requires for interfaces: ``laser_scan`` -> ``LaserScan``."""
     return "".join(word[:1].upper() + word[1:] for word in _BETWEEN_WORDS.split(name))
 
 
 def defined_in(file: str) -> str:
-    """Return the interface that a file defines, as ``msg/Name``; "" if it defines none."""
+    """Return the interface that a file defines: ``robot/msg/State.msg`` -> ``msg/State``; "" if it defines none."""
     folder, _, name = file.rpartition("/")
     stem, _, suffix = name.rpartition(".")
     kind = folder.rpartition("/")[2]

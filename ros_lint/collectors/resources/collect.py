@@ -1,6 +1,6 @@
 """Models, displays, parameters and plugin descriptions: URDF, xacro, SDF, rviz, YAML, XML.
 
-These name packages in a few fixed forms in all formats, so the text is searched and not parsed.
+Such files name packages in a few fixed forms such as ``package://robot/``, so the text is searched and not parsed.
 """
 
 from __future__ import annotations
@@ -70,9 +70,10 @@ def controller_managers(source: Text) -> tuple[Mention, ...]:
 
 
 def _packages(source: Text) -> FileFacts:
-    """Return the packages that a resource file names, each once. Names by convention only are optional.
+    """Return the packages that a resource file names, each at its first place, and the files that it looks up in them.
 
-    Names in ROS 1 launch files are optional, too, because nothing looks them up.
+    A mention is optional if only a convention says that the name is a package, or if the file is a ROS 1 launch file,
+    because nothing looks the name up.
     """
     text = source.text
     places: dict[str, tuple[int, int]] = {}
@@ -101,7 +102,10 @@ _TREE_PATH = re.compile(r"""\spath\s*=\s*["'](\w[\w./+-]*\.\w+)["']""")
 
 
 def _files(source: Text) -> Iterator[LookUp]:
-    """Yield the files that are looked up in packages, each at its first place."""
+    """Yield the files of packages to which a resource file refers, such as ``package://robot/meshes/arm.stl``, each once.
+
+    The span is that of the first reference.
+    """
     places: dict[tuple[str, str], tuple[int, int]] = {}
     for match in _FILE.finditer(source.text):
         key = (match[1] or match[2], normpath(match[3].lstrip("/")))
@@ -120,7 +124,7 @@ def _files(source: Text) -> Iterator[LookUp]:
 
 
 def _is_optional(text: str, at: int) -> bool:
-    """Return whether a place is in a tag with an optional file: ``<xacro:include optional="true"/>``."""
+    """Return whether an offset is in a tag with an optional file: ``<xacro:include optional="true"/>``."""
     opening = text.rfind("<", 0, at)
     return opening >= 0 and _OPTIONAL.match(text, opening) is not None
 
@@ -135,7 +139,10 @@ def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, in
 
 
 def _in_class(text: str, at: int) -> bool:
-    """Return whether a place is in a class of a plugin description, whose names the code includes anyway."""
+    """Return whether an offset is in a ``<class>`` tag of a plugin description.
+
+    Packages in such a tag are left out, because the C++ code of the plugin includes their headers anyway.
+    """
     return _PLUGIN.match(text, max(text.rfind("<", 0, at), 0)) is not None
 
 

@@ -1,7 +1,7 @@
 """The nodes for which a YAML file has parameters, as rcl_yaml_param_parser reads them.
 
-Such files are long, but a few lines suffice to find the node names: those with ``ros__parameters``, and the less
-indented ones above them.
+Parameter files are long, but the node names are in a few lines: above each key ``ros__parameters``, in lines that are
+less indented.
 """
 
 from __future__ import annotations

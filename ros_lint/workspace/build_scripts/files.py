@@ -11,6 +11,7 @@ from ros_lint.base.text import Span, Text, from_bytes, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents, text_of
 from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.collectors.launch.detect import is_of_ros_1
+from ros_lint.collectors.python.started_scripts import runs_when_started
 from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
 from ros_lint.facts.build import BuildFiles, BuildScript, ScriptFile
 from ros_lint.facts.visibility import Facet
@@ -46,6 +47,8 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
     if script.of_cmake and not any(p.source.startswith(f"{package.name}/") for p in script.products.installs):
         folders.add(package.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(package.files, folders)))
+    if script.of_cmake:
+        sources.update(dict.fromkeys([file for file in package.files if "/" not in file and file.endswith(".py")]))
     executables = Executables(tree, package)
     texts = {file: text for file in sources if (text := text_in(tree, package, file))}
     files = [_script_file(file, text, file in executables) for file, text in texts.items()]
@@ -207,8 +210,8 @@ def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, file
     texts = {path: text for path in run if (text := text_in(tree, package, path))}
     executables = Executables(tree, package)
     programs = [
-        _script_file(path, text, path in executables)._replace(
-            run=run[path], main="def main(" in text.text or "__main__" in text.text
+        (file := _script_file(path, text, path in executables))._replace(
+            run=run[path], main=file.main or "def main(" in text.text
         )
         for path, text in texts.items()
     ]
@@ -258,7 +261,7 @@ def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
     for file in files:
         if file.endswith((".py", ".sh")) or file.rfind(".") < file.rfind("/"):
             folder = file.rpartition("/")[0]
-            if folder and (folder in folders or _SCRIPTS.match(file)):
+            if folder in folders or _SCRIPTS.match(file):
                 yield file
 
 
@@ -275,7 +278,7 @@ def _is_helper(file: ScriptFile, texts: Mapping[str, Text]) -> bool:
 def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
     first = text.text[: text.text.find("\n") + 1] or text.text
     shebang = first[2:].strip() if first.startswith("#!") else ""
-    main = not path.endswith(".py") or "__main__" in text.text
+    main = not path.endswith(".py") or runs_when_started(text, is_program=executable and bool(shebang))
     return ScriptFile(path, shebang, bool(shebang) and first.endswith("\r\n"), main, executable)
 
 

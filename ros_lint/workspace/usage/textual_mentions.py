@@ -8,12 +8,14 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache, partial
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from ros_lint.base.paths import join
-from ros_lint.base.text import Span, file_start, span_in, to_bytes
+from ros_lint.base.text import Span, Text, file_start, from_bytes, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents
+from ros_lint.collectors.comments import comments
 from ros_lint.facts.sources import Via
 from ros_lint.workspace.model import Package
 from ros_lint.workspace.usage.package_files import PackageSource
@@ -176,7 +178,7 @@ def find_mentions(
     *,
     whole_names: bool = False,
 ) -> dict[str, Span]:
-    """Return a place for each name that is a word in one of the files; dashes equal underscores.
+    """Return a place for each name that is a word in one of the files, outside comments; dashes equal underscores.
 
     ``files`` are paths with contents. Several files are searched at once and undecoded, because few contain a name.
     ``words`` replaces some of the names by other texts, which are searched for anywhere and case-insensitively.
@@ -212,23 +214,44 @@ def _search_batch(
 ) -> dict[str, Span]:
     data = b"\n".join([content for _, content in files])
     starts = list(accumulate([len(content) + 1 for _, content in files], initial=0))
+    without_comments = cache(lambda index: _without_comments(*files[index]))
     result: dict[str, Span] = {}
-    lower = data.lower() if words else b""
     for name in names:
-        if name in words:
-            places = ((lower.find(to_bytes(word.lower())), to_bytes(word)) for word in words[name])
-        else:
-            places = (
-                (_find_word(data, spelling, _WORD_JOINERS if whole_names else b""), spelling)
-                for spelling in _present_spellings(name, data)
-            )
-        start, spelling = next((place for place in places if place[0] >= 0), (-1, b""))
-        if start < 0:
-            continue
-        file = bisect_right(starts, start) - 1
-        offset = start - starts[file]
-        result[name] = span_in(*files[file], offset, offset + len(spelling))
+        search = partial(_search_words, words[name]) if name in words else partial(_search_spellings, name, whole_names)
+        start, spelling = search(data)
+        index = bisect_right(starts, start) - 1 if start >= 0 else len(files)
+        while index < len(files):
+            offset, spelling = search(without_comments(index)) if search(files[index][1])[0] >= 0 else (-1, spelling)
+            if offset >= 0:
+                result[name] = span_in(*files[index], offset, offset + len(spelling))
+                break
+            index += 1
     return result
+
+
+def _search_words(words: Sequence[str], data: bytes) -> tuple[int, bytes]:
+    """Return the offset of the first of ``words`` that is anywhere in ``data``, in any case, and the word; -1 if none is."""
+    lower = data.lower()
+    places = ((lower.find(to_bytes(word.lower())), to_bytes(word)) for word in words)
+    return next((place for place in places if place[0] >= 0), (-1, b""))
+
+
+def _search_spellings(name: str, whole_names: bool, data: bytes) -> tuple[int, bytes]:
+    """Return the offset of a package name in ``data`` and its spelling there; -1 if it is not there."""
+    joining = _WORD_JOINERS if whole_names else b""
+    places = ((_find_word(data, spelling, joining), spelling) for spelling in _present_spellings(name, data))
+    return next((place for place in places if place[0] >= 0), (-1, b""))
+
+
+def _without_comments(path: str, data: bytes) -> bytes:
+    """Return the contents of a file with spaces in place of its comments, so that offsets stay the same."""
+    text = Text(path, from_bytes(data))
+    parts: list[str] = []
+    at = 0
+    for start, end in comments(text):
+        parts += text.text[at:start], " " * len(to_bytes(text.text[start:end]))
+        at = end
+    return to_bytes("".join([*parts, text.text[at:]]))
 
 
 def find_code_mentions(

@@ -8,6 +8,7 @@ from ros_lint.collectors.interfaces import naming
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package
+from ros_lint.workspace.usage.visibility import problems_hide_uses
 
 
 def unused_finds(package: Package) -> Iterator[Mention]:
@@ -21,7 +22,7 @@ def unused_finds(package: Package) -> Iterator[Mention]:
     Nothing is yielded if something hides uses of the package.
     """
     script = package.script
-    if script is None or script.problems or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+    if script is None or problems_hide_uses(script) or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
         return
     used = {name for use in package.uses if use.via not in _BY_SCRIPT for name in use.providers}
     reads_interfaces = _reads_interfaces(package)

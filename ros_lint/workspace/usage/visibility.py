@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from ros_lint.facts.build import BuildScript
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package
 
@@ -28,6 +29,26 @@ def name_suggests_no_trace(world: World, name: str) -> bool:
     return names.leaves_no_trace(name) and not (world.layer(name) == "workspace" and names.provides_macros(name))
 
 
+def problems_hide_uses(script: BuildScript) -> bool:
+    """Return whether an error of a build script leaves uses of packages unknown.
+
+    A missing folder, mesh or page uses no package. Git keeps no empty folders, so a missing folder is mostly an empty one.
+    """
+    return any(
+        problem.kind not in _HIDING_NOTHING and not (problem.kind == "missing-file" and problem.subject.endswith(_WITHOUT_USES))
+        for problem in script.problems
+    )
+
+
+_HIDING_NOTHING: Final = frozenset({
+    "absolute-destination", "dashed-key", "directory-in-data-files", "directory-is-file", "empty-glob", "entry-point-form",
+    "file-is-directory", "undefined-target",
+})  # fmt: skip
+"""Kinds of problems in commands and options whose effect on the used packages is known."""
+_WITHOUT_USES: Final = ("/", ".dae", ".md", ".obj", ".pcd", ".pgm", ".png", ".rst", ".stl", ".STL")
+"""Endings of missing folders and of files that can name no package."""
+
+
 def is_fully_visible(package: Package) -> bool:
     """Return whether all uses of a package are visible, so that there cannot be others."""
     return is_build_visible(package) and not package.hidden(Facet.USES)
@@ -39,7 +60,7 @@ def is_build_visible(package: Package) -> bool:
     Launch files are ignored because they use no libraries.
     """
     manifest, script = package.manifest, package.script
-    if manifest is None or manifest.problems or script is None or script.problems:
+    if manifest is None or manifest.problems or script is None or problems_hide_uses(script):
         return False
     launched = {launch.path for launch in package.launch}
     if any(opaque.span.path not in launched for opaque in package.hidden(Facet.USES)):

@@ -30,29 +30,39 @@ _TESTER = re.compile(
     r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
 )
 """Names of unknown commands that define tests and install nothing."""
+_OF_LIBRARY = re.compile(
+    r"(?:boost|catch2?|clang|cuda|doctest|doxygen|ecm|flex|bison|gettext|grpc|hip|itk|kde|ki18n|nanobind|protobuf|pybind11"
+    r"|python[23]?|qt[4-6]?|sdl|sphinx|swig|vtk|xsdcxx)_"
+)
+"""Names of unknown commands of libraries and tools without ROS, which export nothing by the macros of ament."""
 _GENERATES: Final = "rosidl_generate_interfaces"
 
 
 def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
-    """Run a command that neither CMake nor the package defines."""
+    """Run a command that neither CMake nor the package defines, and return its possible exits (None for NEXT).
+
+    A released macro runs in its reduced form. The effects of any other command are recorded as unknown.
+    """
     macro = released(name)
     if macro is not None:
         provider = macro.procedure.provider
         if provider and run.runs_own_code():
             purpose: Purpose = "interfaces" if name == _GENERATES else ""
             run.add_mention(provider, "macro", run.current_place(), f"{name}()", purpose=purpose)
-        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions):
+        if name.startswith("ament_export_") and run.frames[-1].own and not (run.muted or run.uncertain_conditions or run.testing):
             run.export_scopes.append((run.scopes[-1], CommandPlace(name, run.current_place())))
         return run_released(run, macro, args)
     if name.startswith("_") and name[1:] in HANDLERS and name[1:] in run.procedures:
         return HANDLERS[name[1:]](run, args)  # the original of an overridden command
     run.open_world = True
     hidden = Facet.USES
+    if not (_TESTER.search(name) or _OF_LIBRARY.match(name)):
+        hidden |= Facet.EXPORTS
     if not _TESTER.search(name):
         run.any_variable_may_be_set = True
         run.may_define_targets = run.may_define_targets or _BUILDER.search(name) is not None
         if _PRODUCER.search(name):
-            hidden = ALL_FACETS
+            hidden |= ALL_FACETS & ~Facet.EXPORTS
         elif _is_given_data(run, args):
             hidden |= Facet.SHARE
     run.hide(hidden, f"the effects of {name}() are unknown")
@@ -60,9 +70,9 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
 
 
 def _is_given_data(run: Run, args: list[str]) -> bool:
-    """Return whether an argument is the path or name of a folder of the package without sources.
+    """Return whether an argument of an unknown command is the path or name of a folder of the package without C++ sources.
 
-    The command probably installs such a folder.
+    The command probably installs such a folder, for example ``install_models(meshes)``.
     """
     words = frozenset([plain for arg in args if is_known(plain := strip_mark(arg)[0])])
     below = [file for file in run.paths.files if not words.isdisjoint(_folders(file))]
@@ -70,13 +80,13 @@ def _is_given_data(run: Run, args: list[str]) -> bool:
 
 
 def _folders(file: str) -> list[str]:
-    """Return the paths and the names of the folders that contain a file."""
+    """Return the names and the paths of the folders that contain a file: ``a/b/c.stl`` -> ``a``, ``b``, ``a``, ``a/b``."""
     names = file.split("/")[:-1]
     return [*names, *accumulate(names, join_path)]
 
 
 def _component(run: Run, args: list[str]) -> None:
-    """``ros_lint_component(class...)``: classes that a component container can load."""
+    """Run ``ros_lint_component(class...)``: record classes that a component container can load."""
     for arg in args:
         name, certain = strip_mark(arg)
         if not is_known(name):
@@ -87,13 +97,16 @@ def _component(run: Run, args: list[str]) -> None:
 
 
 def _exported(run: Run, args: list[str]) -> None:
-    """``ros_lint_exported(sets...)``: packages that find this one have the targets of these export sets."""
+    """Run ``ros_lint_exported(sets...)``: record export sets whose targets reach each package that finds this package."""
     if not (run.muted or run.conditional or run.testing):
         run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(strip_mark, args) if certain]))
 
 
 def _interfaces(run: Run, args: list[str]) -> None:
-    """``ros_lint_interfaces(install|- files...)``: interface files to generate code from."""
+    """Run ``ros_lint_interfaces(install|- files...)``: record interface files from which code is generated.
+
+    With ``install`` the interface files are installed, too.
+    """
     project = run.get("PROJECT_NAME") or ""
     package = project if is_known(project) else run.paths.sources.name or run.results.project.name
     for arg in args[1:]:
@@ -128,7 +141,7 @@ def _interfaces(run: Run, args: list[str]) -> None:
 
 
 def _python(run: Run, args: list[str]) -> None:
-    """``ros_lint_python(module folder)``: an importable package or module is installed."""
+    """Run ``ros_lint_python(module folder)``: record that the Python files in a folder are installed as a module."""
     if args and not is_known(args[0]):
         run.hide(Facet.PYTHON, "the name of a Python package is unknown")
         return
@@ -159,7 +172,7 @@ def _python(run: Run, args: list[str]) -> None:
 
 
 def _scripts(run: Run, args: list[str]) -> None:
-    """``ros_lint_console_scripts(destination setup.cfg)``: its console_scripts are installed as programs."""
+    """Run ``ros_lint_console_scripts(destination setup.cfg)``: record the console_scripts of setup.cfg as programs."""
     path = run.paths.source(args[1])
     text = run.paths.sources.texts.get(path) if path is not None else None
     destination = run.paths.destination(args[0])
@@ -186,7 +199,7 @@ def console_scripts(text: str) -> list[str]:
 
 
 def _provide(run: Run, args: list[str]) -> None:
-    """``ros_lint_provide(path [program])``: a generated file is installed."""
+    """Run ``ros_lint_provide(path [program])``: record that a generated file is installed."""
     path = run.paths.destination(args[0])
     if path is not None and not run.muted:
         program = "program" in args[1:]
@@ -194,7 +207,10 @@ def _provide(run: Run, args: list[str]) -> None:
 
 
 def _headers(run: Run, args: list[str]) -> None:
-    """``ros_lint_headers(scoped)``: ament_auto_package() of ament_cmake_auto installs include/."""
+    """Run ``ros_lint_headers(scoped)``: install the folder include/, as ament_auto_package() of ament_cmake_auto does.
+
+    The destination is include/<project> if ``scoped`` is TRUE or always so in the distribution, else include/.
+    """
     scoped = args[:1] == ["TRUE"] or run.distro in _SCOPED
     folder = f"include/{run.get('PROJECT_NAME') or ''}" if scoped else "include"
     run_handler(run, "install", ["DIRECTORY", "include/", "DESTINATION", folder, "OPTIONAL"])
@@ -204,7 +220,7 @@ _SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
 
 
 def _package(run: Run, args: list[str]) -> None:
-    """``ros_lint_package(...)``: ament_package(), which installs the files for find_package()."""
+    """Run ``ros_lint_package(...)``, the effects of ament_package(): the files for find_package() are installed."""
     if run.muted:
         return
     name = run.get("PROJECT_NAME") or ""
@@ -243,7 +259,7 @@ _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 
 def _needed(run: Run, args: list[str]) -> None:
-    """``ros_lint_needed(files...)``: files without which ament stops with an error (assert_file_exists)."""
+    """Run ``ros_lint_needed(files...)``: record missing files for which ament stops with an error (assert_file_exists)."""
     for arg in args:
         plain, certain = strip_mark(arg)
         path, span = run.paths.source(plain), run.place_of(arg)
@@ -299,20 +315,20 @@ def _end(run: Run) -> None:
 
 
 def _unknown(run: Run, args: list[str]) -> None:
-    """``ros_lint_unknown(variables...)``: variables have values that cannot be known."""
+    """Run ``ros_lint_unknown(variables...)``: set variables to unknown values."""
     for arg in args:
         if is_known(arg):
             run.set(arg, HOLE)
 
 
 def _index_variables(run: Run, args: list[str]) -> None:
-    """``ros_lint_of_index(variable)``: the value of a variable is read from the ament index."""
+    """Run ``ros_lint_of_index(variable)``: set a variable to an unknown value that comes from the ament index."""
     _unknown(run, args)
     run.index_variables.update(args)
 
 
 def _package_xml(run: Run, _args: list[str]) -> None:
-    """``ros_lint_package_xml()``: sets the name and the version of the package from package.xml."""
+    """Run ``ros_lint_package_xml()``: set the variables for the name and the version of the package from package.xml."""
     name = run.paths.sources.name
     run.set("_AMENT_PACKAGE_NAME", name)
     run.set(f"{name}_VERSION", run.paths.sources.version or HOLE)
@@ -320,7 +336,7 @@ def _package_xml(run: Run, _args: list[str]) -> None:
 
 
 def _test_executable(run: Run, args: list[str]) -> None:
-    """``ros_lint_test_executable(target sources...)``: a test program, even outside of if(BUILD_TESTING)."""
+    """Run ``ros_lint_test_executable(target sources...)``: record a test program, even outside of if(BUILD_TESTING)."""
     testing, run.testing = run.testing, True
     arguments = [arg for arg in args if arg[:1] != MAYBE or _TEST_WORDS.get(arg[1:]) != 0]  # drops SKIP_TEST etc.
     try:
@@ -336,14 +352,17 @@ _TEST_WORDS: Final = {
 
 
 def _vendor(run: Run, args: list[str]) -> None:
-    """``ros_lint_vendor(target ...)``: ament_vendor() builds and installs an external project below opt/."""
+    """Run ``ros_lint_vendor(target ...)``, the effects of ament_vendor(): record a target whose files are unknown.
+
+    ament_vendor() builds an external project and installs it below opt/.
+    """
     if args:
         run.put(run.targets, args[0], Properties(KIND="other"))
     run.hide(Facet.USES | Facet.LIBRARIES, "ament_vendor() builds an external project")
 
 
 def _tests(run: Run, args: list[str]) -> None:
-    """``ros_lint_runs(paths...)`` and ``add_test()``: files or folders that an interpreter runs as tests."""
+    """Run ``ros_lint_runs(paths...)`` or ``add_test()``: record files and folders that an interpreter runs as tests."""
     for arg in args:
         path = run.paths.source(strip_mark(arg)[0])
         if path is None and HOLE in arg:
@@ -357,7 +376,7 @@ RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
-    """Run a command of CMake itself."""
+    """Run the command of CMake with this name, without its exits."""
     HANDLERS[name](run, args)
 
 

@@ -62,7 +62,7 @@ def _set(run: Run, args: list[str]) -> None:
 
 
 def _note_test_switch(run: Run, name: str, value: str) -> None:
-    """Record a variable that becomes true only if tests are enabled."""
+    """Record in ``run.test_switches`` that set() makes a variable true, if it does so only when tests are enabled."""
     if is_off(value):
         return
     value_before = run.get(name)
@@ -88,7 +88,7 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
 
 
 def _path(value: str) -> str:
-    """Return a path as the cache stores it, HOLE if its normalization is not modelled."""
+    """Return a path as CMake stores it in the cache, without a slash at the end. HOLE if its normalization is not modelled."""
     not_modelled = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
     return HOLE if not_modelled else value.rstrip("/") or value
 
@@ -128,7 +128,7 @@ def _option(run: Run, args: list[str]) -> None:
 
 
 def _switch(value: str) -> str:
-    """Return the value that option() stores: ON, OFF or HOLE."""
+    """Return the value that option() stores for an initial value: ON or OFF, or HOLE if ``value`` is unknown."""
     if not is_fixed(value):
         return HOLE
     return "ON" if value.upper() in TRUE_WORDS else "OFF"
@@ -171,7 +171,7 @@ def _set_policy_version(run: Run, version: str) -> None:
 
 @cached_short(256)
 def _version(text: str) -> tuple[int, int] | None:
-    """Return the version up to which policies have their NEW behaviour, given ``3.5`` or ``3.5...3.20``."""
+    """Return the version up to which policies have their NEW behaviour: ``3.5...3.20`` -> ``(3, 20)``; None if unknown."""
     match = re.match(r"([0-9]+)(?:\.([0-9]+))?", text.rpartition("...")[2])
     if match is None or not is_known(text):
         return None
@@ -215,7 +215,7 @@ def _project(run: Run, args: list[str]) -> None:
 
 
 def _parse_arguments(run: Run, args: list[str]) -> None:
-    """``cmake_parse_arguments(prefix options one multi args...)`` and its PARSE_ARGV form."""
+    """Run ``cmake_parse_arguments(prefix options one multi args...)``, also with PARSE_ARGV: set the variables."""
     if args[:1] == ["PARSE_ARGV"]:
         prefix, options, singles, multis = (*args[2:6], "", "", "", "")[:4]
         call_arguments = _rest_of_call(run, args[1])
@@ -256,7 +256,7 @@ _NOT_SINGLE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
 
 
 def _language(run: Run, args: list[str]) -> int | None:
-    """``cmake_language(CALL command args...)`` and ``(EVAL CODE text...)``."""
+    """Run ``cmake_language(CALL command args...)`` or ``cmake_language(EVAL CODE text...)``: run the given code."""
     mode = args[0] if args else ""
     if mode == "CALL" and len(args) > 1 and is_known(args[1]):
         return run_named(run, args[1].lower(), args[2:])
@@ -274,7 +274,7 @@ def _language(run: Run, args: list[str]) -> int | None:
 
 
 def _folder_sources(run: Run, args: list[str]) -> None:
-    """``aux_source_directory(folder variable)``."""
+    """Run ``aux_source_directory(folder variable)``: append the sources of a folder to the list in a variable."""
     if len(args) < 2 or HOLE in args[1]:
         return
     folder = run.paths.source(args[0])
@@ -292,9 +292,9 @@ def _folder_sources(run: Run, args: list[str]) -> None:
 
 
 def _execute_process(run: Run, args: list[str]) -> None:
-    """``execute_process()``.
+    """Run ``execute_process()``: set its output variables to unknown values, and record the programs that it starts.
 
-    With ``COMMAND cmake -S folder ...`` it builds a project in a folder of the package.
+    ``COMMAND cmake -S folder ...`` builds a project in a folder of the package, which is recorded as a bundled project.
     """
     folder = run.paths.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
     if folder and run.paths.is_folder(folder) and not run.muted:

@@ -40,7 +40,7 @@ _Keywords = tuple[str, str, str, str]
 
 
 class ReleasedMacros(NamedTuple):
-    """A released macro or function with its compiled form."""
+    """A macro or function of a released package with its compiled form."""
 
     procedure: Procedure
     direct: tuple[str, list[str]] | None
@@ -89,7 +89,7 @@ def _split_keywords(body: Body) -> tuple[_Keywords | None, Body]:
 
 
 def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step | None]:
-    """Yield the commands of a body, None for a node that cannot be compiled."""
+    """Yield the commands of a macro with the conditions under which they run; None for a node that cannot be compiled."""
     for node in body:
         if isinstance(node, Command):
             if node.name == "set" and prefix and node.args[0][0].startswith(f"{prefix}_"):

@@ -17,33 +17,36 @@ _FETCHED: Final = "_deps"
 
 
 def _declare(run: Run, args: list[str]) -> None:
-    """``fetchcontent_declare(name options...)``.
+    """Run ``fetchcontent_declare(name options...)``: record a project and its names.
 
-    Scripts may use the project under names that are derived from its address.
+    Scripts may also use the project under names that are derived from the address of its repository.
     """
     if args and is_known(args[0]):
         run.fetched_projects[args[0].lower()] = _names_from_address(args)
 
 
 def _names_from_address(args: list[str]) -> list[str]:
-    """Return the possible names of a project, taken from the address of its repository."""
+    """Return the possible names of a project, from the address of its repository in ``args``.
+
+    ``https://github.com/owner/repo.git`` -> ``repo``, ``owner_repo``, ``owner/repo``.
+    """
     matches = (_ADDRESS.search(arg) for arg in args if is_known(arg))
     places = [(place[1], place[2]) for place in matches if place]
     return [name for owner, repository in places for name in (repository, f"{owner}_{repository}", f"{owner}/{repository}")]
 
 
 def _add(run: Run, args: list[str]) -> None:
-    """``externalproject_add(name options...)``, which builds an external project."""
+    """Run ``externalproject_add(name options...)``: record an external project that the build builds."""
     _add_external_projects(run, [*args[:1], *_names_from_address(args)], args)
 
 
 def _populate(run: Run, args: list[str]) -> None:
-    """``fetchcontent_populate(name options...)``."""
+    """Run ``fetchcontent_populate(name options...)``: record that a project is fetched."""
     _fetch(run, args[:1], args)
 
 
 def _make_available(run: Run, args: list[str]) -> None:
-    """``fetchcontent_makeavailable(names...)``."""
+    """Run ``fetchcontent_makeavailable(names...)``: record that projects are fetched and built."""
     _fetch(run, args, args)
 
 
@@ -58,9 +61,9 @@ def _fetch(run: Run, projects: list[str], args: list[str]) -> None:
 
 
 def _add_external_projects(run: Run, names: list[str], args: list[str]) -> None:
-    """Record external projects.
+    """Record external projects, whose targets and files are unknown.
 
-    These install to lib/<package> or share/<package> only if an argument names such a folder.
+    External projects install to lib/<package> or share/<package> only if an argument of the command names such a folder.
     """
     run.open_world = True
     if not run.muted:

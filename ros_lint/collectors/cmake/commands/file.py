@@ -57,9 +57,10 @@ _SAME_EVERYWHERE: Final = re.compile(rf"[/{ATOM}]?(?:[^/:;\\ \0\2\3]+/)*[^/:;\\ 
 
 
 def _copy(run: Run, copied: list[str], destination: str) -> None:
-    """``file(COPY)``: a path that ends with a slash is copied without its name.
+    """Run ``file(COPY)``: record the copies as generated files, if ``destination`` is absolute.
 
-    A relative destination is in the build folder.
+    ``copied`` are paths; a path that ends with a slash is copied without its name. A relative destination is in the build
+    folder, whose files are not recorded.
     """
     for path in copied if destination.startswith("/") else ():
         source = run.paths.source(path)
@@ -97,9 +98,9 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
-    """Return the files that a pattern matches, as paths with the beginning of the pattern.
+    """Return the absolute paths of the files that a pattern of file(GLOB) matches; ``[HOLE]`` if they are unknown.
 
-    With ``folders``, matching folders are included.
+    With ``recurse`` it is a pattern of file(GLOB_RECURSE). With ``folders``, matching folders are included.
     """
     path = pattern if pattern.startswith(TREE) else f"{run.path_variables['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
     parts = path.split("/")
@@ -153,7 +154,7 @@ def _absolute(path: str, base: str) -> str:
 
 
 def _component(run: Run, args: list[str]) -> None:
-    """``get_filename_component(variable path mode [BASE_DIR d] [CACHE])``."""
+    """Run ``get_filename_component(variable path mode [BASE_DIR d] [CACHE])``: set a variable to a part of a path."""
     if len(args) < 3 or HOLE in args[0]:
         return
     name, path, mode = args[:3]
@@ -194,7 +195,7 @@ def _part(path: str, mode: str, base: str) -> str:
 
 
 def _configure(run: Run, args: list[str]) -> None:
-    """``configure_file(input output)``."""
+    """Run ``configure_file(input output)``: record that the build generates the file ``output``."""
     if len(args) > 1:
         output = args[1]
         if not output.startswith("/") and is_fixed(output):
@@ -207,7 +208,7 @@ def _configure(run: Run, args: list[str]) -> None:
 
 
 def _configure_config(run: Run, args: list[str]) -> None:
-    """``configure_package_config_file(input output ...)``."""
+    """Run ``configure_package_config_file(input output ...)``: record ``input`` as the template of a CMake configuration."""
     path = run.paths.source(args[0]) if args else None
     if path in run.paths.files and not run.uncertain_conditions and not run.testing:
         run.results.config_templates[path] = None

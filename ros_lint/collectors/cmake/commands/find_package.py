@@ -41,7 +41,7 @@ Their component Development finds headers and libraries, which need a dependency
 
 
 def find_package(run: Run, args: list[str]) -> int | None:
-    """``find_package(name [version] [QUIET] [REQUIRED] ...)``."""
+    """Run ``find_package(name [version] [QUIET] [REQUIRED] ...)``: record a mention of the package, and mark it as found."""
     name, certain = strip_mark(args[0]) if args else ("", True)
     if not is_known(name):
         run.open_world = True
@@ -66,6 +66,8 @@ def find_package(run: Run, args: list[str]) -> int | None:
             run.add_mention(f"{name}/Development", "cmake", span, f"find_package({name} ... Development)", optional=optional)
         if not required and not run.muted:
             run.packages.optional_finds.setdefault(name, []).append(span)
+            if certain and "QUIET" in args and not run.conditional:
+                run.packages.quiet_finds.add(span)
         if (
             name == run.paths.sources.name
             and required
@@ -83,7 +85,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
 
 
 def _may_be_package_name(name: str) -> bool:
-    """Return whether a partly known name may be that of a ROS package, which has no upper case (REP 144)."""
+    """Return whether a partly known name may be the name of a ROS package. It is not if it has upper case (REP 144)."""
     return not any(letter.isupper() for letter in name)
 
 
@@ -119,11 +121,11 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
             include_of_package(run, name, source)
         else:
             run.skipped_include = True
-            run.hide(Facet.USES, f"the CMake code of '{name}' was not found")
+            run.hide(Facet.USES | Facet.EXPORTS, f"the CMake code of '{name}' was not found")
 
 
 def _find_all(run: Run, args: list[str]) -> None:
-    """``ros_lint_find(build|test)`` in ros_macros.cmake: the dependencies that package.xml declares are searched."""
+    """Run ``ros_lint_find(build|test)`` of ros_macros.cmake: find all dependencies that package.xml declares."""
     names = run.paths.sources.test_depends
     if args[:1] == ["build"]:
         names = run.paths.sources.build_depends
@@ -143,7 +145,7 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 
 
 def _packages_used(run: Run, args: list[str]) -> None:
-    """``ros_lint_uses(for how names...)`` in ros_macros.cmake: the package uses the packages ``names``."""
+    """Run ``ros_lint_uses(for how names...)`` of ros_macros.cmake: record that the package uses the packages ``names``."""
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
@@ -155,7 +157,8 @@ def _packages_used(run: Run, args: list[str]) -> None:
             _packages_used(run, [*args[:2], *map(mark_maybe, run.paths.sources.build_depends)])
         if HOLE in name:
             if _may_be_package_name(name):
-                run.hide(Facet.USES, "the name of a package is unknown")
+                exports = Facet.EXPORTS if purpose in ("export", "interfaces") else Facet(0)
+                run.hide(Facet.USES | exports, "the name of a package is unknown")
         elif is_known(name) and not run.is_bundled(name):
             if certain:
                 certainly[name] = run.place_of(arg)
@@ -175,7 +178,10 @@ def _quotation(how: str, name: str) -> str:
 
 
 def _note_impossible_packages(run: Run, command: str, places: Mapping[str, Span]) -> None:
-    """Record arguments that a command rejects, because they can never be found as packages."""
+    """Record an error for each argument that a command such as ament_target_dependencies() rejects as a package.
+
+    Such arguments are targets (``a::b``) and the package itself. ``places`` has the place of each argument.
+    """
     targets = [name for name in places if "::" in name] if command.startswith("ament_") else []
     if targets:
         verb = "is a target" if len(targets) == 1 else "are targets"
@@ -193,7 +199,7 @@ def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> No
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """``ros_lint_target_uses(how target names...)`` in ros_macros.cmake: a target uses the packages ``names``."""
+    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages ``names``."""
     _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
     record_header_sources(
@@ -203,7 +209,7 @@ def _target_uses(run: Run, args: list[str]) -> None:
 
 
 def _note_modified_target(run: Run, command: str, args: list[str]) -> None:
-    """Record that a command modifies a target, if this is certain even without tests."""
+    """Record that a command modifies a target, if the command certainly runs, even if tests are disabled."""
     name, certain = strip_mark(args[0]) if args else ("", False)
     if certain and not (run.muted or run.uncertain_conditions or run.testing) and is_known(name) and "::" not in name:
         run.results.modified_targets.setdefault((name, command), run.current_place())
@@ -266,13 +272,13 @@ def _include_directories(run: Run, args: list[str]) -> None:
 
 
 def _link_all(run: Run, args: list[str]) -> None:
-    """``link_libraries(names...)``."""
+    """Run ``link_libraries(names...)``: record packages with whose targets all later targets are linked."""
     record_header_sources(run, ALL_TARGETS, args)
     link(run, args)
 
 
 def _is_target_of(run: Run, space: str, target_name: str) -> bool:
-    """Return whether a target ``space::target_name`` is of a bundled project, or of a found package ``target_name``."""
+    """Return whether ``space::target_name`` is a target of a bundled project, or of a found package named ``target_name``."""
     return run.is_bundled(space) or (space not in run.packages.prefixes and target_name in run.packages.prefixes)
 
 
@@ -280,7 +286,7 @@ _LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFAC
 
 
 def _link_libraries(run: Run, args: list[str]) -> None:
-    """``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``."""
+    """Run ``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``: record what the target is linked with."""
     link(run, args)
     record_header_sources(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
     _note_modified_target(run, "target_link_libraries", args)
@@ -293,7 +299,7 @@ def _link_libraries(run: Run, args: list[str]) -> None:
 
 
 def _hide(run: Run, args: list[str]) -> None:
-    """``ros_lint_hide(facets reason)`` in ros_macros.cmake: facets of the package are hidden."""
+    """Run ``ros_lint_hide(facets reason)`` of ros_macros.cmake: record that parts of the package are unknown."""
     facet = Facet(0)
     for name in split(args[0]):
         facet |= ALL_FACETS if name == "ANYTHING" else Facet[name]

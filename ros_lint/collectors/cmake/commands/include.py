@@ -70,12 +70,12 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
 
 
 def include_own(run: Run, path: str) -> int | None:
-    """Run a script of the package in the current scope."""
+    """Run the script of the package at ``path``, relative to the package, in the current scope; return its possible exits."""
     return _run_script(run, path, run.paths.sources.scripts[path])
 
 
 def _run_script(run: Run, path: str, parsed: ParsedScript) -> int | None:
-    """Run a script of the package or of the tree around it. ``path`` is relative to the package."""
+    """Run a script in the package, or in the tree outside of the package. ``path`` is relative to the package."""
     outside = is_outside(path)
     if outside:
         run.outside_scripts.append(parsed)
@@ -96,17 +96,17 @@ def _include_installed(run: Run, name: str) -> int | None:
 
 
 def _skip(run: Run, file: str) -> int:
-    """Skip a file of another package.
+    """Skip an include() of a file of another package: record that it may use packages and define commands.
 
-    Like a module, it probably defines commands and installs nothing itself.
+    The file probably installs nothing itself, like a CMake module.
     """
     run.open_world = run.skipped_include = True
-    run.hide(Facet.USES, f"include() of {file} cannot be evaluated")
+    run.hide(Facet.USES | Facet.EXPORTS, f"include() of {file} cannot be evaluated")
     return NEXT
 
 
 def _is_from_index(run: Run) -> bool:
-    """Return whether the path of an include() begins with a value from the ament index."""
+    """Return whether the path in the current include() begins with a variable that was read from the ament index."""
     command = run.frames[-1].command
     match = _BEGINS.match(command.args[0][0]) if command is not None and command.args else None
     return match is not None and match[1] in run.index_variables
@@ -116,7 +116,7 @@ _BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
 
 
 def include_of_package(run: Run, package: str, source: str) -> int | None:
-    """Run a script of another package of the workspace in the current scope."""
+    """Run the script ``source`` of another package of the workspace in the current scope; return its possible exits."""
     helper = run.helpers[package]
     install_path = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
     install_path = next((file.path for file in helper.script.products.installs if file.source == source), install_path)
@@ -128,7 +128,10 @@ def include_of_package(run: Run, package: str, source: str) -> int | None:
 
 
 def _configured(command: Command, project: str) -> Command:
-    """Return a command of a template with ``@PROJECT_NAME@`` replaced. Code rarely uses other variables."""
+    """Return a command of a template file with ``@PROJECT_NAME@`` replaced by ``project``.
+
+    Other variables of templates are not replaced, because CMake code in templates rarely uses them.
+    """
     args = [(text.replace("@PROJECT_NAME@", project), kind, start, end) for text, kind, start, end in command.args]
     return command._replace(args=tuple(args))
 
@@ -159,7 +162,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     parsed = run.paths.script(script) if path is not None else None
     if path is None or (parsed is None and is_outside(path)):
         run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-        run.hide(ALL_FACETS, "the folder of add_subdirectory() was not found")
+        run.hide(_BY_SUBDIRECTORY, "the folder of add_subdirectory() was not found")
         return None
     if not (run.uncertain_conditions or run.muted or is_outside(path)):
         run.results.subdirectories[path] = None
@@ -171,7 +174,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
     if parsed is None:
         if run.paths.is_folder(path):
             run.open_world = run.any_variable_may_be_set = run.may_define_targets = True
-            run.hide(ALL_FACETS, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
+            run.hide(_BY_SUBDIRECTORY, f"the folder '{path}' of add_subdirectory() has no CMakeLists.txt", inside=path)
         else:
             run.add_problem(
                 "missing-folder", f"add_subdirectory() fails because the folder '{path}' does not exist", run.place_of(name), path
@@ -189,6 +192,8 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
 
 
 _TOP: Final = "CMakeLists.txt"
+_BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
+"""What a subdirectory can hide: ament_package() does not see what the macros of ament export there."""
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:

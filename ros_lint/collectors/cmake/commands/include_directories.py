@@ -34,9 +34,9 @@ _NO_ROS_HEADERS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
 
 
 def record_header_sources(run: Run, target: str, args: Iterable[str]) -> None:
-    """Record the sources of headers of a target: evaluated targets, libraries and paths.
+    """Record from where a target gets headers. ``args`` are evaluated arguments: targets, libraries and paths.
 
-    A package ends with ``::``.
+    An argument of unknown value is recorded as the packages whose variables it contains, each as ``package::``.
     """
     header_sources = run.results.headers.setdefault(target, {})
     is_complete = True
@@ -55,7 +55,7 @@ _PLAIN = re.compile(r"\w[\w:.+-]*\Z")
 
 
 def record_include_directories(run: Run, target: str, args: Iterable[str]) -> None:
-    """Record the include directories of a target."""
+    """Record that a target has the include directories ``args``, which are evaluated arguments of a command."""
     folders = (arg for arg in args if arg not in _NO_FOLDERS and not arg.startswith("$<INSTALL_INTERFACE:"))
     directory = run.path_variables["CMAKE_CURRENT_SOURCE_DIR"]
     record_header_sources(run, target, [f"{directory}/{folder}" if _RELATIVE.match(folder) else folder for folder in folders])
@@ -76,9 +76,9 @@ def _names(run: Run, arg: str) -> tuple[str, ...]:
 
 
 def _packages_of_variables(run: Run) -> list[str]:
-    """Return the packages whose variables the current command names.
+    """Return the packages whose variables the current command uses: ``${foo_LIBRARIES}`` -> ``foo::``.
 
-    The result has _ANYTHING if another part of an argument is unknown.
+    The result contains _ANYTHING if another part of an argument is unknown.
     """
     command = run.frames[-1].command
     names: list[str] = []
@@ -91,13 +91,16 @@ def _packages_of_variables(run: Run) -> list[str]:
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
-    """Return the package of a variable, _ANYTHING if no found package sets it or the script itself does."""
+    """Return the package that sets a variable, as ``package::``.
+
+    _ANYTHING if no found package has the prefix of the variable, or if the script sets the variable itself.
+    """
     name = run.packages.with_prefix(variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING
 
 
 def _headers_of(run: Run, args: list[str]) -> None:
-    """``ros_lint_headers_of(target names...)``: the target has the include directories of packages."""
+    """Run ``ros_lint_headers_of(target names...)``: record that a target has the include directories of packages."""
     record_header_sources(run, args[0], args[1:])
 
 
@@ -118,14 +121,14 @@ _PROPERTIES: Final = frozenset(
 
 
 def are_in_flags(run: Run) -> bool:
-    """Return whether the compiler flags of all targets have include directories."""
+    """Return whether the compiler flags for all targets contain include directories."""
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
 def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
-    """Return the names of packages (and libraries) whose headers a target may include.
+    """Return the names of the packages (and libraries) whose headers the target ``name`` may include, sorted.
 
-    None if these may be any.
+    None if the target may include headers of any package.
     """
     packages: dict[str, None] = {}
     pending = [name, ALL_TARGETS]

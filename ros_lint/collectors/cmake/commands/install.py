@@ -97,10 +97,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
 
 
 def _may_exist(run: Run, value: str) -> bool:
-    """Return whether a partly known path may be that of an existing file.
-
-    True for a path outside of the package.
-    """
+    """Return whether a file may exist at a partly known path. True for a path outside of the package."""
     home = f"{run.paths.absolute('')}/"
     if value.startswith(home):
         inside = value[len(home) :]

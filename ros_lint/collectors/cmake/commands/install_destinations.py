@@ -18,7 +18,7 @@ _TYPES: Final = {
 
 
 def facet_of(run: Run, destination: str | None) -> Facet:
-    """Return the facet of files that are installed to a destination, ANYWHERE if that is unknown."""
+    """Return the facet of files that are installed to a destination, ANYWHERE if the destination is unknown."""
     if not destination or destination == ".":
         return ANYWHERE
     if destination == "lib":
@@ -33,10 +33,7 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 
 def hide(run: Run, destination: str | None, reason: str) -> None:
-    """Record that the files installed to a destination are unknown.
-
-    The destination is None if it is unknown too.
-    """
+    """Record that the files installed to a destination are unknown. A ``destination`` of None is unknown, too."""
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 

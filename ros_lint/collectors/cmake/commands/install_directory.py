@@ -108,7 +108,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
 
 
 def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
-    """Return the files that the build generates below a folder, and whether it generates unknown ones."""
+    """Return the files that the build generates below a folder, sorted, and whether it also generates unknown files there."""
     below = f"{folder}/" if folder else ""
     generated = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
     folders = [path[:-1] for path in generated if path[-1] == "/"]
@@ -116,9 +116,9 @@ def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
 
 
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
-    """Install the files that configure_file() wrote to a folder below the build folder.
+    """Record as installed the files that configure_file() wrote to ``value``, a folder in the build folder.
 
-    The build may write more there.
+    The list may be incomplete, because the build may write further files to the folder.
     """
     plain, certain = strip_mark(value)
     folder = run.paths.build_path(plain)
@@ -134,9 +134,9 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
-    """Return the unlisted files below a folder, which install(DIRECTORY) installs with it.
+    """Return the files below ``source`` that are not files of the package but are installed by install(DIRECTORY).
 
-    They are files of nested packages, or of folders with a COLCON_IGNORE.
+    They are in nested packages, or in folders with a COLCON_IGNORE.
     """
     unlisted_files: list[str] = []
     for folder in run.paths.sources.unlisted_folders:
@@ -150,10 +150,10 @@ def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
 
 
 def _selection(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
-    """Return whether the patterns include a file below a folder, and whether they make it executable.
+    """Return whether the patterns of install(DIRECTORY) include a file, and whether they make the file executable.
 
-    The second value is None if no pattern with PERMISSIONS matches. ``top`` is the path of the folder as written in the script,
-    because patterns are matched against it.
+    The second value is None if no pattern with PERMISSIONS matches. ``file`` is relative to ``top``, the path of the
+    installed folder as the script writes it: CMake matches the patterns with ``top/file``.
     """
     end = -1
     while True:  # the folder itself and the folders between it and the file

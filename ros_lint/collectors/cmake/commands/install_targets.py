@@ -57,8 +57,18 @@ def install_targets(run: Run, args: list[str]) -> None:
         elif not run.muted:
             conditional = run.conditional or run.testing or not certain
             span = run.place_of(name)
-            target = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers)
+            undefined = not (conditional or _may_be_target(run, plain))
+            target = InstalledTarget(plain, runtime, library, archive, conditional, span, exported_in, headers, undefined)
             run.results.installed_targets.append(target)
+
+
+def _may_be_target(run: Run, name: str) -> bool:
+    """Return whether a command so far has defined a target, or may have done so."""
+    return (
+        name in run.targets
+        or run.any_variable_may_be_set
+        or any(opaque.hides & Facet.LIBRARIES for opaque in run.results.opaques)
+    )
 
 
 _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
@@ -71,7 +81,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
         target = real_target(run, name)
         if target is None:
             if not run.open_world or "::" not in name:
-                run.results.undefined_targets.append((name, span, conditional))
+                run.results.undefined_targets.append((name, span, installed.undefined))
             reason = f"no definition of the target '{name}' was found"
             run.results.opaques.setdefault(Opaque(Facet.EXECUTABLES | Facet.LIBRARIES, reason, span, name))
             if installed.executables is not None:  # if the target exists, it is most likely a program
@@ -86,7 +96,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
 
 
 def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[InstalledFile]:
-    """Yield the files of an installed target that builds files."""
+    """Yield the installed files of an executable or a library: the file that is built, and its versioned links."""
     name, span, kind = installed.target, installed.span, target["KIND"]
     destination = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
     file = output_name(target)

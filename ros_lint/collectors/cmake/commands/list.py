@@ -248,9 +248,9 @@ def _transformed(item: str, action: Callable[[str], str]) -> str:
 
 
 def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
-    """Return the indices of the elements that a selector selects, possibly repeated.
+    """Return the indices that a selector of list(TRANSFORM) selects: ``["AT", "-1", "0"]`` -> the last and the first.
 
-    Raises ValueError if CMake has an error.
+    An index may occur repeatedly. Raises ValueError if CMake stops with an error or the elements are unknown.
     """
     if not selector:
         return range(len(items))

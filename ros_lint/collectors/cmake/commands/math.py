@@ -38,9 +38,9 @@ def _math(run: Run, args: list[str]) -> None:
 
 
 def evaluate(text: str) -> int:
-    """Return the value of an expression.
+    """Return the value of an expression of math(EXPR), such as ``2 * (3 + 0x10)``.
 
-    Raises _MathError if CMake rejects it or C does not define its value.
+    Raises _MathError if CMake rejects the expression or C does not define its value.
     """
     tokens: list[str] = []
     at = 0

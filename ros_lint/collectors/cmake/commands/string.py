@@ -57,7 +57,10 @@ def _string(run: Run, args: list[str]) -> None:
 
 
 def _outputs(mode: str, args: list[str]) -> list[str]:
-    """Return the variables that a mode without a model sets, given the arguments after the mode."""
+    """Return the output variables of a mode of string() that is not evaluated, such as ``string(JSON out GET ...)``.
+
+    ``args`` are the arguments after the mode.
+    """
     if mode == "JSON":
         return [args[0], args[2]] if args[1:2] == ["ERROR_VARIABLE"] and len(args) > 2 else args[:1]
     if mode == "CONFIGURE":
@@ -66,9 +69,9 @@ def _outputs(mode: str, args: list[str]) -> list[str]:
 
 
 def _assign(run: Run, name: str, value: str, *texts: str) -> None:
-    """Set a variable to a value that was computed from texts.
+    """Set the variable ``name`` to ``value``, which string() computed from ``texts``.
 
-    An unknown part of it may have one bracket of a pair.
+    If the value is partly unknown and a text has square brackets, the value may have unpaired brackets, which is recorded.
     """
     if HOLE in value and any("[" in text or "]" in text for text in texts):
         run.has_unpaired_brackets = True
@@ -95,7 +98,7 @@ def ascii_lower(text: str) -> str:
 
 
 def _known(function: Callable[..., str]) -> Callable[..., str]:
-    """Return a function that returns HOLE if one of its arguments is not plain text."""
+    """Return ``function`` for arguments that may be unknown: the result is HOLE if an argument is not fully known."""
 
     def guarded(*args: str) -> str:
         return function(*args) if all(map(is_known, args)) else HOLE
@@ -306,9 +309,9 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
 
 
 def replace_all(regex: str, template: str, text: str) -> str:
-    """Return a text with every match replaced.
+    """Return ``text`` with every match of ``regex`` replaced by ``template``, as string(REGEX REPLACE) does.
 
-    Raises RegexError if the expression or the template cannot be evaluated.
+    HOLE if the result is too long. Raises RegexError if the expression or the template cannot be evaluated.
     """
     parts = _replacement(template)
     pieces: list[str] = []

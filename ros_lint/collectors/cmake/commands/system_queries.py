@@ -1,6 +1,6 @@
-"""Commands that query the machine or properties without a model.
+"""Commands that query the machine, or properties that are not evaluated.
 
-Their output variables become unknown.
+The output variables of these commands become unknown.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ def _unknown(run: Run, name: str) -> None:
 
 
 def _first(run: Run, args: list[str]) -> None:
-    """Set the output variable to an unknown value. It is the first argument."""
+    """Run a command whose first argument is its output variable: set the variable to an unknown value."""
     if args:
         _unknown(run, args[0])
 
 
 def _first_in_cache(run: Run, args: list[str]) -> None:
-    """Set the output variable to an unknown value in the cache. It is the first argument.
+    """Run a command whose first argument is its output variable in the cache: set the variable to an unknown value.
 
-    The value survives the end of a function.
+    The value remains after the end of a function, because it is in the cache.
     """
     if args:
         _unknown_in_cache(run, args[0])
 
 
 def _last_in_cache(run: Run, args: list[str]) -> None:
-    """Set the output variable to an unknown value in the cache. It is the last argument."""
+    """Run a command whose last argument is its output variable in the cache: set the variable to an unknown value."""
     if args:
         _unknown_in_cache(run, args[-1])
 
@@ -46,13 +46,13 @@ def _unknown_in_cache(run: Run, name: str) -> None:
 
 
 def _host(run: Run, args: list[str]) -> None:
-    """``cmake_host_system_information(RESULT variable QUERY ...)``."""
+    """Run ``cmake_host_system_information(RESULT variable QUERY ...)``: set the variable to an unknown value."""
     if len(args) > 1:
         _unknown(run, args[1])
 
 
 def _path(run: Run, args: list[str]) -> None:
-    """``cmake_path()``, which changes its input variable or sets an output variable."""
+    """Run ``cmake_path()``: set the variable that its mode changes, the input or an output, to an unknown value."""
     if len(args) < 2:
         return
     if "OUTPUT_VARIABLE" in args[:-1]:
@@ -74,7 +74,10 @@ _CHANGES_PATH: Final = frozenset(
 
 
 def _separate(run: Run, args: list[str]) -> None:
-    """``separate_arguments(variable [mode ... text])``; without a mode, spaces become semicolons."""
+    """Run ``separate_arguments(variable [mode ... text])``.
+
+    Without a mode, the spaces in the value of the variable become semicolons; with a mode, the value becomes unknown.
+    """
     if len(args) != 1:
         _first(run, args)
     elif HOLE not in args[0]:

@@ -61,9 +61,9 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
 
 
 def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
-    """Record that a target is built from the sources in the arguments.
+    """Record that a target is built from the sources in the arguments: all except the first argument and ``keywords``.
 
-    ``name`` is the known part of its name.
+    ``name`` is the name of the target as far as it is known.
     """
     target["SOURCES"] = ""
     if run.conditional:
@@ -143,7 +143,7 @@ def _set_property(run: Run, args: list[str]) -> None:
 
 
 def _get_property(run: Run, args: list[str]) -> None:
-    """``get_property(variable GLOBAL|TARGET t|... PROPERTY name [SET|DEFINED])``."""
+    """Run ``get_property(variable GLOBAL|TARGET t|... PROPERTY name [SET|DEFINED])``: set a variable to a property."""
     if len(args) < 4 or "PROPERTY" not in args[:-1] or HOLE in args[0]:
         return
     name = args[args.index("PROPERTY") + 1]
@@ -173,7 +173,7 @@ def _property(run: Run, name: str, property_name: str, default: str) -> str:
 
 
 def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> None:
-    """Run add_custom_command(), whose outputs may be used as sources."""
+    """Run ``add_custom_command()``: record its outputs as generated files, and the programs that it starts."""
     note_started_programs(run, args, optional=optional)
     outputs = False
     for arg in args:
@@ -247,7 +247,7 @@ def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
 
 
 def real_target(run: Run, name: str) -> Properties | None:
-    """Return the target of a name or an alias, None if there is none."""
+    """Return the properties of the target with a name; for an alias, those of its target. None if no target has the name."""
     target = run.targets.get(name)
     if target is not None and target["KIND"] == "alias":
         return run.targets.get(target["ALIASED"])

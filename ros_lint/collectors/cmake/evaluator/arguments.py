@@ -12,7 +12,10 @@ _FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
 
 @lru_cache(maxsize=512)
 def _keywords(prefix: str, options: str, single_names: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
-    """Return the kind of each keyword, and the variables that are set for a call without arguments."""
+    """Return the kind of each keyword (_FLAG, _SINGLE or _LIST), and the variables that a call without arguments sets.
+
+    The parameters are the first arguments of cmake_parse_arguments().
+    """
     flags, singles, lists = split(options), split(single_names), split(multis)
     kinds = {**dict.fromkeys(lists, _LIST), **dict.fromkeys(singles, _SINGLE), **dict.fromkeys(flags, _FLAG)}
     initial: dict[str, str | None] = {f"{prefix}_{name}": "FALSE" for name in flags}
@@ -86,7 +89,7 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
 
 
 def with_one_destination(args: list[str]) -> list[str]:
-    """Return the arguments with a HOLE for a DESTINATION that differs between branches of a condition."""
+    """Return the arguments of install() in which a DESTINATION that differs between branches of an if() is a HOLE."""
     result: list[str] = []
     for arg in args:
         if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):

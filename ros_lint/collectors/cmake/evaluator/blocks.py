@@ -16,21 +16,21 @@ class If(NamedTuple):
 
 
 class Loop(NamedTuple):
-    """``foreach()`` or ``while()``."""
+    """A loop by ``foreach()`` or ``while()``: its first command, and the commands up to its end."""
 
     command: Command
     body: Body
 
 
 class Definition(NamedTuple):
-    """``function()`` or ``macro()``."""
+    """A definition by ``function()`` or ``macro()``: its first command, and the commands up to its end."""
 
     command: Command
     body: Body
 
 
 class ScopeBlock(NamedTuple):
-    """``block()``, which has its own scope of variables."""
+    """A ``block()``, which has its own scope of variables: its first command, and the commands up to its end."""
 
     command: Command
     body: Body
@@ -55,9 +55,9 @@ _BRANCHES = frozenset({"else", "elseif"})
 
 
 class UnbalancedError(Exception):
-    """A block is not closed, or a command closes no block.
+    """A command opens a block that is not closed, or closes no block.
 
-    ``command`` is that command, ``body`` the nodes before it.
+    ``command`` is the wrong command, ``body`` has the nodes before it.
     """
 
     def __init__(self, message: str, command: Command, body: Body) -> None:
@@ -127,9 +127,9 @@ def blocks(commands: Sequence[Command]) -> Body:
 
 
 def rewritten(body: Body, arguments: Rewrite) -> Body:
-    """Return a body with the arguments of every command replaced.
+    """Return a body in which ``arguments`` has replaced the arguments of every command.
 
-    A macro does this to a function that is defined within it.
+    It serves functions defined in a macro: references to the parameters of the macro are replaced in their bodies.
     """
     return tuple(_rewritten(node, arguments) for node in body)
 

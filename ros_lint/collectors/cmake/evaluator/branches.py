@@ -16,12 +16,14 @@ from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIK
 
 
 class _Branch(NamedTuple):
-    """A branch that may run."""
+    """A branch of an if() that may run."""
 
     body: Body
     by_default: bool
     """True if the branch runs with default options."""
     testing: bool
+    number: int = 0
+    """Its index among the branches of the if()."""
 
 
 def _run_if(run: Run, node: If) -> Exit:
@@ -31,7 +33,7 @@ def _run_if(run: Run, node: If) -> Exit:
     is_default = True  # whether all conditions so far are false with default options
     testing = run.testing
     may_skip_all = True
-    for command, body in node.branches:
+    for number, (command, body) in enumerate(node.branches):
         if command is None:
             truth = Truth(TRUE, False, False)
         else:
@@ -43,10 +45,10 @@ def _run_if(run: Run, node: If) -> Exit:
             testing = testing or truth.test_if_false
             continue
         if truth.value == TRUE:
-            branches.append(_Branch(body, is_default, testing or truth.test_if_true))
+            branches.append(_Branch(body, is_default, testing or truth.test_if_true, number))
             may_skip_all = False
             break
-        branches.append(_Branch(body, truth.value == LIKELY and is_default, testing or truth.test_if_true))
+        branches.append(_Branch(body, truth.value == LIKELY and is_default, testing or truth.test_if_true, number))
         is_default = is_default and truth.value == UNLIKELY
         testing = testing or truth.test_if_false
     if may_skip_all:
@@ -56,7 +58,7 @@ def _run_if(run: Run, node: If) -> Exit:
     if len(branches) == 2 and branches[0].by_default and not branches[1].body:
         # The other branch is empty, so the default branch need not be joined with it.
         return _run_branch(run, branches[0]) | NEXT
-    return _run_branches(run, branches)
+    return _run_branches(run, node, branches)
 
 
 def _run_single(run: Run, node: If) -> Exit:
@@ -74,7 +76,27 @@ def _run_single(run: Run, node: If) -> Exit:
     if truth.value == LIKELY:
         # There is no other branch, so the default branch need not be joined.
         return _run_branch(run, branch) | NEXT
-    return _run_branches(run, [branch, _Branch((), truth.value == UNLIKELY, testing or truth.test_if_false)])
+    return _run_branches(run, node, [branch, _Branch((), truth.value == UNLIKELY, testing or truth.test_if_false)])
+
+
+def _required_packages(node: If, number: int) -> tuple[str, ...]:
+    """Return the packages that are found if the branch ``number`` of an if() does not run.
+
+    The first branch tests ``NOT X_FOUND OR NOT Y_FOUND``, or the else() belongs to ``X_FOUND AND Y_FOUND``.
+    """
+    first = node.branches[0][0]
+    assert first is not None
+    words = [text.removeprefix("${").removesuffix("}") for text, *_ in first.args]
+    if number == 0 and words[::3] == ["NOT"] * len(words[::3]) and all(word == "OR" for word in words[2::3]):
+        tested = words[1::3]
+    elif number == 1 and len(node.branches) == 2 and node.branches[1][0] is None and all(word == "AND" for word in words[1::2]):
+        tested = words[::2]
+    else:
+        return ()
+    return tuple([word[: -len(_FOUND)] for word in tested]) if all(word.endswith(_FOUND) for word in tested) else ()
+
+
+_FOUND: Final = "_FOUND"
 
 
 def _run_branch(run: Run, branch: _Branch) -> Exit:
@@ -87,7 +109,7 @@ def _run_branch(run: Run, branch: _Branch) -> Exit:
         run.testing = False
 
 
-def _run_branches(run: Run, branches: Sequence[_Branch]) -> Exit:
+def _run_branches(run: Run, node: If, branches: Sequence[_Branch]) -> Exit:
     exits: Exit = 0
     completed: list[tuple[Changes, bool]] = []
     continuing: list[tuple[_Branch, Exit]] = []
@@ -101,6 +123,8 @@ def _run_branches(run: Run, branches: Sequence[_Branch]) -> Exit:
             run.uncertain_conditions -= not branch.by_default
             run.non_default_conditions -= some_by_default and not branch.by_default
         if outcome == STOP:
+            if not run.conditional:
+                run.packages.required_by_check.update(_required_packages(node, branch.number))
             continue
         if outcome & NEXT:
             continuing.append((branch, outcome))

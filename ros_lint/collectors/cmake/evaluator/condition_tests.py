@@ -105,9 +105,9 @@ UNARY: Final[dict[str, Callable[[Run, ConditionToken], Truth]]] = {
 
 
 def _operands(run: Run, token: ConditionToken) -> tuple[str, ...]:
-    """Return the value of a variable, or the text itself if no variable has its name.
+    """Return the possible values of an operand: the value of the variable with its name, or the text if none is set.
 
-    Both for an empty variable, because it may be unset.
+    An empty variable has both as possible values, because it may be unset.
     """
     if token.quoted:
         # Before policy CMP0054, quoted arguments were also looked up as variables.
@@ -119,7 +119,7 @@ def _operands(run: Run, token: ConditionToken) -> tuple[str, ...]:
 
 
 def _agreed(answers: Iterable[int]) -> int:
-    """Return the common answer for all readings of the operands, UNKNOWN if they differ."""
+    """Return the answer of a test if it is equal for all possible values of the operands, else UNKNOWN."""
     different = set(answers)
     return different.pop() if len(different) == 1 else UNKNOWN
 
@@ -154,7 +154,7 @@ def _same(first: str, second: str) -> int:
 
 
 def _root(path: str) -> str:
-    """Return the unknown folder (an ATOM) with which a path starts, "" if there is none."""
+    """Return the folder of unknown place (an ATOM) with which a path starts, "" if the path starts with no such folder."""
     return path.split("/")[1] if path.startswith("/\1") else ""
 
 
@@ -188,7 +188,10 @@ def compare_versions(left: str, right: str) -> int:
 
 
 def _component(text: str, at: int) -> tuple[str, int]:
-    """Return the digits of a component without its leading zeros, and the offset of its end."""
+    """Return the digits of the version component at an offset, and the offset of its end: ``1.020``, 2 -> ``("20", 5)``.
+
+    Leading zeros are left out. A negative number wraps around, as in strtoul().
+    """
     match = _COMPONENT.match(text, at)
     if match is None:
         return "", at

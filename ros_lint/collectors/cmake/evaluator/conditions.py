@@ -152,7 +152,7 @@ class _Parser:
         return _word(self.run, left)
 
     def binary_after(self, truth: Truth) -> Truth:
-        """Return the value of a parenthesis, UNKNOWN if it is the left side of a comparison, which is rare."""
+        """Return ``truth``, the value of a condition in parentheses; UNKNOWN if a binary test follows, which is rare."""
         if self.keyword() in BINARY:
             self.at = len(self.tokens) + 1
             return Truth(UNKNOWN)
@@ -225,7 +225,7 @@ def _is_test_option(name: str) -> bool:
 def _build_testing(run: Run) -> Truth:
     """Return the truth of BUILD_TESTING: likely, unless the script itself sets it to false.
 
-    A later option(BUILD_TESTING) keeps that value.
+    An option(BUILD_TESTING) after the set() keeps the value false.
     """
     value = run.get("BUILD_TESTING")
     return _TESTS_DISABLED if value and is_fixed(value) and is_off(value) else _TESTS_ENABLED

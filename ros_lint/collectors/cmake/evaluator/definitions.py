@@ -20,7 +20,7 @@ def _define(run: Run, node: Definition) -> Exit:
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
     if not args or HOLE in args[0]:
-        run.hide(Facet.USES, "the name of a function is unknown")
+        run.hide(Facet.USES | Facet.EXPORTS, "the name of a function is unknown")
         return NEXT
     frame = run.frames[-1]
     body = node.body

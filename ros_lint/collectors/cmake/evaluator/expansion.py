@@ -83,7 +83,7 @@ def _compile(text: str) -> Template:
 
 
 def _joined(parts: list[Part]) -> Template:
-    """Return the parts with adjacent texts joined."""
+    """Return the parts of an argument after adjacent texts are joined: ``"a", "b", reference`` -> ``"ab", reference``."""
     texts: list[Part] = []
     for part in parts:
         if texts and isinstance(part, str) and isinstance(texts[-1], str):
@@ -121,9 +121,10 @@ def substituted(text: str, values: Mapping[str, str]) -> str:
 
 
 def expand(parts: Template, lookup: Lookup) -> str:
-    """Return the value of an argument.
+    """Return the value of an argument, given its parts and a function that returns the values of variables.
 
-    If the argument is a single reference such as ``${NAMES}``, the MAYBE marks of conditional elements are kept.
+    HOLE if the value is too long. If the argument is a single reference such as ``${NAMES}``, the MAYBE marks of list
+    elements that may be missing are kept.
     """
     if len(parts) == 1:
         part = parts[0]
@@ -148,7 +149,7 @@ def expand(parts: Template, lookup: Lookup) -> str:
 
 
 def _marked(pieces: list[str]) -> str:
-    """Return the pieces joined. Only pieces that are whole list elements keep their MAYBE marks."""
+    """Return the pieces of a value as one text. Only pieces that are whole list elements keep their MAYBE marks."""
     pieces = [piece for piece in pieces if piece]
     texts = []
     for previous, piece, following in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):

@@ -100,13 +100,13 @@ def count_step(run: Run) -> None:
 
 
 def _without(run: Run, name: str, args: list[str]) -> Exit:
-    """Run a command of CMake itself, ignoring a procedure of the same name."""
+    """Run the command of CMake ``name``, not a function or macro of the package with this name."""
     handler = HANDLERS.get(name)
     return (handler(run, args) or NEXT) if handler is not None else NEXT
 
 
 def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
-    """Call a function or macro."""
+    """Run a function or macro with evaluated arguments, and return the possible exits."""
     if type(procedure) is Choice:
         return _call_one_of(run, procedure, args)
     assert type(procedure) is Procedure
@@ -192,13 +192,16 @@ def _call_values(procedure: Procedure, args: list[str], first_uncertain: int, po
 
 
 def _possibly_empty(run: Run, command: Command) -> set[str]:
-    """Return the quoted arguments that may be empty."""
+    """Return the values of the quoted arguments of a command that may be empty, because all their elements may be missing."""
     values = {run.evaluate(text) for text, kind, _, _ in command.args if kind == QUOTED}
     return {value for value in values if MAYBE in value and not certainly_set(value)}
 
 
 def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
-    """Return arguments as a list. One of several arguments may add an empty element if it is in ``possibly_empty``."""
+    """Return arguments as one value, a CMake list.
+
+    If an argument is in ``possibly_empty``, the list ends with an element that may be missing.
+    """
     value = join(args)
     return f"{value};{MAYBE}" if possibly_empty and len(args) > 1 and any(arg in possibly_empty for arg in args) else value
 

@@ -11,7 +11,7 @@ from ros_lint.collectors.cmake.evaluator.values import cached_short
 
 @cached_short(4096)
 def folded(name: str) -> str:
-    """Return a name without ``_``, ``-`` and upper case, to compare spellings of a package's name."""
+    """Return the name of a package in lower case, without ``_`` and ``-``, to compare spellings: ``Foo-Bar`` -> ``foobar``."""
     return name.replace("_", "").replace("-", "").lower()
 
 
@@ -35,6 +35,10 @@ class FoundPackages:
         """Packages of the workspace whose CMake code has run."""
         self.optional_finds: dict[str, list[Span]] = {}
         """Places of find_package() calls without REQUIRED, by package."""
+        self.quiet_finds: set[Span] = set()
+        """Places of these calls that certainly run with QUIET."""
+        self.required_by_check: set[str] = set()
+        """Names X for which the script stops with an error unless X_FOUND is true."""
         self._folded_prefixes: tuple[str, ...] = ()
 
     def may_set(self, variable: str) -> bool:
@@ -44,7 +48,10 @@ class FoundPackages:
         return folded(variable).startswith(self._folded_prefixes)
 
     def with_prefix(self, prefix: str) -> str:
-        """Return the found package whose variables have a prefix, ignoring case; "" if there is none."""
+        """Return the found package whose variables have a prefix in any spelling (:func:`folded`); "" if there is none.
+
+        ``OpenCV`` -> ``OpenCV``, because find_package(OpenCV) sets ``OpenCV_LIBS``.
+        """
         if self.prefixes.get(prefix):
             return prefix
         letters = folded(prefix)

@@ -12,10 +12,10 @@ from ros_lint.base.wildcards import LONGEST, letters, spaced
 
 
 def path_pattern(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
-    """Return the expression for a whole path, from a pattern for each of its names.
+    """Return the regular expression for a whole path, from a glob pattern for each component: ``["src", "*.cpp"]``.
 
     The expression matches the :func:`~ros_lint.base.text.octets` of the path. With ``recurse``, any
-    folders may precede the last name. No name matches an invalid pattern.
+    folders may precede the last component. An invalid pattern matches nothing.
     """
     numbers = count()
     *heads, last = (_expression(part, numbers) or "(?!)" for part in parts)
@@ -23,9 +23,9 @@ def path_pattern(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
 
 
 def end_pattern(pattern: str) -> re.Pattern[str] | None:
-    """Return the expression for the end of a path, as :func:`~ros_lint.base.text.octets`.
+    """Return the regular expression for the last components of a path, from a glob pattern such as ``*.h``.
 
-    None if CMake rejects the pattern.
+    The expression searches the :func:`~ros_lint.base.text.octets` of the path. None if CMake rejects the pattern.
     """
     expression = _expression(pattern, count())
     return None if expression is None else re.compile(rf"/{expression}\Z")
@@ -40,7 +40,10 @@ def _expression(pattern: str, numbers: Iterator[int]) -> str | None:
 
 @lru_cache(maxsize=256)
 def _pieces(pattern: str) -> tuple[str, ...] | None:
-    """Return expressions for the texts between the stars of a pattern, None if a range is invalid."""
+    """Return regular expressions for the parts of a glob pattern, split at ``*``: ``a*b`` -> ``("a", "b")``.
+
+    None if a range in brackets is invalid.
+    """
     if len(pattern) > LONGEST:
         return None
     pieces = [""]
@@ -74,7 +77,10 @@ def _end(pattern: str, at: int) -> int:
 
 
 def _letter(inside: str) -> str | None:
-    """Return an expression for the characters in brackets, None if a range ends before it begins."""
+    """Return a regular expression for one of the characters in brackets; None for an inverted range such as ``z-a``.
+
+    ``inside`` is the text between the brackets of a glob pattern.
+    """
     negated = inside[:1] in ("!", "^")
     body = inside[negated:].replace("\\", "\\\\")  # KWSys escapes it so, which adds a second backslash to the set
     ranges = [(ord(letter), ord(letter)) for letter in body[:1]]

@@ -64,7 +64,10 @@ def _loop_names(args: list[str]) -> list[str]:
 
 
 def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]]:
-    """Return the values of the loop variables in each round. A single HOLE means any number of rounds."""
+    """Return the values of the loop variables of a foreach(), one tuple for each round.
+
+    A value that is just a HOLE means any number of rounds.
+    """
     if any(HOLE in arg for arg in args):
         # A quoted argument is one round even if its value is unknown; an unquoted unknown argument may be several rounds.
         args = [HOLE if HOLE in arg and not quoted else arg for arg, quoted in zip(args, _quoted(run, command), strict=True)]
@@ -98,7 +101,7 @@ def _elements(run: Run, name: str) -> list[str]:
 
 
 def _unknown_whole(items: list[str]) -> list[str]:
-    """Return list elements. Each one with an unknown piece becomes a HOLE, because it may be several."""
+    """Return list elements in which each element with an unknown piece is a HOLE, because it may be several elements."""
     return [UNPAIRED_HOLE if UNPAIRED_HOLE in item else HOLE if HOLE in item else item for item in items]
 
 
@@ -162,7 +165,8 @@ def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> 
 def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
     """Run the body of a loop whose number of rounds is unknown.
 
-    A first, muted round determines the variables that change. The second round runs with these unknown.
+    A first round records no results and determines which variables change. The second round runs after these variables
+    became unknown.
     """
     run.muted += 1
     try:

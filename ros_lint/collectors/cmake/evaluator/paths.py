@@ -52,21 +52,21 @@ class Paths:
         return join_path(self.sources.path, path) if path else self.sources.path
 
     def relative(self, value: str) -> str | None:
-        """Return a path relative to the package, even one outside of it.
+        """Return the path that an argument denotes, relative to the package: ``../other/a.txt`` if it is outside of it.
 
-        None if it is outside of the tree or unknown.
+        None if the path is outside of the tree or unknown.
         """
         return _relative_to(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
-        """Return a path within the package, relative to it; None if it is outside of the package or unknown."""
+        """Return the path that an argument denotes, relative to the package; None if it is outside of it or unknown."""
         path = self.relative(value)
         return None if path is None or is_outside(path) else path
 
     def outside(self, value: str) -> str | None:
-        """Return the path, relative to the package, of an existing file or folder outside of it.
+        """Return the path that an argument denotes if it is an existing file or folder outside of the package, else None.
 
-        None if none is visible.
+        The path is relative to the package. Files outside of the tree do not count as existing.
         """
         path = self.relative(value)
         return path if path is not None and is_outside(path) and self.sources.outside.kind(self.tree_path(path)) else None
@@ -77,10 +77,7 @@ class Paths:
         return self.outside(value) if path is None else path
 
     def script(self, path: str) -> ParsedScript | None:
-        """Return the commands of the CMake file at a path relative to the package.
-
-        None if no such file is visible.
-        """
+        """Return the commands of the CMake file at a path relative to the package; None if the tree has no such file."""
         return self.sources.outside.script(self.tree_path(path)) if is_outside(path) else self.sources.scripts.get(path)
 
     def is_outside_source(self, value: str) -> bool:
@@ -95,16 +92,16 @@ class Paths:
         return ".." in plain if path is None else is_outside(path)
 
     def destination(self, value: str) -> str | None:
-        """Return an install destination relative to the prefix.
+        """Return an install destination relative to the install prefix: ``${CMAKE_INSTALL_PREFIX}/lib`` -> ``lib``.
 
-        None if it is unknown or outside of the prefix.
+        None if the destination is unknown or outside of the prefix.
         """
         return _destination(value) if len(value) <= LONGEST else None
 
     def build_path(self, value: str) -> str | None:
-        """Return a path relative to the build folder of the package.
+        """Return the path that an argument denotes, relative to the build folder of the package.
 
-        None if it is outside of that folder or unknown.
+        None if the path is outside of the build folder or unknown.
         """
         if HOLE in value or len(value) > LONGEST or not (value.startswith(f"{BINARY}/") or value == BINARY):
             return None
@@ -130,13 +127,13 @@ class Paths:
         return self.sources.outside.kind(self.tree_path(path)) == "file" if is_outside(path) else path in self.files
 
     def is_unlisted(self, path: str) -> bool:
-        """Return whether a path is in a folder of the package whose files are not listed."""
+        """Return whether a path is in a nested package or a folder with a COLCON_IGNORE, whose files are not listed."""
         return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unlisted_folders)
 
     def files_below(self, path: str) -> Sequence[str]:
-        """Return the files below a folder, sorted.
+        """Return the files below a folder, sorted. ``path`` and the results are relative to the package.
 
-        For a folder outside of the package, empty if not all files are visible.
+        The result is empty for a folder outside of the package if only a part of its files is known.
         """
         if is_outside(path):
             place = self.tree_path(path)
@@ -164,11 +161,10 @@ class Paths:
 
 @lru_cache(maxsize=4096)
 def _relative_to(package: str, directory: str, value: str) -> str | None:
-    """Return a path relative to ``package``.
+    """Return the path that the argument ``value`` denotes, relative to ``package``.
 
-    ``directory`` is the folder of the script that names it, relative to the package.
-
-    None if the path is outside of the tree or unknown.
+    ``directory`` is the folder of the script with the argument, relative to the package. None if the path is outside of
+    the tree or unknown.
     """
     if HOLE in value:
         return None
@@ -192,9 +188,9 @@ def _relative_to(package: str, directory: str, value: str) -> str | None:
 
 @lru_cache(maxsize=1024)
 def _destination(value: str) -> str | None:
-    """Return an install destination relative to the prefix.
+    """Return an install destination relative to the install prefix: ``${CMAKE_INSTALL_PREFIX}/lib`` -> ``lib``.
 
-    None if it is unknown or outside of the prefix.
+    None if the destination is unknown or outside of the prefix.
     """
     if value.startswith(PREFIX):
         value = value[len(PREFIX) :].lstrip("/")

@@ -1,6 +1,6 @@
 """Regular expressions of CMake (KWSys RegularExpression.cxx), translated to Python's.
 
-They are simpler than Python's, and match bytes.
+CMake's expressions have fewer constructs than Python's, and match bytes.
 """
 
 from __future__ import annotations
@@ -71,7 +71,10 @@ class _Translator:
         return pattern[0]
 
     def branches(self) -> tuple[str, bool]:
-        """Return the expression up to the end or a closing parenthesis, and whether it can match nothing."""
+        """Return the translated alternatives ``a|b`` up to a closing parenthesis or the end of the expression.
+
+        The second value is True if an alternative can match the empty text.
+        """
         pieces, empty = self.branch()
         while self.text[self.at : self.at + 1] == "|":
             self.at += 1
@@ -238,9 +241,10 @@ A result that is the same for both does not depend on the folder."""
 
 
 def independent_of_folder(compute: Callable[..., str], *values: str) -> str:
-    """Return the result of a computation on texts, HOLE if it depends on the folder of the workspace.
+    """Return ``compute(*values)``, where values may contain the unknown folder of the workspace.
 
-    Raises the exceptions of the computation.
+    HOLE if the result depends on this folder: it is computed for two example folders and compared. Raises the exceptions
+    of ``compute``.
     """
     if not any("\1" in value for value in values):
         return compute(*values)

@@ -39,7 +39,7 @@ class Results:
         self.modified_targets: dict[tuple[str, str], Span] = {}
         """Places of the first command of each name that certainly modifies a target, by target and command."""
         self.undefined_targets: list[tuple[str, Span, bool]] = []
-        """Installed targets that are not defined, and whether the install() is conditional."""
+        """Installed targets that are not defined, and whether this is certain where install() is called."""
         self.missing_files: list[tuple[str, Span, bool]] = []
         """Named files that do not exist unless they are generated, and whether this may be harmless.
 

@@ -114,7 +114,10 @@ class Run(State):
         return self._read(result) if result else result
 
     def _read(self, value: str) -> str | None:
-        """Charge the cost of reading a value, and return it; a HOLE becomes UNPAIRED_HOLE if brackets may be unpaired."""
+        """Return the value of a variable as a script reads it, and subtract its length from the budget.
+
+        Each HOLE becomes an UNPAIRED_HOLE if values may have unpaired square brackets.
+        """
         self.charge(len(value))
         if not self.has_unpaired_brackets:
             return value
@@ -122,7 +125,10 @@ class Run(State):
         return with_unpaired_holes(value)
 
     def implicit_value(self, name: str) -> str | None:
-        """Return the value of a variable that no script has set."""
+        """Return the value of a variable that no script has set: a built-in value, HOLE if it may have any value.
+
+        None if it is certainly not set.
+        """
         value = self.builtin_value(name)
         if value is not None:
             return value
@@ -144,7 +150,10 @@ class Run(State):
         return None
 
     def lookup(self, name: str, space: str) -> str:
-        """Return the value of a reference; an unset variable is empty."""
+        """Return the value of ``${name}``, or of ``$CACHE{name}`` or ``$ENV{name}`` for the space "CACHE" or "ENV".
+
+        The value of an unset variable is "".
+        """
         if space == "":
             return self.get(name) or ""
         if space == "CACHE":
@@ -157,7 +166,7 @@ class Run(State):
         return (self.distro or HOLE) if name == "ROS_DISTRO" else ROS_2.get(name, HOLE)
 
     def _use_of_ros(self, name: str) -> None:
-        """Record a use of ros_environment, because only its environment hooks reliably set such a variable."""
+        """Record that the package uses ros_environment, which sets the environment variable ``name``, such as ROS_DISTRO."""
         command = self.frames[-1].command
         if command is None or command.name == "message":
             return
@@ -175,7 +184,7 @@ class Run(State):
         return name in self.settable or (name in CONFIGURABLE_VARIABLES and self.value_or_missing(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
-        """Return whether the user, or code that cannot be read, may have set a variable that seems known."""
+        """Return whether the user, or code that cannot be read, may have set a variable that the read scripts do not set."""
         if self.is_configurable(name):
             return True
         return self.open_world and self.value_or_missing(name) is MISSING and name not in self.path_variables
@@ -215,7 +224,7 @@ class Run(State):
         return None
 
     def evaluate(self, text: str) -> str:
-        """Return the value of an argument before it is split."""
+        """Return the value of an argument after its references are replaced, before it is split at semicolons."""
         arguments = self.frames[-1].macro_arguments
         try:
             parts = templates.get(text) or template(text)
@@ -246,12 +255,12 @@ class Run(State):
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == OUTSIDE
 
     def enter_file(self, frame: CallFrame) -> None:
-        """Make a file the current one."""
+        """Begin to run a file: ``frame`` becomes the innermost frame."""
         self.frames.append(frame)
         self.place_file()
 
     def place_file(self) -> None:
-        """Set the variables that name the current file."""
+        """Set CMAKE_CURRENT_LIST_FILE and the related variables for the file that is being run."""
         for frame in reversed(self.frames):
             if frame.procedure is None:
                 self.path_variables["CMAKE_CURRENT_LIST_FILE"] = frame.file
@@ -320,7 +329,7 @@ class Run(State):
     def add_mention(
         self, name: str, via: Via, span: Span, quotation: str = "", *, optional: bool = False, purpose: Purpose = ""
     ) -> None:
-        """Record that a place names a package."""
+        """Record a mention of a package, or of a target or macro of a package, at a place."""
         if not purpose and self.runs_helper_code() and (via == "cmake" or (via == "target" and span == self.current_place())):
             purpose = "helper"
         if not self.muted:
@@ -329,9 +338,9 @@ class Run(State):
             self.results.mentions[mention] = None
 
     def note_test_elements(self, name: str, elements: Iterable[str]) -> None:
-        """Record the elements that a list is about to gain only if tests are enabled.
+        """Record ``elements`` that a command adds to the list ``name`` only if tests are enabled.
 
-        The list must already exist outside of the branch for tests.
+        Nothing is recorded if the list does not exist outside of the branch for tests.
         """
         if not self.testing:
             self.test_elements.pop(name, None)
@@ -339,7 +348,7 @@ class Run(State):
             self.test_elements[name] = self.test_elements.get(name, frozenset()).union(set(elements).difference(split(value)))
 
     def _is_test_element(self, name: str) -> bool:
-        """Return whether the current command has ``name`` only from a list that was extended for tests."""
+        """Return whether ``name`` is an argument of the current command only because a list was extended for tests."""
         command = self.frames[-1].command
         lists = [variable for variable, elements in self.test_elements.items() if name in elements]
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
@@ -358,10 +367,10 @@ class Run(State):
         """Record that code cannot be evaluated and which facet of the package it hides.
 
         ``below`` limits what is hidden to a folder of the install prefix, ``inside`` to the build of a source folder. Code that
-        does not run with default options hides only possible uses of packages.
+        does not run with default options hides only possible uses and exports of packages.
         """
         if self.non_default_conditions:
-            facet &= Facet.USES
+            facet &= Facet.USES | Facet.EXPORTS
         if facet and not self.muted:
             self.results.opaques[Opaque(facet, reason, span or self.current_place(), below=below, inside=inside)] = None
 

@@ -27,7 +27,7 @@ IF_TESTING: Final = 64
 
 
 class Variables(dict[str, "str | None"]):
-    """The variables of one scope. ``None`` is an unset variable, which hides that of the outer scope."""
+    """The variables of one scope, by name. ``None`` is an unset variable; it hides a variable of an outer scope."""
 
     __slots__ = ()
 
@@ -64,7 +64,7 @@ class Procedure(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """Alternative procedures of one name, of which one is defined. ``None`` means that possibly none is."""
+    """Functions or macros of one name that different branches define. ``None`` among them: possibly none is defined."""
 
     procedures: tuple[Procedure | None, ...]
     by_default: int | None
@@ -132,9 +132,9 @@ class State:
     # --- writing
 
     def charge(self, size: int) -> None:
-        """Subtract the characters that a command writes or reads from the budget.
+        """Subtract the number of characters that a command writes or reads from the budget of the run.
 
-        Raises BudgetError if it is exceeded.
+        Raises BudgetError if the budget is exceeded.
         """
         self.characters -= size
         if self.characters < 0:
@@ -155,7 +155,7 @@ class State:
         mapping[key] = value
 
     def note_brackets(self, value: str) -> None:
-        """Update ``has_unpaired_brackets`` for a value that scripts can now read."""
+        """Set ``has_unpaired_brackets`` if a value that was written to a variable may have an unpaired square bracket."""
         if ("[" in value or "]" in value or "\3" in value) and not self.has_unpaired_brackets:
             self.charge(SLOW * len(value))
             self.has_unpaired_brackets = is_unpaired(value)
@@ -213,7 +213,7 @@ class State:
     def value_or_missing(self, name: str, depth: int | None = None) -> Any:
         """Return the value of a variable in the scopes and the cache, or MISSING.
 
-        ``depth`` is the number of scopes to search.
+        Only the outermost ``depth`` scopes are searched, by default all.
         """
         scopes = self.scopes if depth is None else self.scopes[:depth]
         for scope in reversed(scopes):
@@ -229,7 +229,7 @@ class State:
     # --- branching
 
     def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
-        """Call ``run``, undo its changes, and return its exit with these changes.
+        """Call ``run``, which runs a branch, undo the changes that it made, and return its possible exits and its changes.
 
         Raises BudgetError if branches are nested too deeply.
         """
@@ -281,15 +281,15 @@ class State:
                 self.put(mapping, key, merged)
 
     def forget(self, changes: Changes) -> None:
-        """Make every value that was changed unknown."""
+        """Set every entry that ``changes`` contain to an unknown value."""
         for mapping, key, value in changes.values():
             if isinstance(value, str) or value is None or isinstance(mapping, Variables):
                 self.put(mapping, key, HOLE)
 
     def _visible_value(self, mapping: dict[str, Any], key: str) -> Any:
-        """Return an entry.
+        """Return an entry of a mapping, MISSING if there is none.
 
-        A variable that its scope does not set is looked up in the outer scopes and in CMake's defaults.
+        If the mapping is a scope that does not set the variable ``key``, the outer scopes and CMake's defaults are searched.
         """
         value = mapping.get(key, MISSING)
         if value is MISSING and isinstance(mapping, Variables):
@@ -336,6 +336,8 @@ class InstalledTarget(NamedTuple):
     """The export set of the target."""
     headers: tuple[tuple[str, str | None], ...] = ()
     """Destinations of the headers of the target, by artifact."""
+    undefined: bool = False
+    """True if the target is certainly not defined where install() is called, which is when CMake looks for it."""
 
 
 class CallFrame:

@@ -1,6 +1,6 @@
-"""Answers to conditions: true, false, unknown, *likely* or *unlikely*.
+"""Values of conditions: true, false, unknown, *likely* or *unlikely*.
 
-The user can reverse the last two by an option.
+A likely or unlikely condition is true or false by default, but an option of the user can reverse it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
 
 class Truth(NamedTuple):
-    """An answer, and whether tests must be enabled for it to be true, or for it to be false."""
+    """The value of a condition, and whether it is true only if tests are enabled, or false only if tests are enabled."""
 
     value: int
     test_if_true: bool = False
@@ -49,12 +49,12 @@ class ConditionToken(NamedTuple):
 
 
 def negated(truth: Truth) -> Truth:
-    """Return the answer to NOT of an answer."""
+    """Return the value of ``NOT truth``."""
     return Truth(TRUE - truth.value, truth.test_if_false, truth.test_if_true)
 
 
 def both(left: Truth, right: Truth) -> Truth:
-    """Return the answer to AND of two answers."""
+    """Return the value of ``left AND right``."""
     # min() is Kleene's AND. With LIKELY and UNLIKELY ordered between the others, it also gives the default answer.
     return Truth(
         min(left.value, right.value), left.test_if_true or right.test_if_true, left.test_if_false and right.test_if_false
@@ -62,19 +62,19 @@ def both(left: Truth, right: Truth) -> Truth:
 
 
 def either(left: Truth, right: Truth) -> Truth:
-    """Return the answer to OR of two answers."""
+    """Return the value of ``left OR right``."""
     return Truth(
         max(left.value, right.value), left.test_if_true and right.test_if_true, left.test_if_false or right.test_if_false
     )
 
 
 def reversible(value: int) -> int:
-    """Return an answer that the user can reverse: LIKELY for TRUE, UNLIKELY for FALSE."""
+    """Return the value of a condition that an option of the user can reverse: LIKELY for TRUE, UNLIKELY for FALSE."""
     return {TRUE: LIKELY, FALSE: UNLIKELY}.get(value, value)
 
 
 def reversible_if_configurable(value: int, run: Run, *tokens: ConditionToken) -> Truth:
-    """Return an answer, reversible if a token depends on a value that a user may change."""
+    """Return ``value`` as a Truth; LIKELY or UNLIKELY if the value of a token can be changed by the user."""
     configurable = any(token.configurable or (not token.quoted and run.is_configurable(token.text)) for token in tokens)
     return Truth(reversible(value) if configurable else value)
 
@@ -86,7 +86,7 @@ def is_off(text: str) -> bool:
 
 @cached_short(1024)
 def constant(text: str) -> bool | None:
-    """Return the truth of a word that is a constant or a number, None for any other word."""
+    """Return whether a constant such as ``ON`` or ``NO``, or a number, is true for if(); None for any other word."""
     if text.upper() in TRUE_WORDS:
         return True
     if is_off(text):
@@ -96,7 +96,7 @@ def constant(text: str) -> bool | None:
 
 
 def number_of(text: str) -> float:
-    """Return the number in a text that matches NUMBER."""
+    """Return the number at the start of a text: ``0x10`` -> 16.0. The text must match NUMBER."""
     text = text.strip()
     if "x" not in text.lower():
         return float(text)

@@ -28,7 +28,10 @@ _OF_OTHERS: Final = re.compile(
 
 
 def note_unset_references(run: Run, command: Command) -> None:
-    """Record the whole arguments of a command that refer to a variable without a value, if the command certainly runs."""
+    """Record each unquoted argument of a command that is just ``${name}`` of a variable without a value.
+
+    Nothing is recorded if the command may not run.
+    """
     frame = run.frames[-1]
     if run.muted or run.uncertain_conditions or not frame.own or frame.procedure is not None:
         return
@@ -63,7 +66,7 @@ def unset_variables(run: Run) -> Iterator[UnsetVariable]:
 
 
 def _pattern(word: str) -> re.Pattern[str]:
-    """Return a pattern of the values of an argument, in which each reference is any text."""
+    """Return a pattern of the names to which an argument may evaluate: ``${x}_DIR`` matches ``ROBOT_DIR``."""
     pieces = re.split(r"\$\w*\{[^{}]*\}", word)
     return re.compile(r"\w+".join(map(re.escape, pieces)) if any(pieces) else r"(?!)")
 

@@ -136,7 +136,7 @@ def _split(value: str) -> list[str]:
 
 
 def split_cost(value: str) -> int:
-    """Return the cost of splitting a list, in characters."""
+    """Return the cost of splitting a list, in characters of the budget of a run."""
     return SLOW * len(value) if "[" in value or "\\" in value else ELEMENT * value.count(";")
 
 
@@ -152,7 +152,7 @@ def is_unpaired(value: str) -> bool:
 
 
 def with_unpaired_holes(value: str | None) -> str | None:
-    """Return a value as read in a script whose unknown texts may have unpaired brackets."""
+    """Return a value as a script reads it if unknown texts may have unpaired brackets: with UNPAIRED_HOLE for HOLE."""
     if not value:
         return value
     if MAYBE in value and is_unpaired(value):
@@ -195,20 +195,18 @@ def mark_maybe(element: str) -> str:
 
 
 def certainly_set(value: str) -> bool:
-    """Return whether a variable with this value is certainly set.
+    """Return whether a variable with this value is certainly set: an element of the value certainly exists.
 
-    A variable that one branch sets to the empty text and another leaves unset counts as empty.
+    The empty value is not certain, because it also stands for a variable that only one branch sets, to the empty text.
     """
     return any(element and element not in (HOLE, UNPAIRED_HOLE) and not element.startswith(MAYBE) for element in elements(value))
 
 
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
-    """Return the value of a variable after one of several branches ran.
+    """Return the value of a variable after one of several branches ran, given its value after each branch.
 
-    ``values`` has its value after each branch.
-
-    ``None`` is an unset variable. ``default`` is the index of the branch that runs with default options. The result then
-    keeps every element of that value, and elements of the other values are marked as possibly missing.
+    ``None`` is an unset variable. ``default`` is the index of the branch that runs with default options. If it is given,
+    the result keeps every element of the value of this branch, and elements of further values get the MAYBE mark.
     """
     first = values[0]
     if all(value == first for value in values):
@@ -233,7 +231,7 @@ def merge(values: Sequence[str | None], default: int | None = None) -> str | Non
 
 
 def _extends(value: str | None, base: str | None) -> bool:
-    """Return whether a list begins with the elements of another."""
+    """Return whether the list ``value`` begins with the elements of the list ``base``."""
     base_items, items = elements(base or ""), elements(value or "")
     return items[: len(base_items)] == base_items
 
