@@ -93,7 +93,9 @@ class FileRoles:
                 self._files
             )
             looks_unrelated = is_sphinx_configuration or name in _RECIPES or not _DOCUMENTATION_FOLDERS.isdisjoint(folders)
-        return bool(looks_unrelated) and path not in self._installed_python and path not in self._production
+        if not looks_unrelated or path in self._installed_python or path in self._production:
+            return False
+        return not (path in self._launched and path in self._installed)
 
     def is_optional(self, path: str) -> bool:
         """Return whether only some builds compile a file, depending on a condition that may be false."""
