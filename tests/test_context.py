@@ -73,6 +73,13 @@ def test_several_paths_and_files_of_packages(repository: Path, capsys: pytest.Ca
     assert nested["context_packages"] == 0
 
 
+def test_a_rejected_manifest_is_reported_if_it_was_asked_for(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (repository / "wrist" / "package.xml").write_text(manifest_text("wrist", [TOOL, "<run_depend>arm_core</run_depend>"]), "utf-8")
+    for folder in (repository, repository / "wrist"):
+        assert [finding["rule"] for finding in report(capsys, folder)["findings"]].count("rejected-manifest") == 1
+    assert of_package(report(capsys, repository / "gripper"), "wrist") == []
+
+
 def test_fixes_change_only_what_was_asked_for(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = (repository / "wrist" / "package.xml").read_text("utf-8")
     main([str(repository / "gripper"), "--fix", "--no-cache", "--distro", "jazzy"])

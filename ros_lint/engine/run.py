@@ -27,7 +27,7 @@ def run_rules(
     issues: set[Issue] = set()
     crashes: list[Crash] = []
     packages = [package for package in workspace.packages if is_below_any(package.path, folders)]
-    names = {package.name for package in packages}
+    names = {package.name for package in (*packages, *workspace.unusable) if is_below_any(package.path, folders)}
     for rule in rules:
         for package in packages if rule.package else (None,):
             try:
