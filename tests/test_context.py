@@ -74,7 +74,8 @@ def test_several_paths_and_files_of_packages(repository: Path, capsys: pytest.Ca
 
 
 def test_a_rejected_manifest_is_reported_if_it_was_asked_for(repository: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (repository / "wrist" / "package.xml").write_text(manifest_text("wrist", [TOOL, "<run_depend>arm_core</run_depend>"]), "utf-8")
+    manifest = manifest_text("wrist", [TOOL, "<run_depend>arm_core</run_depend>"])
+    (repository / "wrist" / "package.xml").write_text(manifest, "utf-8")
     for folder in (repository, repository / "wrist"):
         assert [finding["rule"] for finding in report(capsys, folder)["findings"]].count("rejected-manifest") == 1
     assert of_package(report(capsys, repository / "gripper"), "wrist") == []
