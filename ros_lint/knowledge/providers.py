@@ -9,6 +9,7 @@ import re
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 from ros_lint.base.auxiliary_files import is_auxiliary
+from ros_lint.knowledge.builtin import replacement_key
 from ros_lint.knowledge.names import NOTHING_NEEDED
 
 if TYPE_CHECKING:
@@ -162,6 +163,8 @@ def by_import(world: Layers, module: str) -> Providers:
     """Return the providers of a Python module."""
     names = world.knowledge.names
     top = module.partition(".")[0]
+    if replacement := replacement_key(top, world.knowledge.distro):
+        return _existing(world, (replacement,), keys=(replacement,))
     keys = names.module(module)
     if keys == (NOTHING_NEEDED,):
         return _NONE_NEEDED

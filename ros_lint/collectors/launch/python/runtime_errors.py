@@ -2,6 +2,7 @@
 
 - A name that is not defined.
 - A substitution used as a text.
+- A text divided by a text, as if it were a path of pathlib.
 - A number where launch accepts only texts.
 - A function where launch expects a condition.
 """
@@ -79,6 +80,29 @@ def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Mi
             message = _JOINED_MESSAGE
         text = message.format(name=misuse.made.name, way=_replacement(misuse, combined), joined=operators.get(misuse.node, ""))
         yield Problem(kind, text, span_of(misuse.node, source))
+
+
+_TEXT_PATHS: Mapping[str, str] = {
+    "get_package_share_directory": "get_package_share_path()",
+    "get_package_prefix": "Path(get_package_prefix(...))",
+}
+"""Functions of ament_index_python that return a path as a string, with the expression that is a path of pathlib."""
+
+
+def divided_texts(tree: ast.Module, source: Source, divisions: Iterable[tuple[ast.expr, Source]]) -> Iterator[Problem]:
+    """Yield a problem for each operation ``text / text`` of a module."""
+    nodes = dict.fromkeys(node for node, module in divisions if module is source)
+    ignored = _ignored_nodes(tree) if nodes else set()
+    for node in nodes:
+        left = node.left if isinstance(node, ast.BinOp) else None
+        name = callee(left) if isinstance(left, ast.Call) else ""
+        if node in ignored:
+            continue
+        if name in _TEXT_PATHS:
+            message = f"{name}() returns a string, and a string has no operator '/'; use {_TEXT_PATHS[name]}"
+        else:
+            message = "a string has no operator '/'; use Path(a) / b or os.path.join(a, b)"
+        yield Problem("text-divided", message, span_of(node, source))
 
 
 def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:

@@ -317,3 +317,7 @@ class Machine(Interpreter):
     def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
         if isinstance(value, LaunchObject) and (misuse := self.library.misuse(value, how)) and not are_unknown(self.conditions):
             self.misused.append(Misused(misuse, value, node, frame.source))
+
+    def record_division(self, node: ast.expr, frame: Frame) -> None:
+        if not are_unknown(self.conditions):
+            self.divided.append((node, frame.source))

@@ -232,6 +232,11 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
             return [left, *right]
     if isinstance(op, ast.Div) and (isinstance(left, (FilePath, LaunchObject)) or isinstance(right, FilePath)):
         return machine.join_paths(left, [right], node, frame)
+    if isinstance(op, ast.Div) and isinstance(left, str) and isinstance(right, str):
+        if machine.caught:
+            raise ProgramRaised("TypeError")
+        machine.record_division(node, frame)
+        return machine.join_paths(left, [right], node, frame)
     if isinstance(op, ast.Mod) and isinstance(left, str):
         return _percent(left, right, node, frame)
     if isinstance(op, ast.BitOr) and isinstance(left, dict) and isinstance(right, dict):

@@ -144,6 +144,10 @@ class Interpreter(Recorder, ABC):
         """Return every symbolic text that a value can become at launch. Raises BudgetExceeded."""
 
     @abstractmethod
+    def record_division(self, node: ast.expr, frame: Frame) -> None:
+        """Record that ``node`` divides a text by a text, if the operation certainly runs."""
+
+    @abstractmethod
     def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
         """Record that an operation misuses ``value``, if it is an object of the library and the operation certainly runs.
 

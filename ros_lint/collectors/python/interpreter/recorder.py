@@ -63,6 +63,8 @@ class Recorder:
         """Names that were not bound when they were evaluated."""
         self.misused: list[Misused] = []
         """Substitutions that were used as texts."""
+        self.divided: list[tuple[ast.expr, Source]] = []
+        """Operations ``text / text``, which raise TypeError."""
         self.wanted: set[str] = set()
         """Modules and files that the program reads and that were not available."""
         self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
