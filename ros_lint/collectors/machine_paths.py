@@ -3,6 +3,7 @@
 These are:
 - paths below a home directory,
 - paths into the sources relative to the workspace, which only work in that folder,
+- paths that climb from an installed folder to the sources, which only work in the workspace that was built,
 - paths into ``/opt/ros``, which only work with one distribution.
 """
 
@@ -25,6 +26,11 @@ _SOURCE_PATH = re.compile(
     r"""(?:[=(:\[{]|\breturn|["']\s*,)\s*[rbu]?(?P<quote>["'])"""
     r"""(?P<path>(?:\./)?src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?P=quote)"""
 )
+_CLIMBING_PATH = re.compile(
+    r"""(?<=["')}])/?(?P<path>(?:\.\./){3,}src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])"""
+)
+"""A share folder is three or four folders below the workspace."""
+_INCLUDE = re.compile(r"#[ \t]*include[ \t]*[\"<]\Z")
 _JOINED = re.compile(r"join(?:path)?\([^()]*\Z")
 _MAX_CONTEXT = 200
 _WRITE_MODE = re.compile(r"""["']\s*,\s*(?:(?:mode\s*=\s*)?["'][wax]|std::ios(?:_base)?::(?:out|app|trunc)\b)""")
@@ -40,7 +46,7 @@ _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Top
 
 
 def collect(text: Text) -> tuple[MachinePath, ...]:
-    """Return the machine-specific paths of a file: in a home directory, in ``src`` or in ``/opt/ros``.
+    """Return the machine-specific paths of a file: in a home directory, in ``src``, or in ``/opt/ros``.
 
     Paths below ``~`` count only if they lead into a workspace. A path ends where a value is substituted. Left out are:
     - comments and docstrings,
@@ -57,6 +63,12 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
             match
             for match in _SOURCE_PATH.finditer(content)
             if not _JOINED.search(content, match.start() - _MAX_CONTEXT, match.start() + 1)
+        ]
+    if "../src/" in content:
+        matches += [
+            match
+            for match in _CLIMBING_PATH.finditer(content)
+            if not _INCLUDE.search(content, max(0, match.start() - _MAX_CONTEXT), match.start())
         ]
     if not matches:
         return ()

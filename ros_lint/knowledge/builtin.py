@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from ros_lint.collectors.python.versions import STANDARD_LIBRARY
+from ros_lint.collectors.python.versions import PYTHON_OF, STANDARD_LIBRARY
 
 _SEPARATE_MODULES = frozenset({"tkinter"})
 """Modules that Debian and Ubuntu ship in separate packages."""
 PYTHON_MODULES = STANDARD_LIBRARY - _SEPARATE_MODULES
 """Top-level modules of Python's standard library in any version from 3.10 to 3.14, without ``_SEPARATE_MODULES``."""
+
+_REMOVED_MODULES = {"distutils": ((3, 12), "python3-setuptools")}
+"""Modules that Python removed: the first version without the module, and the rosdep key that brings a replacement.
+
+``distutils``: PEP 632; setuptools installs a replacement under the same name (``distutils-precedence.pth``).
+"""
+
+
+def replacement_key(module: str, distro: str) -> str:
+    """Return the rosdep key that provides a top-level module which the Python of a distribution no longer has, else ""."""
+    version, key = _REMOVED_MODULES.get(module, ((0, 0), ""))
+    return key if key and PYTHON_OF.get(distro, (0, 0)) >= version else ""
+
 
 _CMAKE_MODULES = """
 ALSA ASPELL AVIFile Armadillo BISON BLAS BZip2 Backtrace Boost Bullet CABLE CUDA CUDAToolkit CURL CVS Coin3D Cups

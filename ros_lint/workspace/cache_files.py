@@ -73,9 +73,9 @@ def maker(module: str, name: str) -> Callable[..., Any]:
 
 
 def load(path: str, state: str) -> Any:
-    """Return the value in a file; ``state`` identifies the version of ros-lint and of its data.
+    """Return the value in a cache file; ``state`` identifies the version of ros-lint and of its data.
 
-    None if the file is damaged, was written in another state, or can be written by another user.
+    None if the file is damaged, was written with another ``state``, or can be written by another user.
     """
     import io  # noqa: PLC0415
     import pickle  # noqa: PLC0415  (not needed by a run without a cache)
@@ -96,9 +96,10 @@ def load(path: str, state: str) -> Any:
 
 
 def save(path: str, state: str, value: Any) -> bool:
-    """Write a file atomically, and return whether it was written.
+    """Write ``value`` to a cache file atomically, and return whether the file was written.
 
-    Nothing is written to a folder that another user can write.
+    ``state`` identifies the version of ros-lint and of its data. Nothing is written to a folder that another user can
+    write.
     """
     import io  # noqa: PLC0415
     import pickle  # noqa: PLC0415
@@ -128,7 +129,7 @@ def save(path: str, state: str, value: Any) -> bool:
 
 
 def _head(state: str, body: bytes | memoryview) -> bytes:
-    """Return the first line of a file. Its checksum reveals damage."""
+    """Return the first line of a cache file with the given body: the state and a checksum, which reveals damage."""
     return f"{state} {zlib.crc32(body):08x}".encode()
 
 

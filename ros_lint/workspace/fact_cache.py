@@ -83,7 +83,7 @@ def folder(environment: Mapping[str, str]) -> str:
 
 
 def _is_part(loaded: Any, kind: type) -> bool:
-    """Return whether a loaded value maps paths to stamps and facts."""
+    """Return whether a value from a cache file maps paths to pairs of a stamp and facts of the class ``kind``."""
     return isinstance(loaded, dict) and all(
         isinstance(path, str)
         and isinstance(entry, tuple)

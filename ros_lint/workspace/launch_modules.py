@@ -136,7 +136,10 @@ class _InputFinder:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
     def _module_of_named_package(self, module: str, importer: Text) -> str:
-        """Return the path of a module in another package that ``importer`` names: sys.path may contain it."""
+        """Return the path of a module in a package whose quoted name is in ``importer``, which may add it to ``sys.path``.
+
+        "" if no such package has the module, or several have it.
+        """
         named = [package for package in self._by_path.values() if _is_quoted(package.name, importer.text)]
         paths = [path for package in named if (path := _shortest(package, module))]
         return paths[0] if len(paths) == 1 else ""
@@ -155,7 +158,7 @@ class _InputFinder:
     # --- files ----------------------------------------------------------------------------------------------------
 
     def _installed_file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the source of an installed file, "" if it is ambiguous or missing."""
+        """Return the path of the source file that is installed at ``path``, "" if it is ambiguous or missing."""
         if path.startswith(f"{OWN_FOLDER}/"):
             return self._neighbour(path[len(OWN_FOLDER) + 1 :], file, package)
         place = installed_place(path)
@@ -165,7 +168,10 @@ class _InputFinder:
         return self._installed_sources(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
     def _neighbour(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the source of a file that is named relative to the installed folder of a launch file."""
+        """Return the source file that is installed at ``path``, a path relative to the installed folder of a launch file.
+
+        If the launch file is not installed, ``path`` is relative to its folder in the sources. "" if there is no such file.
+        """
         sources = self._installed_sources(package)
         install_path = next((place for place, source in sources.items() if source == file.path), "")
         if install_path:
@@ -221,7 +227,7 @@ def _is_quoted(name: str, text: str) -> bool:
 
 
 def _shortest(package: LaunchPackage, module: str) -> str:
-    """Return the source of a module in a package: the least nested file of that name."""
+    """Return the path of a module in the sources of a package: the least nested file of that name, "" if there is none."""
     for name in _sources(module):
         matches = [file for file in package.files if file == name or file.endswith(f"/{name}")]
         if matches:

@@ -9,7 +9,7 @@ from ros_lint.base.tree import Entry, Tree
 
 
 class Writable:
-    """Files that are really below the requested folders and have only one path in the packages.
+    """The files that a fix may write: below the requested folders after links are resolved, and with only one path.
 
     ``roots`` and ``paths`` (the files of all packages) are relative to the base of the tree.
     """
@@ -29,7 +29,7 @@ class Writable:
 
 
 def names_of_files(tree: Tree, paths: Iterable[str]) -> dict[str, list[str]]:
-    """Return paths by the identity of the file; a file has several paths if links lead to it."""
+    """Return the ``paths`` that lead to each file, by the real path of the file; only links give a file several paths."""
     paths_by_identity: dict[str, list[str]] = {}
     folders: dict[str, tuple[str, frozenset[str]]] = {}
     for path in paths:

@@ -10,8 +10,8 @@ A launch file that the launch front end rejects:
 - A Python launch file uses a name that is not defined, or imports one from a module that does not have it.
 - It passes a file in XML to `PythonLaunchDescriptionSource`.
 - It uses something that was added to the launch format, or to Python, after the chosen distribution.
-
 - A Python launch file adds a substitution to a string, or passes it where Python requires a string.
+- It divides a string by a string: `get_package_share_directory('p') / 'config'`.
 - It passes a function, a substitution or a boolean as a condition: `condition=lambda context: ...`.
 - It passes numbers, booleans or actions where strings are required: `default_value=True`, `LaunchConfiguration(argument)`.
 - It passes `launch_arguments` without `.items()`.

@@ -7,8 +7,9 @@ Paths that work only on one machine or in the root of one workspace:
   parameter file or build script.
 - A path to a file of a package below the source folder (`src/robot/config/robot.yaml`) or below a workspace in the home directory
   (`~/ros2_ws/src/robot/config/robot.yaml`).
+- A path that climbs from an installed folder to the sources: `os.path.join(share, '../../../../src/robot/config/robot.yaml')`.
 
-Both are one rule because both lead to the sources or files of one machine instead of the installed file.
+All are one rule because all lead to the sources or files of one machine instead of the installed file.
 
 ## Why it matters
 
@@ -145,6 +146,8 @@ _PYTHON = re.compile(r"/bin/python[\d.]*\Z")
 def _where(path: str) -> str:
     if path.startswith("~"):
         return "exists only if the workspace is at this place in the home directory"
+    if path.startswith("../"):
+        return "leads to the sources, which exist only where the workspace is built"
     return (
         "exists on one machine only"
         if path.startswith("/")

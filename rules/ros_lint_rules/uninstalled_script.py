@@ -2,7 +2,8 @@
 ## What it finds
 
 - A script with an interpreter line that an `ament_cmake` package does not install. It is in `scripts/`, in the folder of
-  scripts that are installed, or in the folder of a Python package that is not installed.
+  scripts that are installed, or in the folder of a Python package that is not installed. In the root of the package, only
+  nodes are reported: scripts that import `rclpy`.
 - A script or module of an `ament_python` package that a page or script of the package starts with `ros2 run`, although it is
   neither in `scripts` nor an entry point.
 
@@ -20,6 +21,8 @@
 Not reported:
 
 - Files without an interpreter line.
+- Python files that do nothing when they are started: they have no `__main__` guard, and no statement outside of functions
+  and classes calls a function of the file or of `rclpy`. In executable files, the call of any function counts.
 - Tests, and files that are kept as copies or backups (`old/`, `node copy.py`).
 - Files that the build itself runs.
 - Files that import packages which only ROS 1 has.
@@ -58,6 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     excluded |= {package.relative(use.span.path) for use in package.uses if standing(use.package) == "end-of-life"}
     with_nodes = Counter([file.rpartition("/")[0] for file in nodes & installed])
     candidates = [file for file in script.files.scripts if file.path not in excluded and file.shebang and file.main]
+    candidates = [file for file in candidates if "/" in file.path or file.path in nodes]
     uninstalled = [file for file in candidates if not files.is_auxiliary(file.path)]
     left_out = Counter([file.path.rpartition("/")[0] for file in uninstalled if file.executable and file.path in nodes])
     for file in uninstalled:

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 from ros_lint.analysis.finding import Fix
 from ros_lint.analysis.memo import cached_by_workspace
-from ros_lint.base.auxiliary_files import in_auxiliary_folder, is_auxiliary, is_backup_copy
+from ros_lint.base.auxiliary_files import TEST_FOLDERS, in_auxiliary_folder, is_auxiliary, is_backup_copy
 from ros_lint.base.edit import Edit
-from ros_lint.base.paths import strip_folder
+from ros_lint.base.paths import folders_of, strip_folder
 from ros_lint.base.text import Span
 from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sources import LookUp
@@ -43,6 +43,7 @@ def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[P
     installed = {provided.source: provided.conditional for provided in script.products.installs if provided.source}
     tests = frozenset(script.cmake.interpreted_tests or ())
     modules = tuple(f"{module.replace('.', '/')}/" for module in script.products.python_packages)
+    subdirectories = frozenset(script.cmake.subdirectories)
     for file in package.launch:
         path = strip_folder(package.path, file.path)
         if file.helper:
@@ -50,9 +51,19 @@ def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[P
         is_installed = path in installed or path.startswith(modules)
         # A file that is only named like a test, and always installed, is for users.
         started = is_installed and not (installed.get(path) or is_backup_copy(path))
-        aside = file.test or (in_auxiliary_folder(path) if started else is_auxiliary(path))
+        aside = file.test or (_is_aside(path, subdirectories) if started else is_auxiliary(path))
         if apart or not aside:
             yield PackageLaunchFile(file, path, is_installed, not aside or path in tests)
+
+
+def _is_aside(path: str, subdirectories: Container[str]) -> bool:
+    """Return whether an installed launch file is a test, an example or discarded, judging by its folders.
+
+    A folder of documentation or examples counts as a part of the package if its CMakeLists.txt is part of every build.
+    """
+    if TEST_FOLDERS.isdisjoint(path.split("/")) and any(folder in subdirectories for folder in folders_of(path)):
+        return False
+    return in_auxiliary_folder(path)
 
 
 def is_launch_file(package: Package, path: str) -> bool:

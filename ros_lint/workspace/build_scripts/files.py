@@ -11,6 +11,7 @@ from ros_lint.base.text import Span, Text, from_bytes, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents, text_of
 from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.collectors.launch.detect import is_of_ros_1
+from ros_lint.collectors.python.started_scripts import runs_when_started
 from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
 from ros_lint.facts.build import BuildFiles, BuildScript, ScriptFile
 from ros_lint.facts.visibility import Facet
@@ -32,7 +33,7 @@ _Texts = Sequence[tuple[str, bytes]]
 def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, ParsedScript], script: BuildScript) -> BuildScript:
     """Return a script with facts of related files: plugin descriptions, scripts, resources.
 
-    ``commands`` are its CMake files, by path relative to the package.
+    ``commands`` are the parsed CMake files of the package, by path relative to the package.
     """
     exports = (call for call in script.commands.calls if call.name.startswith("pluginlib_export"))
     exported = {call.texts[1] for call in exports if len(call.args) > 1}
@@ -46,6 +47,8 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
     if script.of_cmake and not any(p.source.startswith(f"{package.name}/") for p in script.products.installs):
         folders.add(package.name)  # a Python package that CMake does not install
     sources.update(dict.fromkeys(_programs(package.files, folders)))
+    if script.of_cmake:
+        sources.update(dict.fromkeys([file for file in package.files if "/" not in file and file.endswith(".py")]))
     executables = Executables(tree, package)
     texts = {file: text for file in sources if (text := text_in(tree, package, file))}
     files = [_script_file(file, text, file in executables) for file, text in texts.items()]
@@ -93,7 +96,10 @@ def _inputs(
 
 
 def _source_folders(scripts: Mapping[str, ParsedScript]) -> re.Pattern[bytes] | None:
-    """Return a pattern for macros in code whose value is the source folder, None if CMake defines none."""
+    """Return a pattern for C++ macros whose value is the source folder, None if the CMake files define no such macro.
+
+    Example: ``target_compile_definitions(x PRIVATE MAPS="${CMAKE_CURRENT_SOURCE_DIR}")`` defines ``MAPS``.
+    """
     commands = (command for parsed in scripts.values() for command in parsed.commands if command.name in _DEFINE)
     macros = {match[1] for command in commands for argument in command.args if (match := _HOLDS_SOURCES.match(argument[0]))}
     return re.compile(rb"\b(?:%s)\b" % b"|".join(sorted(map(to_bytes, macros)))) if macros else None
@@ -104,9 +110,10 @@ _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
 def _read_in_sources(package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts) -> Iterator[str]:
-    """Yield resource folders that a text names in the sources, as in ``/home/me/src/robot/maps/hall``.
+    """Yield the ``uninstalled`` folders that the program reads from the source tree, because a text contains their source path.
 
-    Texts in the folder itself do not count: xacro writes the path of its input into the generated model.
+    Examples of the path are ``/home/me/src/robot/maps/hall`` and ``"src", "robot", "maps"``. A path with slashes in a file
+    of the folder itself does not count: xacro writes the path of its input into the generated model.
     """
     if not uninstalled:
         return
@@ -128,14 +135,14 @@ _BELOW_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"'](?:[\w.-]+[\"']\s*,\s*[\
 
 
 def _is_below_sources(data: bytes, start: int) -> bool:
-    """Return whether a quoted path component follows other components with the ``src`` of a workspace."""
+    """Return whether the path component that starts at ``start`` follows a quoted ``src``: ``"src", "robot", "maps"``."""
     return _BELOW_SOURCES.search(data, max(start - 200, 0), start) is not None
 
 
 def _may_be_read(path: str, subdirectories: Sequence[str]) -> bool:
     """Return whether a CMake file can be part of the build.
 
-    A CMakeLists.txt in a folder without add_subdirectory() cannot.
+    A CMakeLists.txt in a subfolder can be part only if an add_subdirectory() may name the folder.
     """
     folder, _, name = path.rpartition("/")
     last_folder = folder.rpartition("/")[2]
@@ -145,7 +152,7 @@ def _may_be_read(path: str, subdirectories: Sequence[str]) -> bool:
 def _referenced_resources(
     tree: Tree, package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts
 ) -> Iterator[tuple[str, Span]]:
-    """Yield the resources that are not installed and that a text refers to, with the first place."""
+    """Yield each resource that is not installed and to which a text refers, with the position of the first reference."""
     remaining: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in uninstalled.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = to_bytes(file).rpartition(b"/")
@@ -173,7 +180,10 @@ _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
 
 
 def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> bool:
-    """Return whether a text that names a resource may look it up where it would be installed."""
+    """Return whether ``match``, a reference to a resource, may be a look-up in the install prefix.
+
+    False for a reference in a comment, in the working directory, in the source tree or in another folder.
+    """
     if _is_comment_line(path, data, match.start(1)):
         return False
     if b"share" not in data and _WORKING_FOLDER.search(data):
@@ -186,10 +196,10 @@ def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> 
 
 
 def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
-    """Return the scripts with the places that start them, and with started modules that are not installed.
+    """Return the scripts with the ``ros2 run`` commands that start them, and with started programs that are not installed.
 
-    In a CMake package, only the files among the scripts are candidates. In a Python package, modules are
-    candidates, too, because entry points make programs of them.
+    In a CMake package, only ``files`` can be such programs. In a Python package, modules can be, too, because entry
+    points make programs of modules.
     """
     if script.of_cmake:
         installed = script.products.installed
@@ -207,8 +217,8 @@ def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, file
     texts = {path: text for path in run if (text := text_in(tree, package, path))}
     executables = Executables(tree, package)
     programs = [
-        _script_file(path, text, path in executables)._replace(
-            run=run[path], main="def main(" in text.text or "__main__" in text.text
+        (file := _script_file(path, text, path in executables))._replace(
+            run=run[path], main=file.main or "def main(" in text.text
         )
         for path, text in texts.items()
     ]
@@ -222,10 +232,10 @@ def _program_names(program: str) -> tuple[str, str]:
 
 
 def _run_places(tree: Tree, package: DiscoveredPackage, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
-    """Return the places with ``ros2 run`` for programs, by path: in scripts and documentation pages.
+    """Return the position of a ``ros2 run`` command for each program that has one, by path of the program.
 
-    The suffix is optional because install() can rename a program. The README files of the folders above are
-    searched, too.
+    The texts of the package with one of the ``endings``, and each README.md in a folder above, are searched. The suffix
+    of the program is optional because install() can rename a program.
     """
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
@@ -241,7 +251,7 @@ def _run_places(tree: Tree, package: DiscoveredPackage, programs: Sequence[str],
 
 
 def _is_comment_line(file: str, data: bytes, start: int) -> bool:
-    """Return whether a place is in a line that is a comment as a whole."""
+    """Return whether the line at the offset ``start`` begins with a comment sign."""
     mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
     return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
 
@@ -251,19 +261,19 @@ def _is_picture(file: str) -> bool:
 
 
 def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
-    """Yield files that may be programs, by folder and name.
+    """Yield the files that may be programs, judged by the suffix (``.py``, ``.sh`` or none) and by the folder.
 
-    The folder has other programs or is usual for scripts.
+    The folder is one of ``folders``, which have other programs, or has a name that is usual for scripts.
     """
     for file in files:
         if file.endswith((".py", ".sh")) or file.rfind(".") < file.rfind("/"):
             folder = file.rpartition("/")[0]
-            if folder and (folder in folders or _SCRIPTS.match(file)):
+            if folder in folders or _SCRIPTS.match(file):
                 yield file
 
 
 def _is_helper(file: ScriptFile, texts: Mapping[str, Text]) -> bool:
-    """Return whether a neighbour imports a script that has no interpreter line."""
+    """Return whether another script in the folder imports ``file``, a Python script without an interpreter line."""
     if file.shebang or not (file.main and file.path.endswith(".py")):
         return False
     folder, _, name = file.path.removesuffix(".py").rpartition("/")
@@ -275,7 +285,7 @@ def _is_helper(file: ScriptFile, texts: Mapping[str, Text]) -> bool:
 def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
     first = text.text[: text.text.find("\n") + 1] or text.text
     shebang = first[2:].strip() if first.startswith("#!") else ""
-    main = not path.endswith(".py") or "__main__" in text.text
+    main = not path.endswith(".py") or runs_when_started(text, is_program=executable and bool(shebang))
     return ScriptFile(path, shebang, bool(shebang) and first.endswith("\r\n"), main, executable)
 
 
@@ -285,7 +295,10 @@ def text_in(tree: Tree, package: DiscoveredPackage, file: str) -> Text | None:
 
 
 class Executables(Set[str]):
-    """Files with the executable bit in a package and outside of it. Each look-up reads the file system."""
+    """The paths, relative to a package, of files with the executable bit; supports ``in`` only.
+
+    A path may lead out of the package (``../tools/run``). Each look-up reads the file system.
+    """
 
     def __init__(self, tree: Tree, package: DiscoveredPackage) -> None:
         self._tree = tree

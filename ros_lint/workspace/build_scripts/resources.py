@@ -60,16 +60,15 @@ _MAY_NAME = (
 
 
 def may_name(file: str) -> bool:
-    """Return whether a text may look up files: a program, a launch file, a model, parameters."""
+    """Return whether a file is of a type that may look up resources: a program, a launch file, a model, parameters."""
     name = file.rpartition("/")[2]
     return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_auxiliary(file)
 
 
 def pattern_of(file: str) -> re.Pattern[bytes]:
-    """Return a pattern that finds a look-up of a file: ``config/a`` or ``"config", "a"``.
+    """Return a pattern that finds a look-up of the file: ``config/a`` or ``"config", "a"``.
 
-    A path with further folders before, such as ``/home/me/config/a``, does not match because it needs no
-    installation.
+    ``/home/me/config/a``, a path with more folders in front, does not match because it needs no installation.
     """
     folder, _, name = file.rpartition("/")
     last_folder = folder.rpartition("/")[2]

@@ -46,7 +46,7 @@ class Surroundings:
         self._scripts: dict[str, ParsedScript | None] = {}
 
     def of(self, package: str) -> OutsideTree:
-        """Return the view for the scripts of the package at a path."""
+        """Return the outside files that the scripts of ``package``, the path of a package, can read."""
         plain = not package or self._tree.identity(package) == join(self._base, package)
         return OutsideTree(self.kind, self.below, self.script) if plain else OutsideTree()
 
@@ -79,7 +79,10 @@ class Surroundings:
         return self._entries[folder]
 
     def _gathered(self, folder: str) -> list[str]:
-        """Return the files below a folder as CMake copies and globs them: without following links to folders."""
+        """Return the files below a folder, without those behind links to folders, which CMake neither copies nor globs.
+
+        Empty if the folder has too many entries.
+        """
         files: list[str] = []
         pending = [folder]
         count = 0

@@ -98,11 +98,11 @@ class Discovery(NamedTuple):
 
 
 def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
-    """Return the packages below some folders of a tree, like ``colcon list --base-paths`` in its base.
+    """Return the packages below ``roots`` as ``colcon list --base-paths ROOTS`` finds them in the base of the tree.
 
-    ``roots`` are relative to the base of the tree, "" is the base; a ``colcon.meta`` is read in the base and in
-    each root. ``context`` has the known variables of conditions in package.xml, which may choose a build type.
-    Unreadable places are added to ``not_checked``; the contents of the tree never cause an exception.
+    ``roots`` are folders relative to the base; "" is the base. A ``colcon.meta`` is read in the base and in each root.
+    ``context`` has the values of variables in conditions of package.xml, which may choose a build type.
+    Folders and files that cannot be read are added to ``not_checked``; the contents of the tree never cause an exception.
     """
     return _Walk(tree, context).run(roots)
 
@@ -151,7 +151,11 @@ class _Walk:
                         todo.append((child, target))
 
     def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
-        """Add the package in a folder, and return whether colcon skips its subfolders."""
+        """Record what colcon identifies a folder as, and return whether colcon skips its subfolders.
+
+        Recorded are a package, an ignored folder, or a manifest that colcon cannot use; only the last has its subfolders
+        searched.
+        """
         names = {name: kind for name, kind, _ in entries}
         if _RELEVANT_NAMES.isdisjoint(names) and identity not in self._settings.by_identity:
             return False
@@ -242,7 +246,8 @@ class _PackageFiles:
     def gather(self, entries: Sequence[Entry], identity: str) -> None:
         """Collect the files below the package folder.
 
-        Links are followed below the package and the base, each target once.
+        A link to a folder is followed if its target is below the package folder or the base of the tree. A target that
+        several links lead to is visited once.
         """
         todo: list[tuple[str, Sequence[Entry], str, tuple[str, ...]]] = [("", entries, identity, ())]
         while todo:

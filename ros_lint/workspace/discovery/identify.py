@@ -37,7 +37,7 @@ class Ignored(NamedTuple):
 
 
 class MetaSettings(NamedTuple):
-    """Settings in ``colcon.meta`` files, by the name of a package and by the identity of its folder."""
+    """Settings in ``colcon.meta`` files, by the name of a package and by the real path of its folder."""
 
     by_name: Mapping[str, ColconSettings]
     by_identity: Mapping[str, ColconSettings]
@@ -144,8 +144,8 @@ class Folder:
 def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
     """Return the build type that colcon gives a package, or "" if colcon cannot use the manifest.
 
-    Reasons are problems of the manifest, a condition that does not parse, and two or empty build types. If the
-    context does not decide between build types, the first one counts.
+    colcon cannot use a manifest that has a problem, a condition with a syntax error, or two build types whose conditions
+    are true. If no condition is certainly true, the first build type counts; without any, the build type is catkin.
     """
     if manifest.problems or conditions.problems(manifest):
         return ""
@@ -157,9 +157,9 @@ def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
 
 
 def identify(folder: Folder, manifest: Manifest | None, settings: MetaSettings, context: Mapping[str, str]) -> Verdict:
-    """Return how colcon identifies a folder: a package, a folder to skip, or None for neither.
+    """Return how colcon identifies a folder: a package, a folder to skip, or None if it is neither.
 
-    ``context`` has the known variables of conditions in package.xml.
+    ``context`` has the values of variables in conditions of package.xml.
     """
     if reason := ignored_everywhere(folder.names) or build_product(folder.names):
         return Ignored(reason)
@@ -239,7 +239,7 @@ def _as_cmake(folder: Folder, name: str) -> Identity | None:
 
 
 def _cmake_files(folder: Folder) -> Iterator[Text]:
-    """Yield each CMake file, also of nested packages and ignored folders: colcon-cmake reads all."""
+    """Yield each CMake file below the folder, as colcon-cmake reads them: nested packages and ignored folders included."""
     todo = [folder.path]
     while todo:
         path = todo.pop()
@@ -256,7 +256,7 @@ def _cmake_files(folder: Folder) -> Iterator[Text]:
 
 
 def _setup_cfg(folder: Folder) -> PythonProject | None:
-    """Return the project in setup.cfg, if colcon can use it."""
+    """Return the project in setup.cfg, None if colcon cannot use it: without a name, or with a setup.py that must be run."""
     setup_py, setup_cfg = folder.text("setup.py"), folder.text("setup.cfg")
     if setup_py is None or setup_cfg is None:
         return None

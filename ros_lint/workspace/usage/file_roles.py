@@ -93,7 +93,9 @@ class FileRoles:
                 self._files
             )
             looks_unrelated = is_sphinx_configuration or name in _RECIPES or not _DOCUMENTATION_FOLDERS.isdisjoint(folders)
-        return bool(looks_unrelated) and path not in self._installed_python and path not in self._production
+        if not looks_unrelated or path in self._installed_python or path in self._production:
+            return False
+        return not (path in self._launched and path in self._installed)
 
     def is_optional(self, path: str) -> bool:
         """Return whether only some builds compile a file, depending on a condition that may be false."""
@@ -104,7 +106,7 @@ class FileRoles:
         return path in self._started
 
     def serves_tests(self, path: str) -> bool:
-        """Return whether no production target compiles or includes a header."""
+        """Return whether no target except tests compiles or includes a file."""
         return path not in self._production
 
     def _role(self, path: str) -> tuple[Role, bool]:
@@ -167,9 +169,10 @@ class FileRoles:
         return path.startswith(of_tests) and path not in self._always_installed
 
     def _is_of_python_package(self, path: str, *, in_unbuilt_folder: bool) -> bool:
-        """Return whether a file is almost certainly installed, although the installation is not visible.
+        """Return whether a Python file is almost certainly installed, although the installation is not visible.
 
-        A standalone script is not, because it may be unrelated to the build.
+        False for a standalone script, which may be unrelated to the build, and in a folder that is often not installed
+        (``in_unbuilt_folder``), such as ``docs``.
         """
         folder, _, name = path.rpartition("/")
         if in_unbuilt_folder or name == "conf.py" or self._is_beside_script(path) or self._siblings_are_used(path):
@@ -177,14 +180,14 @@ class FileRoles:
         return not self._script_known or f"{folder}/__init__.py" in self._facts
 
     def _is_beside_script(self, path: str) -> bool:
-        """Return whether a file is in the root folder of a CMake package.
+        """Return whether a file is next to the CMakeLists.txt, in the root folder of a CMake package.
 
-        Such scripts usually work on the sources, for example to release them.
+        A Python file there usually works on the sources, for example to release them.
         """
         return "/" not in path and self._script.of_cmake
 
     def _is_run(self, path: str) -> bool:
-        """Return whether a Python file is run as a test, or is next to such a file."""
+        """Return whether a Python file is run as a test, or is in the folder of a file that is run as a test."""
         folder, _, name = path.rpartition("/")
         runs = self._script.cmake.interpreted_tests
         if runs is None:
@@ -219,7 +222,10 @@ class FileRoles:
         return frozenset([f"{folder}/*{name[name.rfind('.') :]}" for folder, _, name in split])
 
     def _is_in_separate_project(self, path: str) -> bool:
-        """Return whether a file is in a separate project that may not be built, and nothing else uses it."""
+        """Return whether a file belongs only to a separate project that may not be built.
+
+        A separate project is a subfolder with its own CMakeLists.txt, setup.py, pyproject.toml or package.xml.
+        """
         if path in self._production or path in self._tests or path in self._always_installed:
             return False
         return any(folder in self._separate_projects for folder in folders_of(path))
@@ -239,7 +245,7 @@ class FileRoles:
 
     @cached_property
     def _has_no_tests(self) -> bool:
-        """True if CMake builds and runs no tests: then nothing starts the files among them."""
+        """True if CMake builds and runs no tests, so that no test starts the other files in the folders of tests."""
         return not self._runs_python_tests and not any(target.test for target in self._script.products.targets)
 
     @cached_property
@@ -259,7 +265,7 @@ class FileRoles:
 
     @cached_property
     def _public(self) -> frozenset[str]:
-        """Headers that are installed, and headers that these include."""
+        """Headers that are installed or in the folder ``include``, and headers that these headers include."""
         return self._own_files.include_closure(self._exported_headers)
 
     @cached_property
@@ -275,9 +281,9 @@ class FileRoles:
 
     @cached_property
     def _unreferenced_headers(self) -> frozenset[str]:
-        """Headers that neither compiled files nor other packages include.
+        """Headers in the folder ``include`` that no installed header, compiled file or other package includes.
 
-        The package builds only programs and exports nothing.
+        Empty unless the package builds only programs and exports nothing.
         """
         script = self._script
         if not self._targets_known or not self._sources_known or not self._production:
@@ -329,9 +335,9 @@ class FileRoles:
         return frozenset([_stem(file) for file in self._optional if file.endswith(SOURCES)])
 
     def _compiled(self, *, test: bool) -> set[str]:
-        """Return the sources that every build compiles.
+        """Return the sources that every build compiles: those of tests, or (``test`` false) those of all other targets.
 
-        A target may have alternative definitions; a source in all of them counts.
+        If a target has alternative definitions, a source in all of them counts. If every source is conditional, all count.
         """
         result: set[str] = set()
         optional_by_target: dict[str, list[set[str]]] = {}
@@ -407,7 +413,10 @@ class FileRoles:
 
     @cached_property
     def _imported_folders(self) -> frozenset[str]:
-        """Folders from which a file imports or that contain an entry point, including those of other packages."""
+        """Paths of modules that the package imports or starts as entry points, with the paths of all parent modules.
+
+        ``import a.b`` gives ``a``, ``a/b``, ``src/a`` and ``src/a/b``. Modules of other packages are included.
+        """
         names = {mention.name for facts in self._facts.values() for mention in facts.mentions if mention.via == "import"}
         names.update([entry.module for entry in self._script.products.entry_points])
         paths = {path for name in names for path in accumulate(name.split("."), "{}/{}".format)}
@@ -422,7 +431,7 @@ def _interface(path: str) -> str:
 
 
 def _is_importable(path: str, plain_folders: Collection[str]) -> bool:
-    """Return whether a Python file can be imported: ``node copy.py`` is a copy made by a file manager."""
+    """Return whether Python can import a file: not from ``plain_folders``, nor a copy such as ``node copy.py``."""
     folder, _, name = path.rpartition("/")
     return folder not in plain_folders and " " not in name
 

@@ -11,8 +11,8 @@ from ros_lint.facts.sources import FileFacts
 def unusable(script: BuildScript, facts: Mapping[str, FileFacts], files: tuple[str, ...]) -> tuple[str, ...]:
     """Return the installed headers that do not compile outside the package, sorted.
 
-    Such a header includes a file of the package that is not installed, a header that Qt generates from a form
-    (``ui_*.h``), or another such header. ``facts``, ``files`` and the result have paths relative to the package.
+    An unusable header includes a file of the package that is not installed, a header that Qt generates from a form
+    (``ui_*.h``), or another unusable header. ``facts``, ``files`` and the result have paths relative to the package.
     """
     provided = [file for file in script.products.installs if file.path.startswith("include/")]
     headers = sorted({file.source for file in provided if file.source in facts})

@@ -97,7 +97,10 @@ class Resolver:
         self._matches: Mapping[Via, dict[str, ProviderMatch]] = {via: {} for via in self._matchers}
 
     def match(self, via: Via, name: str) -> ProviderMatch:
-        """Return the owner of a name, under the assumption that it is not the package that mentions it."""
+        """Return the packages that may provide a name of the name space ``via``, for a mention in any package.
+
+        The package that contains the mention is not left out.
+        """
         matches = self._matches[via]
         match = matches.get(name)
         if match is None:
@@ -129,7 +132,10 @@ class Resolver:
         return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> ProviderMatch:
-        """Return an owner of an unknown name that is certainly looked up: the package of that name."""
+        """Return the package ``name``, as uncertain, for a mention that certainly looks up a package of that name.
+
+        Without a provider if the name exists anywhere, may belong to something not visible, or cannot be a package name.
+        """
         is_unknown = self.names.resolution(name) == "unknown" and may_be_package(name)
         return ProviderMatch((name,), False, name) if is_unknown else _NO_MATCH
 
@@ -144,10 +150,10 @@ class Resolver:
         return self._unresolved(name, bool(mention) and _INTERFACES.match(mention) is not None)
 
     def _unresolved(self, name: str, is_interface: bool = False) -> ProviderMatch:
-        """Return the owner of a name that no package here provides.
+        """Return the match for a name that neither the workspace nor the target distribution provides.
 
-        The owner is a package of another or a former distribution, or (``is_interface``) the package of an interface.
-        The latter is certain only if the workspace declares the package.
+        The provider is a package of another or a former distribution, or (``is_interface``) the package of an interface.
+        The package of an interface is certain only if the workspace declares it.
         """
         resolution = self.names.resolution(name) if name else "unknowable"
         if resolution == "elsewhere":
@@ -311,7 +317,11 @@ class _Uses:
         return self.resolver.names.is_package(provider) or self._uncloned.isdisjoint(_WORD.findall(name))
 
     def _may_be_missing(self, name: str, span: Span, provider: str) -> bool:
-        """Return whether a module may be missing or unknown: the package imports it elsewhere as optional."""
+        """Return whether an import may fail, so that it requires no declaration.
+
+        Either the package imports the module elsewhere as optional, or the file adds a folder of the module's name to
+        ``sys.path`` and no package ``provider`` exists.
+        """
         if span in self._path_additions:
             return not self.resolver.names.is_package(provider)
         return bool(self._optional_modules) and any(
@@ -319,7 +329,7 @@ class _Uses:
         )
 
     def _is_of_bundled_project(self, header: str) -> bool:
-        """Return whether a header is of a bundled project: in the project's folder, or ``owner/name.hpp``."""
+        """Return whether a header belongs to a project that the package bundles: ``fmt`` has ``fmt/core.h`` and ``fmt.h``."""
         if not self._bundled:
             return False
         path = header.lower()

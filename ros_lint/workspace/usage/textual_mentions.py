@@ -63,9 +63,9 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
 
 
 def _find_commands_in_pages(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
-    """Return a place for each name that a documentation page starts with ``ros2 run`` or ``ros2 launch``.
+    """Return a place for each package from which ``ros2 run`` or ``ros2 launch`` starts something in a documentation page.
 
-    A page that cannot be read may do so for each name.
+    If a page cannot be read, its start is the place for every name, because the page may contain the commands.
     """
     places: dict[str, Span] = {}
     for path in (join(package.path, file) for file in package.files if file.lower().endswith(_PAGES)):
@@ -283,9 +283,9 @@ def _without_comments(path: str, data: bytes) -> bytes:
 def find_code_mentions(
     names: Sequence[str], source: PackageSource, words: Mapping[str, Sequence[str]], is_searched: Callable[[str], bool]
 ) -> dict[str, Span]:
-    """Return the result of :func:`find_mentions` for names in includes and imports, without reading texts.
+    """Return a place for each name in includes and imports, from the collected facts, without reading texts.
 
-    ``is_searched`` decides which files are searched.
+    ``names`` and ``words`` are those of :func:`find_mentions`; ``is_searched`` decides which files are searched.
     """
     mentions = [
         mention

@@ -31,7 +31,7 @@ _CODE = (*HEADERS, *SOURCES)
 
 
 class _TypeNames(NamedTuple):
-    """The names that identify a use of a package."""
+    """The names of a package's types and namespaces, by which C++ code shows that it uses the package."""
 
     types: frozenset[bytes]
     spaces: frozenset[bytes]
@@ -47,7 +47,7 @@ class NameSet(Protocol):
 class Types:
     """Finds unqualified names of types in the packages of a workspace.
 
-    ``transitive`` returns the names that a package provides transitively.
+    ``transitive`` returns, for the name of a package, the names of all packages that its dependencies provide transitively.
     """
 
     def __init__(self, sources: Sequence[PackageSource], tree: Tree, transitive: Callable[[str], NameSet]) -> None:
@@ -111,7 +111,7 @@ class Types:
 
     @cached_property
     def _headers_by_package(self) -> Mapping[str, Sequence[tuple[str, str]]]:
-        """The public headers that mention each package, with the package that has the header."""
+        """The public headers that mention a package, by its name: each is a pair of the package with the header and its path."""
         headers: dict[str, dict[tuple[str, str], None]] = {}
         for source in self._by_name.values():
             for file in filter(_is_public, source.files):

@@ -12,7 +12,7 @@ from ros_lint.workspace.usage.visibility import problems_hide_uses
 
 
 def unused_finds(package: Package) -> Iterator[Mention]:
-    """Yield the first required find_package() of each name that no code uses, without those for tests.
+    """Yield the first required find_package() of each name that no code uses; calls for tests are left out.
 
     A target that is linked or exported is not a use by code. These count as uses:
 

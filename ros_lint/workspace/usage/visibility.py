@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 def is_traceless_by_name(world: World, name: str) -> bool:
     """Return whether a name alone suggests that its uses leave no trace.
 
-    The name is not a known package, is a rosdep key, or is a linter, a generator or similar.
+    True for a name that is not a package of the workspace or of ROS, a rosdep key, a linter, a generator or similar.
     """
     return not world.is_package(name) or world.is_key(name) or name_suggests_no_trace(world, name)
 
 
 def name_suggests_no_trace(world: World, name: str) -> bool:
-    """Return whether a package is named like those whose uses leave no trace.
+    """Return whether the name of a package is typical of packages whose uses leave no trace, such as linters.
 
-    Macros of a package in the workspace are evaluated, so its use is visible.
+    False for a package of the workspace that provides macros: the macros are evaluated, so its use is visible.
     """
     names = world.knowledge.names
     return names.leaves_no_trace(name) and not (world.layer(name) == "workspace" and names.provides_macros(name))
@@ -32,7 +32,7 @@ def name_suggests_no_trace(world: World, name: str) -> bool:
 def problems_hide_uses(script: BuildScript) -> bool:
     """Return whether an error of a build script leaves uses of packages unknown.
 
-    A missing folder, mesh or page uses no package. Git keeps no empty folders, so a missing folder is mostly an empty one.
+    A missing folder, mesh or page hides no use: Git keeps no empty folders, so a missing folder is mostly an empty folder.
     """
     return any(
         problem.kind not in _HIDING_NOTHING and not (problem.kind == "missing-file" and problem.subject.endswith(_WITHOUT_USES))
@@ -50,14 +50,15 @@ _WITHOUT_USES: Final = ("/", ".dae", ".md", ".obj", ".pcd", ".pgm", ".png", ".rs
 
 
 def is_fully_visible(package: Package) -> bool:
-    """Return whether all uses of a package are visible, so that there cannot be others."""
+    """Return whether all uses of other packages by a package are visible, in its build and in its launch files."""
     return is_build_visible(package) and not package.hidden(Facet.USES)
 
 
 def is_build_visible(package: Package) -> bool:
-    """Return whether all uses of libraries are visible, so that there cannot be others.
+    """Return whether all uses of libraries by a package are visible.
 
-    Launch files are ignored because they use no libraries.
+    False if the package builds nothing, or not with ament_cmake or ament_python. Launch files use no libraries, so they
+    are ignored.
     """
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None or problems_hide_uses(script):
@@ -78,10 +79,7 @@ def makes_something(package: Package) -> bool:
 
 
 def builds_something(package: Package) -> bool:
-    """Return whether a package has code.
-
-    A package with only launch files and data may declare the dependencies of these in its own way.
-    """
+    """Return whether a package builds targets, interfaces, Python packages or components, or installs headers."""
     script = package.script
     if script is None:
         return False

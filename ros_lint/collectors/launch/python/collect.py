@@ -17,7 +17,13 @@ from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped_paths, rejected_arguments
 from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
-from ros_lint.collectors.launch.python.runtime_errors import misused_substitutions, undefined_names, wrong_conditions, wrong_texts
+from ros_lint.collectors.launch.python.runtime_errors import (
+    divided_texts,
+    misused_substitutions,
+    undefined_names,
+    wrong_conditions,
+    wrong_texts,
+)
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
@@ -98,7 +104,10 @@ def _has_required_parameters(node: ast.stmt) -> bool:
 
 
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
-    """Yield the modules that a source imports at its top level without a condition, each with its span."""
+    """Yield the modules that a source imports at its top level without a condition, each with its span.
+
+    Nothing is yielded if the source mentions ``sys.path``, because it may change where modules are found.
+    """
     if "sys.path" in text.text:
         return
     for statement in tree.body:
@@ -129,6 +138,7 @@ class _Interpretation:
     def runtime_problems(self, tree: ast.Module) -> Iterator[Problem]:
         yield from undefined_names(tree, self._source, self._machine.unbound)
         yield from misused_substitutions(tree, self._source, self._machine.misused)
+        yield from divided_texts(tree, self._source, self._machine.divided)
         yield from wrong_texts(tree, self._source, self._machine.made)
         yield from wrong_conditions(tree, self._source, self._machine.made)
         yield from rejected_arguments(tree, self._source, self._machine.made)

@@ -2,6 +2,7 @@
 
 - A name that is not defined.
 - A substitution used as a text.
+- A text divided by a text, as if it were a path of pathlib.
 - A number where launch accepts only texts.
 - A function where launch expects a condition.
 """
@@ -53,7 +54,10 @@ _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error"
 
 
 def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
-    """Yield a problem for each substitution that a module uses as a text, at most one for each line."""
+    """Yield a problem for each substitution or condition that a module uses as a string or truth value.
+
+    At most one problem is reported for each line. Uses in ``try`` blocks and in arguments of logging calls are omitted.
+    """
     misuses = [misuse for misuse in misuses if misuse.source is source]
     if not misuses:
         return
@@ -76,6 +80,29 @@ def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Mi
             message = _JOINED_MESSAGE
         text = message.format(name=misuse.made.name, way=_replacement(misuse, combined), joined=operators.get(misuse.node, ""))
         yield Problem(kind, text, span_of(misuse.node, source))
+
+
+_TEXT_PATHS: Mapping[str, str] = {
+    "get_package_share_directory": "get_package_share_path()",
+    "get_package_prefix": "Path(get_package_prefix(...))",
+}
+"""Functions of ament_index_python that return a path as a string, with the expression that is a path of pathlib."""
+
+
+def divided_texts(tree: ast.Module, source: Source, divisions: Iterable[tuple[ast.expr, Source]]) -> Iterator[Problem]:
+    """Yield a problem for each operation ``text / text`` of a module."""
+    nodes = dict.fromkeys(node for node, module in divisions if module is source)
+    ignored = _ignored_nodes(tree) if nodes else set()
+    for node in nodes:
+        left = node.left if isinstance(node, ast.BinOp) else None
+        name = callee(left) if isinstance(left, ast.Call) else ""
+        if node in ignored:
+            continue
+        if name in _TEXT_PATHS:
+            message = f"{name}() returns a string, and a string has no operator '/'; use {_TEXT_PATHS[name]}"
+        else:
+            message = "a string has no operator '/'; use Path(a) / b or os.path.join(a, b)"
+        yield Problem("text-divided", message, span_of(node, source))
 
 
 def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:
@@ -114,7 +141,7 @@ def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]
 
 
 def _same_function(misuse: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
-    """Return whether the function that creates a substitution is also the function that uses it as a text."""
+    """Return whether a substitution is created and used as a truth value in the same function, or both outside of functions."""
     if misuse.made.source is not misuse.source:
         return False
     return all(_contains(function, misuse.node) == _contains(function, misuse.made.node) for function in functions)
@@ -194,10 +221,7 @@ def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[
 
 
 def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return the first number, boolean or action in an argument that must be a text, None if there is none.
-
-    Nested lists are searched, too.
-    """
+    """Return a number, boolean or action in an argument that must be a text, or in its nested lists, None if there is none."""
     pending = [value]
     for _ in range(_MAX_ITEMS):
         if not pending:

@@ -102,7 +102,7 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
     """Return the truth of a list with guarded elements, and a meaningless condition.
 
-    The truth is False if all elements are missing, True if any element exists, None if that is unknown.
+    The truth is False if all elements are missing, True if no element may be missing, else None.
     """
     elements = machine.present(values)
     if not elements:
@@ -231,6 +231,11 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
         if isinstance(left, Unknown) and isinstance(right, (list, tuple)):
             return [left, *right]
     if isinstance(op, ast.Div) and (isinstance(left, (FilePath, LaunchObject)) or isinstance(right, FilePath)):
+        return machine.join_paths(left, [right], node, frame)
+    if isinstance(op, ast.Div) and isinstance(left, str) and isinstance(right, str):
+        if machine.caught:
+            raise ProgramRaised("TypeError")
+        machine.record_division(node, frame)
         return machine.join_paths(left, [right], node, frame)
     if isinstance(op, ast.Mod) and isinstance(left, str):
         return _percent(left, right, node, frame)
