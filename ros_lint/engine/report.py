@@ -110,6 +110,8 @@ class Report(NamedTuple):
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    context_packages: int = 0
+    """Number of packages that were read to check the others, and whose findings are not reported."""
     ros1: tuple[str, ...] = ()
     """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()

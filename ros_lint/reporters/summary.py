@@ -90,6 +90,10 @@ def crashed(crash: Crash) -> str:
 
 def _lines(report: Report, style: Style) -> Iterator[str]:
     yield _verdict(report, style)
+    if report.context_packages:
+        total = report.packages + report.context_packages
+        others = "the other is" if report.context_packages == 1 else "the others are"
+        yield f"Checked {report.packages} of {total} packages; {others} context."
     yield from _by_rule(report, style)
     fixes = {"--fix": report.fixable(safe=True), "--fix --unsafe-fixes": report.fixable(safe=False)}
     if any(fixes.values()):
