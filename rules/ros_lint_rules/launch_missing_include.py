@@ -257,7 +257,10 @@ def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: 
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
-    """Return whether such a file is usually created on the robot: maps, files that git ignores, and output of programs."""
+    """Return whether the file ``path`` of package ``owner`` is probably created later, so that sources do not contain it.
+
+    True in a folder such as ``maps`` or ``generated``, and for a file that git ignores.
+    """
     if not _FILLED_LATER.isdisjoint(path.split("/")[:-1]):
         return True
     return any(workspace.is_made(package, path) for package in workspace.by_name.get(owner, ()))
