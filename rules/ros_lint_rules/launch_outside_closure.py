@@ -73,6 +73,8 @@ _DONE = {
 }
 """The verb for each kind of reference of a launch file, in the order of the strength of the evidence."""
 _ORDER = tuple(_DONE)
+_LINES_OF_CALL = 1
+"""The most lines between package and name in one call. Otherwise a variable has the path of the package."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -83,20 +85,30 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     readable = not workspace.unread(package)  # an unreadable file may be the script that runs these launch files as tests
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_from_default, r.conditional, _ORDER.index(r.kind), r.span))
-        what = f"'{name}'" if best.name in ("", name) else f"'{best.name}' of '{name}'"
         how = " under a condition" if best.conditional else ""
         how = " by the default of an argument" if best.package_from_default else how
         proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
         certain = readable and needed and proposal.certain and not dependencies.may_provide(unknown, name, workspace)
         yield Finding(
-            f"{what} is {_DONE[best.kind]} here{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
+            f"{_use(best, name)}{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
             best.package_span,
             name,
             first_related(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
             proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
+
+
+def _use(reference: LaunchReference, name: str) -> str:
+    """Return the part of the message that says what a launch file does with a package at the place of the finding."""
+    verb, package_place, place = _DONE[reference.kind], reference.package_span, reference.span
+    if reference.name in ("", name):
+        return f"'{name}' is {verb} here"
+    looked_up = reference.kind in ("include", "file") and place.path == package_place.path
+    if looked_up and abs(place.line - package_place.line) > _LINES_OF_CALL:
+        return f"'{name}' is looked up here, and its '{reference.name}' is {verb} in line {place.line}"
+    return f"'{reference.name}' of '{name}' is {verb} here"
 
 
 def _declares(package: Package, name: str) -> str:

@@ -43,9 +43,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if arguments is None or _may_be_read_elsewhere(file, workspace):
             continue
         excused = {*_replacing(file, package, workspace), *(read.declared for read in arguments.similar.values())}
+        required = launch.include_resolver(workspace).takes(file).required
         for name, span in arguments.declared.items():
             if name in arguments.unused and name not in excused:
-                yield Finding(f"launch argument '{name}' is declared but never used; use it or remove it", span, name)
+                problem = (
+                    "has no default, so callers must pass it, but nothing uses it"
+                    if name in required
+                    else "is declared but never used"
+                )
+                yield Finding(f"launch argument '{name}' {problem}; use it or remove it", span, name)
 
 
 def _may_be_read_elsewhere(file: LaunchFile, workspace: Workspace) -> bool:

@@ -29,7 +29,7 @@ Reported with medium confidence:
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     Confidence,
@@ -57,9 +57,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for plugin, entry in described:
         for finding in _class(package, plugin, entry, plugins.macros):
             registered_here = any(macro.name == entry.type for macro in plugins.macros)
-            if entry.type in _registered_classes(workspace) and not registered_here:
+            if entry.type in _registering_packages(workspace) and not registered_here:
                 # The library may link that of the other package: then the class is loaded.
-                message = f"'{entry.type}' is registered in another package; describe it there"
+                message = _of_other_package(entry.type, workspace)
                 yield finding._replace(message=message, confidence=Confidence.MEDIUM)
             elif plugins.exports:
                 yield finding
@@ -67,10 +67,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 yield finding._replace(confidence=Confidence.MEDIUM)
 
 
+def _of_other_package(plugin: str, workspace: Workspace) -> str:
+    """Return the message for a described class that another package registers."""
+    owner = _registering_packages(workspace)[plugin]
+    described = {entry.type for file in owner.built.files.plugin_files for library in file.libraries for entry in library.classes}
+    remedy = "remove the entry, because that package describes the class" if plugin in described else "describe it there"
+    return f"no source of this package registers the plugin '{plugin}', only package '{owner.name}' does; {remedy}"
+
+
 @cached_by_workspace
-def _registered_classes(workspace: Workspace) -> frozenset[str]:
-    """Return the names of the classes that packages of the workspace register in C++."""
-    return frozenset([macro.name for package in workspace.packages for macro in package.registrations])
+def _registering_packages(workspace: Workspace) -> Mapping[str, Package]:
+    """Return the packages that register classes as plugins in C++, by the name of the class."""
+    return {macro.name: package for package in workspace.packages for macro in package.registrations}
 
 
 def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered: Sequence[Registration]) -> Iterator[Finding]:

@@ -160,6 +160,8 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         message = (
             f"'{name}' is used here, but package.xml declares it only under the condition '{condition}'; widen the condition"
         )
+    elif best.what.startswith("$ENV{"):
+        message = f"only '{name}' sets {best.what}, and package.xml does not declare it: add {proposal.written}"
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):

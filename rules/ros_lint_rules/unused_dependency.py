@@ -145,7 +145,7 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             or _brings_linters(script, workspace, name)
             or _can_test_with(package, script, workspace, name)
         ):
-            reason = "the package has no test that could use it"
+            reason = f"the package has no {_kind_of_test(name)} that could use it"
         else:
             continue
         # Headers of other packages may need a library, but it is available without the tag if a used package depends on it.
@@ -171,6 +171,11 @@ def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> boo
     """Return whether the test dependency is a package of the workspace that depends on linters which the build script runs."""
     handed_on = (depend for package in workspace.by_name.get(name, ()) for depend in package.declared if depend.role & _HANDED_ON)
     return not build.FINDS_TESTS.isdisjoint(script.commands.names) and any(depend.name in build.LINTERS for depend in handed_on)
+
+
+def _kind_of_test(name: str) -> str:
+    """Return the kind of tests that use a test dependency, for messages."""
+    return "launch test" if name.startswith(("launch_pytest", "launch_testing")) else "test"
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:

@@ -174,10 +174,23 @@ class Run(State):
             self.add_mention(
                 "ros_environment",
                 "package",
-                self.current_place(),
+                self._place_of(f"$ENV{{{name}}}"),
                 f"$ENV{{{name}}}",
                 optional=f"ENV{{{name}}}" in self.tested_variables,
             )
+
+    def _place_of(self, reference: str) -> Span:
+        """Return the place of a variable reference in the current command, that of the command if no argument contains it."""
+        frame = self.frames[-1]
+        command = frame.command
+        if command is None or not frame.own:
+            return self.current_place()
+        for text, kind, start, _ in command.args:
+            at = text.find(reference)
+            if at >= 0:
+                begin = start + at + (0 if kind == UNQUOTED else 1)
+                return command.span(frame.path, begin, begin + len(reference))
+        return self.current_place()
 
     def is_configurable(self, name: str) -> bool:
         """Return whether the user, the platform or the compiler determines the value of a variable."""

@@ -45,9 +45,15 @@ _MESSAGES: Mapping[How, tuple[str, str]] = {
     ),
     "compared": ("substitution-as-text", "a {name} never equals a string; use EqualsSubstitution(a, b) or perform(context)"),
     "tested": ("substitution-as-text", "a {name} is always true in Python; use IfCondition(a) or perform(context)"),
-    "combined": ("substitution-as-text", "Python uses only one of the two conditions here; write {way}"),
+    "combined": (
+        "substitution-as-text",
+        "Python uses only the {used} of the conditions joined by '{word}', so the others are ignored; write {way}",
+    ),
 }
-_JOINED_MESSAGE = "Python uses only one of the two substitutions here; write {joined}Substitution(a, b)"
+_JOINED_MESSAGE = (
+    "Python uses only the {used} of the substitutions joined by '{word}', so the others are ignored; "
+    "write {joined}Substitution(a, b)"
+)
 _DECIDED_MESSAGE = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
 _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Functions that print or log their arguments."""
@@ -78,7 +84,14 @@ def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Mi
             message = _DECIDED_MESSAGE
         elif misuse.how == "tested" and misuse.node in operators and misuse.node not in in_condition:
             message = _JOINED_MESSAGE
-        text = message.format(name=misuse.made.name, way=_replacement(misuse, combined), joined=operators.get(misuse.node, ""))
+        joined = operators.get(misuse.node, "")
+        text = message.format(
+            name=misuse.made.name,
+            way=_replacement(misuse, combined),
+            joined=joined,
+            word=joined.lower(),
+            used="first" if joined == "Or" else "last",
+        )
         yield Problem(kind, text, span_of(misuse.node, source))
 
 
