@@ -98,9 +98,11 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
         what = f"'{folder}/' contains launch files ({named}), but is not installed"
     else:
         what = f"{named} {'is' if len(paths) == 1 else 'are'} not installed"
+    place = edits.cmake.install_folder_place(package) if whole else None
+    remedy = "add it to this install(DIRECTORY)" if place else f"install {'it' if whole else it} to share/{package.name}"
     return Finding(
-        f"{what}, so ros2 launch will not find {it}; install {'it' if whole else it} to share/{package.name}",
-        edits.setup_py.place(script),
+        f"{what}, so ros2 launch will not find {it}; {remedy}",
+        place or edits.setup_py.place(script),
         folder or paths[0],
         first_related(Related("this launch file", package.start_of(path)) for path in paths),
         _fix(package, folder, paths, whole),

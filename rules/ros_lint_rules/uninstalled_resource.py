@@ -84,6 +84,10 @@ _OF_MODELS = (".dae", ".obj", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world"
 """Suffixes of those that only files and programs look up; displays, maps and parameters are also opened by hand."""
 
 
+_TO_EXTEND = "add it to this install(DIRECTORY)"
+"""The end of a message whose place is a command that installs other folders to the same place."""
+
+
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or script.is_empty or package.builds_with not in ("ament_cmake", "ament_python"):
@@ -138,9 +142,11 @@ def _looked_up(package: Package, script: BuildScript, unit: str, look_ups: list[
     all_names = list(dict.fromkeys(map(_name, paths)))
     inside = f"{names.shorten_list(all_names)} {'is' if len(all_names) == 1 else 'are'} looked up in it"
     reason = inside if unit.endswith("/") and paths else "it is looked up at run time"
+    place = edits.cmake.install_folder_place(package) if unit.endswith("/") else None
+    remedy = _TO_EXTEND if place else f"install it to share/{package.name}"
     return Finding(
-        f"'{unit}' is not installed, but {reason}; install it to share/{package.name}",
-        edits.setup_py.place(script),
+        f"'{unit}' is not installed, but {reason}; {remedy}",
+        place or edits.setup_py.place(script),
         unit,
         first_related(Related("looked up here", span) for _, span in look_ups),
         _fix(package, script, unit),
@@ -202,10 +208,11 @@ class _FolderFindings:
         named = [file for file in file_paths if file in places and not places[file].path.startswith(below)]
         looked_up = [file for file in named if (places[file].path, _name(file)) not in self._elsewhere]
         examples = names.shorten_list(_name(file) for file in (*named, *(file for file in file_paths if file not in places)))
+        place = edits.cmake.install_folder_place(package) if "/" not in folder else None
+        remedy = _TO_EXTEND if place else f"install it to share/{package.name}"
         return Finding(
-            f"'{folder}/' (contains {examples}) is not installed, so it will not be found at run time; "
-            f"install it to share/{package.name}",
-            edits.setup_py.place(script),
+            f"'{folder}/' (contains {examples}) is not installed, so it will not be found at run time; {remedy}",
+            place or edits.setup_py.place(script),
             f"{folder}/",
             first_related(
                 [Related(f"'{_name(file)}' is named here", places[file]) for file in looked_up]

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from ros_lint.base.edit import Edit
 from ros_lint.base.paths import join
+from ros_lint.base.text import Span
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.workspace.model import Package, Workspace
@@ -62,6 +63,12 @@ def install_folder(package: Package, folder: str) -> Edit | None:
     if call is not None:
         return _append(call, call.texts.index("DESTINATION") - 1, _word(folder))
     return at_end(package.built, f"install(DIRECTORY {_word(folder)} DESTINATION share/${{PROJECT_NAME}})")
+
+
+def install_folder_place(package: Package) -> Span | None:
+    """Return the place of the install(DIRECTORY) that :func:`install_folder` extends, None if it adds a new command."""
+    call = _beside(package)
+    return call.name_span if call is not None else None
 
 
 def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
