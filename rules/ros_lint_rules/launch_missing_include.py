@@ -307,12 +307,18 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
 
 
 def _hint(path: str, all_names: tuple[str, ...]) -> str:
+    """Return the suggestion: a file of the same name, also before or after xacro, or else a file with a similar path."""
     base = path.rpartition("/")[2]
-    same = [name for name in all_names if name.rpartition("/")[2] == base]
-    near = [
-        name for name in names.near_names(path, all_names, 3, 0.8) if names.near_names(base, [name.rpartition("/")[2]], 1, 0.6)
-    ]
+    meant = names.of_same_kind(path, all_names)
+    same = [name for name in meant if name.rpartition("/")[2] == base]
+    same = same or [name for name in meant if _without_xacro(name) == _without_xacro(path)]
+    near = [name for name in names.near_names(path, meant, 3, 0.8) if names.near_names(base, [name.rpartition("/")[2]], 1, 0.6)]
     return names.did_you_mean(names.similar_names(path, same, 1, 0) or near[:1])
+
+
+def _without_xacro(path: str) -> str:
+    """Return the name of a file as xacro would write it: ``robot.urdf`` for ``urdf/robot.urdf.xacro``."""
+    return path.rpartition("/")[2].removesuffix(".xacro")
 
 
 RULE = Rule(
