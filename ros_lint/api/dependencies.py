@@ -42,6 +42,7 @@ from ros_lint.analysis.dependencies.undeclared import (
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.dependencies.unresolved import (
     UnresolvedDependency,
+    correction_explains,
     declared_names,
     intended_names,
     is_used_in_sources,
@@ -68,6 +69,7 @@ __all__ = [
     "availability_remark",
     "change_dependency",
     "conditions",
+    "correction_explains",
     "declared_closure",
     "declared_names",
     "exists_in_any_distro",
