@@ -112,13 +112,16 @@ def test_a_wrong_name_explains_that_the_intended_package_is_missing(declared: st
     assert [(explained.rule, explained.subject) for explained in issue.explained] == [("launch-outside-closure", used)]
 
 
-def test_an_unused_dependency_explains_that_it_has_ended() -> None:
+@pytest.mark.parametrize(("declared", "cause"), [("std_msg", "unknown-dependency"), ("actionlib", "end-of-life-dependency")])
+def test_a_wrong_name_explains_that_it_is_unused(declared: str, cause: str) -> None:
     files = {
-        "arm/package.xml": manifest().replace("<export>", "<build_depend>actionlib</build_depend><export>"),
-        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\nament_package()\n",
+        "arm/package.xml": manifest().replace("<export>", f"<build_depend>{declared}</build_depend><export>"),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\nadd_executable(arm arm.cpp)\n"
+        "install(TARGETS arm DESTINATION lib/arm)\nament_package()\n",
+        "arm/arm.cpp": "int main() {}\n",
     }
-    rules = tuple(rule for rule in registry.load() if rule.name in ("end-of-life-dependency", "unused-dependency"))
+    rules = tuple(rule for rule in registry.load() if rule.name in (cause, "unused-dependency"))
     issues, _ = run_rules(loaded(files), rules)
     (issue,) = without_explained(issues)
-    assert issue.rule.name == "unused-dependency"
-    assert [explained.rule for explained in issue.explained] == ["end-of-life-dependency"]
+    assert issue.rule.name == cause
+    assert [explained.rule for explained in issue.explained] == ["unused-dependency"]

@@ -42,7 +42,6 @@ from ros_lint.analysis.dependencies.undeclared import (
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.dependencies.unresolved import (
     UnresolvedDependency,
-    correction_explains,
     declared_names,
     intended_names,
     is_used_in_sources,
@@ -50,6 +49,7 @@ from ros_lint.analysis.dependencies.unresolved import (
     resembles_ament_package,
     undeclared_match,
     unresolved,
+    wrong_name_explains,
 )
 from ros_lint.collectors.manifest import conditions
 from ros_lint.workspace.usage.resolve import satisfying, used_names
@@ -69,7 +69,6 @@ __all__ = [
     "availability_remark",
     "change_dependency",
     "conditions",
-    "correction_explains",
     "declared_closure",
     "declared_names",
     "exists_in_any_distro",
@@ -115,4 +114,5 @@ __all__ = [
     "unused_find_packages",
     "usage_is_visible",
     "used_names",
+    "wrong_name_explains",
 ]

@@ -52,7 +52,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 fix=_fix(unresolved_dependency, successor, workspace),
                 confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
                 package=unresolved_dependency.package.name,
-                explains=dependencies.correction_explains(successor),
+                explains=dependencies.wrong_name_explains(name, successor),
             )
 
 

@@ -51,7 +51,6 @@ from collections.abc import Iterator
 
 from ros_lint.api import (
     Confidence,
-    Consequence,
     Edit,
     Finding,
     Fix,
@@ -113,13 +112,8 @@ def _needless(unresolved: dependencies.UnresolvedDependency, why: str) -> Findin
         unresolved.name or depend.tag,
         fix=fix,
         package=package.name,
-        explains=_unused(unresolved),
+        explains=dependencies.wrong_name_explains(unresolved.name),
     )
-
-
-def _unused(unresolved: dependencies.UnresolvedDependency) -> tuple[Consequence, ...]:
-    """Return the finding that nothing uses the wrong name."""
-    return (Consequence("unused-dependency", unresolved.name),)
 
 
 def _own(unresolved: dependencies.UnresolvedDependency) -> str:
@@ -202,7 +196,7 @@ def _unknown(
         fix=fix,
         confidence=sure,
         package=unresolved.package.name,
-        explains=(*dependencies.correction_explains(intended), *(_unused(unresolved) if fix else ())),
+        explains=dependencies.wrong_name_explains(name, intended) if fix else (),
     )
 
 
@@ -227,7 +221,7 @@ def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspa
         unresolved.name,
         fix=dependencies.naming_fix(workspace, meant, title, *edits),
         package=package.name,
-        explains=(*dependencies.correction_explains(meant), *_unused(unresolved)),
+        explains=dependencies.wrong_name_explains(unresolved.name, meant),
     )
 
 

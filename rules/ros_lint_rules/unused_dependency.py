@@ -46,7 +46,6 @@ from collections.abc import Iterator
 from ros_lint.api import (
     BuildScript,
     Confidence,
-    Consequence,
     Declared,
     Depend,
     Finding,
@@ -88,7 +87,6 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 safe=sure,
             ),
             confidence=confidence,
-            explains=(Consequence("end-of-life-dependency", name),),
         )
 
 

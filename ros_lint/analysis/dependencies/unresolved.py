@@ -131,12 +131,13 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
     return undeclared[0] if len(undeclared) == 1 and not is_used_in_sources(dependency) else ""
 
 
-def correction_explains(intended: str) -> tuple[Consequence, ...]:
-    """Return the findings that probably disappear once a wrong name is corrected to the package ``intended``.
+def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...]:
+    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or is removed if that is "".
 
-    Until then the package is used but not declared.
+    Until then nothing uses the wrong name, and ``intended`` is used but not declared.
     """
-    return tuple([Consequence(rule, intended) for rule in ("undeclared-dependency", "launch-outside-closure") if intended])
+    lacking = ("undeclared-dependency", "launch-outside-closure") if intended else ()
+    return (Consequence("unused-dependency", name), *(Consequence(rule, intended) for rule in lacking))
 
 
 def is_used_in_sources(dependency: UnresolvedDependency) -> bool:
