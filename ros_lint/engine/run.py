@@ -45,7 +45,7 @@ def run_rules(
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
     """Yield the findings of a rule in a package, or those in the workspace if it is a rule of workspaces."""
     if rule.package is not None and package is not None:
-        for finding in rule.package(package, workspace):
+        for finding in rule.package(package, workspace.seen_from(package)):
             yield Issue(rule, package.name, finding)
     elif rule.workspace is not None:
         for finding in rule.workspace(workspace):

@@ -6,8 +6,9 @@ Only this module knows all steps. A loader keeps the facts of files, so that a w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from types import MappingProxyType
 from typing import NamedTuple
 
 from ros_lint.base.paths import is_below, join, parent, strip_folder
@@ -18,6 +19,7 @@ from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import DEPENDENCY_KINDS, ROLES, Manifest, Role
+from ros_lint.facts.repositories import ExpectedRepositories
 from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
@@ -34,6 +36,7 @@ from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, 
 from ros_lint.workspace.discovery.ignore_files import find_ignores
 from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.model import Declared, Package, Workspace
+from ros_lint.workspace.side_by_side import hidden_namesakes, workspace_of
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
@@ -57,6 +60,13 @@ class _ReadPackage(NamedTuple):
     facts: Mapping[str, FileFacts]
     launch: tuple[LaunchFile, ...]
     machine_paths: tuple[MachinePath, ...] = ()
+
+    @property
+    def source(self) -> PackageSource:
+        """The package as the resolution of names needs it."""
+        package = self.discovered
+        builds_with = package.type.removeprefix("ros.")
+        return PackageSource(package.name, package.path, package.files, self.script, self.facts, self.launch, builds_with)
 
 
 class Loader:
@@ -114,8 +124,23 @@ class Loader:
             else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
         )
         expected = repository_lists.expected_repositories(tree, lists, submodules)
-        world = World(tuple(self._members(read_packages, discovery.rejected)), self._underlays, self._knowledge, expected)
-        packages = tuple(self._join(tree, read_packages, world, sources))
+        world = self._world(read_packages, discovery.rejected, expected)
+        hidden = hidden_namesakes(
+            [
+                *((package.name, package.path) for package in discovered),
+                *((manifest.name, parent(manifest.path)) for manifest in discovery.rejected),
+            ]
+        )
+        shared = [read for read in read_packages if not hidden or workspace_of(read.discovered.path) not in hidden]
+        packages = tuple(self._join(tree, read_packages, shared, world, sources))
+        worlds: dict[str, World] = {}
+        for folder, paths in hidden.items():
+            visible = [read for read in read_packages if read.discovered.path not in paths]
+            own = [read for read in visible if workspace_of(read.discovered.path) == folder]
+            rejected = [manifest for manifest in discovery.rejected if parent(manifest.path) not in paths]
+            worlds[folder] = self._world(visible, rejected, expected)
+            packages += tuple(self._join(tree, visible, own, worlds[folder], sources))
+        packages = tuple(sorted(packages, key=lambda package: package.path)) if hidden else packages
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         ignores = find_ignores(tree, ((package.path, package.files) for package in discovered))
         unread_files = (
@@ -125,7 +150,12 @@ class Loader:
             *_unreadable(collected),
         )
         not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
-        return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
+
+        def seen(world: World, without: Container[str] = (), views: Mapping[str, Workspace] = MappingProxyType({})) -> Workspace:
+            kept = [tuple([package for package in group if package.path not in without]) for group in (packages, unusable)]
+            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views)
+
+        return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
 
     def pin(self, paths: Iterable[str]) -> None:
         """Read some files again and fix their contents for all further loads, even if they change on disk.
@@ -225,6 +255,11 @@ class Loader:
             for package, declared, script, files, resolved in zip(discovered, declared_by, built, of_package, launch, strict=True)
         ]
 
+    def _world(
+        self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest], expected: ExpectedRepositories
+    ) -> World:
+        return World(tuple(self._members(read_packages, rejected)), self._underlays, self._knowledge, expected)
+
     def _members(self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest]) -> Iterator[Member]:
         for package, declared, script, *_ in read_packages:
             modules = importable_modules(script, package.files) if script else None
@@ -233,24 +268,18 @@ class Loader:
             if manifest.name:
                 yield _member(manifest.name, manifest, self._declared(manifest))
 
-    def _join(self, tree: Tree, read_packages: Sequence[_ReadPackage], world: World, search: bool) -> Iterator[Package]:
-        sources = [
-            PackageSource(
-                read_package.discovered.name,
-                read_package.discovered.path,
-                read_package.discovered.files,
-                read_package.script,
-                read_package.facts,
-                read_package.launch,
-                read_package.discovered.type.removeprefix("ros."),
-            )
-            for read_package in read_packages
-        ]
+    def _join(
+        self, tree: Tree, visible: Sequence[_ReadPackage], read_packages: Sequence[_ReadPackage], world: World, search: bool
+    ) -> Iterator[Package]:
+        """Yield ``read_packages`` with their uses of the visible packages."""
+        if not read_packages:
+            return
+        sources = [read_package.source for read_package in visible]
         resolver = Resolver(sources, world)
         types = unqualified_types.Types(sources, tree, lambda name: world.closure((name,)))
-        for number, (read_package, source) in enumerate(zip(read_packages, sources, strict=True)):
+        for number, read_package in enumerate(read_packages):
             self._progress("analysing", number, len(read_packages))
-            discovered = read_package.discovered
+            discovered, source = read_package.discovered, read_package.source
             files = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
             uses = resolve(source, resolver, files)
             declared = read_package.declared

@@ -18,6 +18,7 @@ from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
+from ros_lint.workspace.side_by_side import workspace_of
 from ros_lint.workspace.target import TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
@@ -211,6 +212,7 @@ class Workspace:
         not_checked: tuple[UnreadFile, ...],
         source_lists: tuple[str, ...] = (),
         ignores: tuple[gitignore.Pattern, ...] = (),
+        views: Mapping[str, Workspace] = MappingProxyType({}),
     ) -> None:
         self.packages = packages
         """The packages that colcon finds, sorted by path; two may have the same name."""
@@ -228,8 +230,16 @@ class Workspace:
         The repositories need not be cloned.
         """
         self._ignores = ignores
+        self._views = views
         self.memo: dict[object, Any] = {}
         """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
+
+    def seen_from(self, package: Package) -> Workspace:
+        """Return the workspace for look-ups of a package: without namesakes of packages that its own workspace contains.
+
+        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. Not for plugins.
+        """
+        return self._views.get(workspace_of(package.path), self) if self._views else self
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
