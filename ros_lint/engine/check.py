@@ -50,6 +50,7 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
         packages=checked_packages,
         context_packages=len(workspace.packages) + len(workspace.unusable) - checked_packages,
         target=workspace.target,
+        named_distros=workspace.named_distros,
         data_date=context.data_date,
         version=__version__,
         hidden=hidden,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -110,6 +110,8 @@ class Report(NamedTuple):
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    named_distros: tuple[NamedDistro, ...] = ()
+    """The distributions that the repository builds for; () if the user chose the distribution of the run."""
     context_packages: int = 0
     """Number of packages that were read to check the others, and whose findings are not reported."""
     ros1: tuple[str, ...] = ()

@@ -26,6 +26,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "version": report.version,
         "distro": report.target.distro,
         "distro_source": report.target.source,
+        "named_distros": [{"distro": named.distro, "path": named.path, "line": named.line} for named in report.named_distros],
         "data_date": report.data_date,
         "workspace": report.workspace,
         "packages": report.packages,

@@ -47,7 +47,9 @@ def name_or_count(packages: Sequence[str]) -> str:
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield a sentence, without its full stop, about hidden findings and one about what was not fully analysed."""
+    """Yield sentences, without full stop, about the distribution, hidden findings and what was not fully analysed."""
+    if proposed := _proposed_distros(report):
+        yield proposed
     more: Counter[str] = Counter()
     for hidden in report.hidden:
         more.update(dict(hidden.rules))
@@ -68,6 +70,19 @@ def limits(report: Report) -> Iterator[str]:
         list_of_spots = "; ".join(f"{and_list(what)} of {name_or_count(packages)}" for packages, what in facets.items())
         why = "Checks for missing things were skipped there; 'ros-lint explain-package NAME' lists the places"
         yield f"Not fully analysed: {list_of_spots}. {why}"
+
+
+def _proposed_distros(report: Report) -> str:
+    """Return a sentence about the distributions that the repository builds for, "" if the run was for one of them."""
+    distro = report.target.distro
+    if distro in [named.distro for named in report.named_distros]:
+        return ""
+    named = [named for named in report.named_distros if named.indexed]
+    options = " or ".join(f"--distro {known.distro}" for known in named)
+    places = and_list([f"{known.distro} ({known.path}:{known.line})" for known in named or report.named_distros])
+    if named:
+        return f"This repository builds for {places}, not for {distro}: pass {options}"
+    return f"This repository builds for {places}, without a package index here, not for {distro}" if places else ""
 
 
 def hidden_findings(hidden: HiddenCount) -> str:

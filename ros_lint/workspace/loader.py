@@ -34,10 +34,11 @@ from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
+from ros_lint.workspace.discovery.named_distros import named_distros
 from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.model import Declared, Package, Workspace
 from ros_lint.workspace.side_by_side import hidden_namesakes, workspace_of
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
 from ros_lint.workspace.usage.resolve import Resolver, resolve
@@ -101,6 +102,7 @@ class Loader:
         self._cache = cache or FactCache("", "")
         self._progress = progress
         self._collected: dict[str, Collected] = {}
+        self._named_distros: tuple[NamedDistro, ...] | None = None
 
     def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
         """Return the workspace, with the contents of some files replaced.
@@ -151,9 +153,11 @@ class Loader:
         )
         not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
 
+        named = self._distros_named_in(tree, roots)
+
         def seen(world: World, without: Container[str] = (), views: Mapping[str, Workspace] = MappingProxyType({})) -> Workspace:
             kept = [tuple([package for package in group if package.path not in without]) for group in (packages, unusable)]
-            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views)
+            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views, named)
 
         return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
 
@@ -193,6 +197,13 @@ class Loader:
                 requested = discover(tree, self._roots, self.target.context)
                 return self._roots, requested._replace(not_checked=(*requested.not_checked, UnreadFile("context", why, None)))
         return self._roots, discover(tree, self._roots, self.target.context)
+
+    def _distros_named_in(self, tree: Tree, roots: Sequence[str]) -> tuple[NamedDistro, ...]:
+        """Return the distributions that the repository builds for, () if the user chose the distribution."""
+        if self._named_distros is None:
+            known = {} if self.target.explicit else self._knowledge.distributions
+            self._named_distros = named_distros(tree, roots, known) if known else ()
+        return self._named_distros
 
     def _without_excluded(self, package: DiscoveredPackage) -> DiscoveredPackage:
         return package._replace(files=tuple(file for file in package.files if not self._exclude(join(package.path, file))))

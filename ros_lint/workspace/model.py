@@ -19,7 +19,7 @@ from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace.side_by_side import workspace_of
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from ros_lint.knowledge.provides import ContentKind
@@ -213,6 +213,7 @@ class Workspace:
         source_lists: tuple[str, ...] = (),
         ignores: tuple[gitignore.Pattern, ...] = (),
         views: Mapping[str, Workspace] = MappingProxyType({}),
+        named_distros: tuple[NamedDistro, ...] = (),
     ) -> None:
         self.packages = packages
         """The packages that colcon finds, sorted by path; two may have the same name."""
@@ -231,6 +232,8 @@ class Workspace:
         """
         self._ignores = ignores
         self._views = views
+        self.named_distros = named_distros
+        """The distributions that the repository builds for; () if the user chose the distribution of the run."""
         self.memo: dict[object, Any] = {}
         """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
