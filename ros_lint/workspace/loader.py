@@ -11,7 +11,8 @@ from contextlib import suppress
 from types import MappingProxyType
 from typing import NamedTuple
 
-from ros_lint.base.paths import is_below, join, parent, strip_folder
+from ros_lint.base.paths import is_below, is_outside, join, parent, strip_folder
+from ros_lint.base.paths import resolve as resolve_path
 from ros_lint.base.text import Text, file_start
 from ros_lint.base.tree import OverlayTree, Tree, text_of
 from ros_lint.collectors.file_types import kind_of
@@ -154,10 +155,11 @@ class Loader:
         not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
 
         named = self._distros_named_in(tree, roots)
+        untracked = frozenset(_untracked(tree, packages))
 
         def seen(world: World, without: Container[str] = (), views: Mapping[str, Workspace] = MappingProxyType({})) -> Workspace:
             kept = [tuple([package for package in group if package.path not in without]) for group in (packages, unusable)]
-            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views, named)
+            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views, named, untracked)
 
         return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
 
@@ -397,6 +399,15 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
             yield UnreadFile(path, c.unreadable, file_start(path))
         for fact in (c.facts, c.launch):
             yield from _unchecked(fact.opaque if fact is not None else ())
+
+
+def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
+    """Yield the paths that build scripts name and that exist on the disk, but are not in the tree."""
+    for package in packages:
+        for problem in package.built.problems:
+            path = resolve_path(package.path, problem.subject.rstrip("/"))
+            if problem.kind.startswith("missing-") and not is_outside(path) and tree.is_untracked(path):
+                yield path
 
 
 def _unchecked_scripts(read_packages: Sequence[_ReadPackage]) -> Iterator[UnreadFile]:

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base import gitignore
-from ros_lint.base.paths import join, strip_folder
+from ros_lint.base.paths import join, resolve, strip_folder
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, UninstalledImport
@@ -214,6 +214,7 @@ class Workspace:
         ignores: tuple[gitignore.Pattern, ...] = (),
         views: Mapping[str, Workspace] = MappingProxyType({}),
         named_distros: tuple[NamedDistro, ...] = (),
+        untracked: frozenset[str] = frozenset(),
     ) -> None:
         self.packages = packages
         """The packages that colcon finds, sorted by path; two may have the same name."""
@@ -232,6 +233,7 @@ class Workspace:
         """
         self._ignores = ignores
         self._views = views
+        self._untracked = untracked
         self.named_distros = named_distros
         """The distributions that the repository builds for; () if the user chose the distribution of the run."""
         self.memo: dict[object, Any] = {}
@@ -276,6 +278,13 @@ class Workspace:
     def is_made(self, package: Package, path: str) -> bool:
         """Return whether git ignores a path in a package: such a path is generated or downloaded."""
         return bool(self._ignores) and gitignore.is_ignored(self._ignores, join(package.path, path))
+
+    def is_untracked(self, package: Package, path: str) -> bool:
+        """Return whether a path that a build script names exists, but is not part of the commit because git does not track it.
+
+        ``path`` is relative to the package. Always False outside of pre-commit hooks.
+        """
+        return resolve(package.path, path) in self._untracked
 
     @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:
