@@ -157,7 +157,10 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
 
 def _fact_cache_key(request: Request) -> str:
-    """Return the cache key of the facts: the base, and the folders that links may lead into if there are more."""
+    """Return the cache key of the facts: the base, followed by the folders that links may lead into.
+
+    If links may lead into the base only, the key is the base alone.
+    """
     return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
 
 
@@ -175,7 +178,7 @@ _LIBRARIES = ("libcst", "networkx", "yaml")
 def report_cache(request: Request) -> ReportCache:
     """Return the cache of the reports of a request.
 
-    It is off if plugins are enabled, because a change in the files of plugins would not be noticed.
+    Nothing is cached if plugins are enabled, because a change in the files of plugins would not be noticed.
     """
     settings = request.settings
     if not request.cache or settings["plugins"]:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class ReportContext(NamedTuple):
-    """What a report needs besides the workspace: data about the run, and the rules that suppressions may name."""
+    """Data about the run that its report contains, and the rules that suppressions may name."""
 
     rules: tuple[Rule, ...]
     """All rules, selected or not."""

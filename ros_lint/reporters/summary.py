@@ -40,7 +40,7 @@ def and_list(words: Sequence[str]) -> str:
 
 
 def name_or_count(packages: Sequence[str]) -> str:
-    """Return the names of a few packages as a list, or the number of many with the first names."""
+    """Return the names of packages as a list; if there are many: "12 packages (talker, listener ...)"."""
     if len(packages) <= _NAMED:
         return and_list(packages)
     return f"{count(len(packages), 'package')} ({', '.join(packages[:_NAMED])} ...)"

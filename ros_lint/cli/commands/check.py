@@ -69,7 +69,10 @@ def _warn(warnings: Iterable[str]) -> None:
 
 
 def _baseline(settings: Settings) -> Baseline | None:
-    """Return the baseline to apply, or None. Raises BaselineError, and UsageError for conflicting options."""
+    """Return the baseline to apply; None if no file is set, or if the file is to be written.
+
+    Raises BaselineError, and UsageError for conflicting options.
+    """
     path, write = settings["baseline"], settings["write-baseline"]
     if write and not path:
         raise UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")

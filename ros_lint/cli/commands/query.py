@@ -20,9 +20,9 @@ CommandOutput = tuple[str, str, int]
 
 
 def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
-    """Load the requested workspace and print what ``answer`` returns for it. Returns the exit code.
+    """Load the requested workspace, print what ``answer`` returns for it, and return the exit code of the answer.
 
-    It is 2 if the workspace cannot be opened. Without ``sources`` only manifests are read.
+    The exit code is 2 if the workspace cannot be opened. Without ``sources`` only manifests are read.
     """
     progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
