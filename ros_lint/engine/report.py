@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ros_lint.analysis.finding import Finding, Severity
     from ros_lint.analysis.rule import Rule
     from ros_lint.base.text import Span
+    from ros_lint.facts.repositories import UnclonedRepositories
 
 
 class ExplainedFinding(NamedTuple):
@@ -107,6 +108,8 @@ class Report(NamedTuple):
     hidden: tuple[HiddenCount, ...] = ()
     not_checked: tuple[UnreadFile, ...] = ()
     blind_spots: tuple[BlindSpot, ...] = ()
+    not_cloned: tuple[UnclonedRepositories, ...] = ()
+    """Repositories that a list of the workspace names and that are not in it: their packages are unknown, not missing."""
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""

@@ -115,9 +115,8 @@ class Loader:
         self._progress("looking for packages", 0, 0)
         roots, discovery = self._discover(tree)
         discovered = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
-        lists = repository_lists.find_lists(
-            tree, roots, (join(package.path, file) for package in discovered for file in package.files)
-        )
+        files = [join(package.path, file) for package in discovered for file in package.files]
+        lists = repository_lists.find_lists(tree, roots, (*files, *discovery.repository_lists))
         submodules = repository_lists.submodules(tree, lists)
         discovered = _without_submodules(discovered, submodules)
         collected = self._collect(discovered, changed or {}) if sources else {}
@@ -126,7 +125,9 @@ class Loader:
             if sources
             else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
         )
-        expected = repository_lists.expected_repositories(tree, lists, submodules)
+        expected = repository_lists.expected_repositories(
+            tree, lists, submodules, [(package.name, package.path) for package in discovered]
+        )
         world = self._world(read_packages, discovery.rejected, expected)
         hidden = hidden_namesakes(
             [
