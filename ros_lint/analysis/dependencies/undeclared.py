@@ -159,7 +159,11 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
     return not all(use.span.path in helpers for use in uses)
 
 
-def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
-    """Return whether all uses are imports, in launch files, of packages that are installed together with ``ros2 launch``."""
+def is_part_of_launch(package: Package, workspace: Workspace, uses: Iterable[Use]) -> bool:
+    """Return whether all uses are imports, in launch files, of packages that are installed together with ``ros2 launch``.
+
+    They are the libraries of launch and their dependencies, such as ``python3-yaml`` and ``lifecycle_msgs``.
+    """
     launched = {launch.path for launch in package.launch}
-    return all(use.via == "import" and use.package in LAUNCH_RUNTIME and use.span.path in launched for use in uses)
+    installed = workspace.world.closure(LAUNCH_RUNTIME)
+    return all(use.via == "import" and use.span.path in launched and use.package in installed for use in uses)
