@@ -53,7 +53,7 @@ def _is_long_term(name: str) -> bool:
 
 
 class Knowledge:
-    """The data about one distribution, with look-ups in the others.
+    """The data about one distribution, with look-ups in the data about other distributions.
 
     Each look-up may raise KnowledgeError if a data file is damaged. For a distribution without an index,
     :attr:`covered` is False and all look-ups of packages are empty.
@@ -83,7 +83,7 @@ class Knowledge:
         return index.load(self._store, self.distro)
 
     def provided(self, package: str, kind: ContentKind) -> Known:
-        """Return the known names of one kind that a released package provides.
+        """Return the names of one kind, such as executables, that a released package provides, as far as they are known.
 
         If the sources of the release were not read, the lists of earlier and later distributions are used. A name in
         any of them may exist. Other names are missing if one earlier and one later list are complete, because nearly
@@ -102,7 +102,7 @@ class Knowledge:
         return self._supplemented[key]
 
     def _neighbours(self, distro: str, package: str, kind: ContentKind) -> tuple[list[Known], list[Known]]:
-        """Return the lists of a package in the distributions before ``distro``, and in those after it."""
+        """Return the names of one kind that a package provides: a list for each distribution before ``distro``, and after it."""
         at = self._order.index(distro)
         parts = self._order[:at], self._order[at + 1 :]
         before, after = ([self._provides(name).known(package, kind) for name in part] for part in parts)
@@ -145,11 +145,11 @@ class Knowledge:
         return distributions
 
     def may_exist_elsewhere(self, package: str, kind: ContentKind, name: str) -> bool:
-        """Return whether a package may provide a name in any other distribution."""
+        """Return whether a package may provide ``name``, a name of one kind such as an executable, in any other distribution."""
         return any(contents.ask(name) != "missing" for contents in self.known_elsewhere(package, kind))
 
     def known_elsewhere(self, package: str, kind: ContentKind) -> tuple[Known, ...]:
-        """Return the lists of names that a package provides, one for each other distribution with the package."""
+        """Return the names of one kind that a package provides, as one entry for each other distribution with the package."""
         return tuple([self._provided(entry.distro, package, kind) for entry in self._indexes_with(package)])
 
     def provides_elsewhere(self, package: str, name: str) -> bool | None:

@@ -1,5 +1,6 @@
 """Transitive closures of the dependencies of packages, each computed once.
 
+A package provides the names of its run-time and exported dependencies: a dependent of the package gets them, too.
 A closure is an integer with a bit for each name. A workspace of 850 packages needs 850 closures of some hundred names,
 and as sets of strings they would take as much time as reading all its files.
 """
@@ -13,7 +14,10 @@ if TYPE_CHECKING:
 
 
 class Closure:
-    """A set of names with all names that they provide transitively. ``x in closure`` is as fast as in a set."""
+    """A set of package names and rosdep keys, together with all names that these provide transitively.
+
+    ``x in closure`` is as fast as in a set.
+    """
 
     __slots__ = ("_bits", "_reach")
 
@@ -52,7 +56,10 @@ class Closure:
 
 
 class Reach:
-    """The graph of what names provide. ``provided_by`` returns the names that a name provides directly, None if unknown."""
+    """The graph of the names that packages and rosdep keys provide.
+
+    ``provided_by`` returns the names that a package or key provides directly, None if unknown.
+    """
 
     def __init__(self, provided_by: Callable[[str], tuple[str, ...] | None]) -> None:
         self._provided_by = provided_by
@@ -135,7 +142,7 @@ class Reach:
         return followers
 
     def _explore(self, root: str) -> int:
-        """Compute the closures of a name and of all names that it reaches. Returns the one of ``root``.
+        """Return the closure of ``root`` as bits, and store it with the closures of all names that ``root`` provides.
 
         The names of a cycle share one closure. The algorithm is Tarjan's, without recursion.
         """

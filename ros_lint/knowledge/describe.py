@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 def context(distro: str) -> Mapping[str, str]:
-    """Return the variables for conditions in manifests that bloom sets when it releases a package."""
+    """Return the values of variables in conditions of manifests, as bloom sets them for a release in ``distro``."""
     return {**ROS_2, "ROS_DISTRO": distro}
 
 
 def describe(manifest: Manifest, known_variables: Mapping[str, str]) -> Released:
     """Return the entry of the package index for a manifest. Unknown variables in conditions are empty, as in all tools.
 
-    The name is that in the manifest; that of the folder or of the release may differ.
+    The entry has the name in the manifest; the name of the folder or of the release may differ.
     """
     depends: dict[str, set[str]] = {}
     interfaces = False

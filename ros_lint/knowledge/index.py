@@ -164,7 +164,10 @@ class Index(Entries[Released]):
 
     @cached_property
     def _declared(self) -> Mapping[str, list[str]]:
-        """By name, the set of kinds in each package that declares it. All names take 7 ms, a single one would take 0.3."""
+        """The sets of dependency kinds with which packages declare each name, by name: one item for each declaring package.
+
+        To collect them for all names takes 7 ms; for a single name it would take 0.3 ms.
+        """
         kinds_of: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
             for field in line.split("\t")[4:]:
@@ -196,20 +199,20 @@ class Index(Entries[Released]):
         return providers
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return names with all names that they provide transitively."""
+        """Return ``names`` together with all names that these provide transitively."""
         return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:
-        """Return the names that a package provides directly, without groups; None if unknown.
+        """Return the names that a package provides directly: run-time and exported dependencies, without groups.
 
-        This is much faster than :meth:`get`, because it parses no other field.
+        None if unknown. This is much faster than :meth:`get`, because it parses no other field.
         """
         row = self._table.row(name)
         return None if row is None else _runtime(row)
 
 
 def _runtime(row: list[str]) -> tuple[str, ...] | None:
-    """Return the names that the package in a line provides directly; None if unknown. ``row`` has the fields."""
+    """Return the names that a package provides directly, from the fields of its line in the index; None if unknown."""
     if len(row) < 3 or "-" in row[2] or "U" in row[2]:
         return None
     result: list[str] = []

@@ -34,7 +34,7 @@ _OTHER_SUFFIXES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
 class InstallPrefix:
-    """An install prefix in a tree. ``single`` is True if it is the prefix of one package, so that all files are its."""
+    """An install prefix in a tree. ``single`` is True if only one package is installed in it and owns all its files."""
 
     def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
         self._tree = tree
@@ -141,7 +141,7 @@ class InstallPrefix:
 
     @cached_property
     def modules(self) -> Mapping[str, tuple[str, ...]]:
-        """Names of the top-level Python modules, each with a tuple of its package.
+        """The top-level Python modules by name, each with a tuple that contains the package of the module.
 
         The tuple is empty if the package is unknown.
         """

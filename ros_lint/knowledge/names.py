@@ -83,7 +83,7 @@ class Names:
         return self._alternatives.get(package, (package,))
 
     def exports_targets(self, package: str) -> bool:
-        """Return whether a released package is known to export its libraries in ``<package>_TARGETS``."""
+        """Return whether a released package certainly exports its libraries in the CMake variable ``<package>_TARGETS``."""
         return package in self._targets
 
     def is_cmake_usually_declared(self, name: str) -> bool:
@@ -122,9 +122,9 @@ class Names:
         return ()
 
     def folder(self, name: str) -> tuple[str, ...]:
-        """Return the rosdep keys of the library with headers in a folder, such as opencv2, best first.
+        """Return the rosdep keys of the library whose headers are in a folder such as opencv2, best first.
 
-        Uncertain ones, see :meth:`is_header_usually_declared`, are left out.
+        A folder is left out if packages that include its headers rarely declare the keys (:meth:`is_header_usually_declared`).
         """
         prefix = f"{name}/"
         return () if prefix in self._doubtful_names("include_system.tsv") else self._include_system.get(prefix, ())
@@ -151,7 +151,7 @@ class Names:
         return keys or self._py_import.get(top, ())
 
     def module_packages(self, module: str, distro: str) -> tuple[str, ...]:
-        """Return the ROS packages that provide a Python module of another name in a distribution."""
+        """Return the ROS packages of a distribution that provide a Python module and are not named like the module."""
         top = module.partition(".")[0]
         if top in _EVERYDAY_WORDS:
             return ()
@@ -171,9 +171,9 @@ class Names:
         return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
-        """Return words in lower case or as in code, at least one of which appears in each use of a rosdep key.
+        """Return words, at least one of which appears in each use of a rosdep key.
 
-        They are the words in the name of the key, and the names of its headers, modules and CMake packages.
+        They are the words in the name of the key, in lower case, and the names of its headers, modules and CMake packages.
         """
         parts = re.findall(r"[a-z0-9]+", key.lower())
         words = [part.removeprefix("lib") for part in parts if part not in _COMMON_WORDS and not part.isdigit()]
@@ -252,7 +252,7 @@ class Names:
 
     @cached_property
     def _mapped_folders(self) -> frozenset[str]:
-        """First folders, and files without folders, that a map contains."""
+        """First folders of the header paths in the maps, and names of the headers without a folder."""
         return frozenset([prefix.partition("/")[0] for names in (self._include_ros, self._include_system) for prefix in names])
 
     @cached_property
@@ -292,7 +292,7 @@ class Names:
         return self._store.table("eol_names.tsv")[1]
 
     def _doubtful_names(self, file: str) -> frozenset[str]:
-        """Return the names in a map whose providers are a manual entry, or are rarely declared by those who use the name."""
+        """Return the names in a map whose providers are entered by hand or are rarely declared by packages that use the name."""
         doubtful = self._doubtful.get(file)
         if doubtful is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])

@@ -39,9 +39,9 @@ class Providers(NamedTuple):
     keys: tuple[str, ...] = ()
     """The members of ``names`` that are rosdep keys."""
     none_needed: bool = False
-    """True if the language or the build tool provides it, so that nothing has to be declared."""
+    """True if the language or the build tool provides the header, module or CMake package: nothing has to be declared."""
     sure: bool = True
-    """False if most released packages that use it declare none of the names, or if only few use it."""
+    """False if most released packages with the header, module or CMake package declare none of the names, or if few have it."""
 
     @property
     def known(self) -> bool:
@@ -280,7 +280,7 @@ def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
-    """Yield what a name means as a CMake package, a header folder, a module, an apt or a pip package."""
+    """Yield a suggestion, or None, for each meaning of a name: CMake package, header folder, module, apt package, pip package."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
@@ -318,7 +318,7 @@ def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
 
 
 def _has_module(world: Layers, package: str) -> bool:
-    """Return whether a package below the workspace may have a Python module of its own name."""
+    """Return whether a released or installed package may have a Python module of its own name; False in the workspace."""
     if world.layer(package) == "workspace":
         return False  # the build script has been consulted already
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"

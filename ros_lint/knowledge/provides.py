@@ -34,7 +34,7 @@ base=class; Python modules; interfaces as msg/Name; programs in bin.
 
 
 class Known(NamedTuple):
-    """What is known about the names of one kind that a package provides."""
+    """The names of one kind, such as executables, that a package provides, as far as they are known."""
 
     names: tuple[str, ...] = ()
     """Names that exist."""
@@ -167,7 +167,7 @@ class Provides(Entries[ReleasedContents]):
         super().__init__(table, parse)
 
     def known(self, name: str, kind: ContentKind) -> Known:
-        """Return the known names of one kind that a package provides."""
+        """Return the names of one kind that a package provides; NOTHING_KNOWN if the file does not list the package."""
         contents = self.get(name)
         return contents.known(kind) if contents else NOTHING_KNOWN
 

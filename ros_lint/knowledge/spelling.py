@@ -30,7 +30,7 @@ _PACKAGE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 
 class Spelling:
-    """The known names, for look-ups of similar ones."""
+    """All existing names, for look-ups of names that are similar to an unknown name."""
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names = sorted(set(names))
@@ -131,7 +131,7 @@ def _may_be_intended(words: frozenset[str], others: frozenset[str]) -> bool:
 def may_be_package(name: str) -> bool:
     """Return whether a name is valid for a ROS package (REP 144).
 
-    Lower-case letters, digits and underscores after a lower-case letter.
+    A valid name consists of lower-case letters, digits and underscores, and starts with a letter.
     """
     return _PACKAGE_NAME.fullmatch(name) is not None
 

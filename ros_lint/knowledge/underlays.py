@@ -47,10 +47,10 @@ class Installed:
 
     @cached_property
     def released(self) -> Released | None:
-        """Version and dependencies of the package, None if unknown.
+        """Version and dependencies of the package from ``share/<package>/package.xml``, None if unknown.
 
-        They are those in ``share/<package>/package.xml``. For a package without a manifest, such as plain CMake, they
-        are the run-time dependencies that colcon or ament recorded.
+        For a package without a manifest, such as plain CMake, the dependencies are the run-time dependencies that colcon or
+        ament recorded.
         """
         path = f"share/{self.name}/package.xml"
         data = self.prefix.read(path)
@@ -63,10 +63,9 @@ class Installed:
 
     @cached_property
     def runtime(self) -> tuple[str, ...] | None:
-        """Names that the package provides directly, sorted; None if unknown.
+        """Names that the package provides directly: its run-time and exported dependencies, sorted; None if unknown.
 
-        They are those in :attr:`released`. Simple manifests are not fully parsed, because hundreds of them are read only
-        for these names.
+        Simple manifests are not fully parsed, because hundreds of them are read only for these names.
         """
         data = self.prefix.read(f"share/{self.name}/package.xml")
         if data is not None and not _NEEDS_PARSING.search(data):
@@ -82,9 +81,10 @@ class Installed:
         return self.released.groups if self.released else ()
 
     def known(self, kind: ContentKind) -> Known:
-        """Return the names of one kind that the package provides. Python modules are never complete.
+        """Return the names of one kind that the package provides.
 
-        Modules of develop installs cannot be found, because they are outside the prefix.
+        The list of Python modules is never complete, because modules of develop installs are outside the prefix. Programs
+        are known only if the prefix has a single package.
         """
         prefix = self.prefix
         match kind:
@@ -144,7 +144,7 @@ class Underlay:
 
 
 def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:
-    """Return the underlays in ``prefixes``, in the given order: of several with a package, the first one counts.
+    """Return the underlays in ``prefixes``, in the given order. The first underlay that has a package provides it.
 
     A prefix is one of these; any other folder raises UnderlayError:
 

@@ -180,11 +180,11 @@ class World:
         return tuple(sorted(dependents))
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return names with all names that they provide transitively.
+        """Return ``names`` together with all names that these provide transitively.
 
-        The closure follows build_export, buildtool_export and exec dependencies. For packages of the workspace it
-        also follows groups, to the members that are in the workspace. A key provides the keys of the system
-        packages that its package depends on.
+        A package provides its build_export, buildtool_export and exec dependencies. A package of the workspace also provides
+        the members, in the workspace, of the groups that it depends on. A rosdep key provides the keys of the system packages
+        on which its own system package depends.
         """
         return self._reach.closure(names)
 
@@ -206,16 +206,13 @@ class World:
     # --- what packages provide ------------------------------------------------------------------------------------
 
     def executables(self, name: str) -> Known:
-        """Return the names of a package in lib/<package>.
-
-        Like the following methods, it returns NOTHING_KNOWN for a package of the workspace.
-        """
+        """Return the executables of a package, by file name in lib/<package>; NOTHING_KNOWN for a package of the workspace."""
         return self._known(name, "executables")
 
     def lacks(self, name: str, kind: ContentKind, wanted: str, *, everywhere: bool) -> bool:
-        """Return whether a package certainly does not provide a name of one kind.
+        """Return whether a package certainly does not provide ``wanted``, a name of one kind such as an executable.
 
-        With ``everywhere``, it must be missing in every distribution that contains the package.
+        With ``everywhere``, ``wanted`` must be missing in every distribution that contains the package.
         """
         if self._known(name, kind).ask(wanted) != "missing":
             return False
@@ -240,8 +237,9 @@ class World:
     def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
         """Return all interfaces that a package may have, as msg/Name; empty if some may be unknown.
 
-        With ``everywhere``, or if nothing is known for this distribution, those in other distributions are included.
-        The list of the newest of these must be complete, because interfaces of older ones are rarely removed.
+        Interfaces of the package in other distributions are included with ``everywhere``, or if nothing is known for the
+        target distribution. The list of the newest included distribution must be complete, because interfaces of older
+        distributions are rarely removed.
         """
         key = (name, everywhere)
         if key not in self._interfaces:

@@ -79,7 +79,7 @@ def _is_known(condition: LaunchCondition) -> bool:
 
 
 def _independent_configurations(values: Mapping[str, tuple[str, ...]], settable: set[str]) -> frozenset[str]:
-    """Return the configurations whose values depend only on configurations that are not in ``settable``."""
+    """Return the configurations outside of ``settable`` whose values depend only on configurations in the result."""
     independent = values.keys() - settable
     while dependent := {name for name in independent if not all(_depends_only_on(text, independent) for text in values[name])}:
         independent -= dependent

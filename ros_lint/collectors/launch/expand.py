@@ -82,7 +82,7 @@ class Argument(NamedTuple):
 
 
 class Missing(NamedTuple):
-    """A declared launch argument that has no default and gets no value from the caller."""
+    """A declared launch argument that has no default value, and for which no value is passed."""
 
     name: str
     """Name of the argument."""
@@ -141,9 +141,9 @@ def expand(
 ) -> Expansion:
     """Return what a launch file starts if it is launched with the arguments ``passed``.
 
-    ``files`` returns an included file by its path, None if there is no such file. A path may begin with the mark of an
-    install prefix. ``brief`` omits parameters (except parameter files), remappings and the arguments of included files,
-    because they take most of the time. ``distro`` is the value of ROS_DISTRO.
+    ``files`` returns an included file by its path, None if there is no such file. A path may begin with the mark of an install
+    prefix. ``brief`` omits parameters (except parameter files), remappings and the arguments of included files, because they
+    take most of the time. ``distro`` is the value of ROS_DISTRO, "" if it is unknown.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in passed.items()})
@@ -293,10 +293,10 @@ class _Run:
             scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
 
     def _reset(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Apply an action that clears the launch configurations, and return the scope after it.
+        """Clear the launch configurations, set those that the action passes, and return the scope after the action.
 
-        Only the configurations in the arguments of the action keep a value. Namespaces, parameters and remappings for later
-        nodes are cleared as well, because launch_ros stores them in launch configurations.
+        Namespaces, parameters and remappings for later nodes are cleared as well, because launch_ros stores them in launch
+        configurations. If it is uncertain that the action runs, the configurations get further possible values.
         """
         configurations = {name: self._texts(value, scope) for name, value in action.arguments}
         if scope.certain:
@@ -308,10 +308,7 @@ class _Run:
         return scope._replace(namespace=(*scope.namespace, ""))
 
     def _pushed(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Return the scope after an action that changes a setting for later actions.
-
-        The setting is the namespace, a remapping, a parameter or an environment variable.
-        """
+        """Return the scope after an action that sets a namespace, parameter, remapping or environment variable."""
         texts = self._texts(action.value, scope)
         if action.kind == "namespace":
             return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))

@@ -44,7 +44,7 @@ def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | No
 
 
 def _rviz_arguments(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, FilePart | None]]:
-    """Yield the arguments of rviz2. The value with the display file comes with the function that returns its name.
+    """Yield the arguments of rviz2, each with the function that returns the display file in its text.
 
     The option and the file may be one argument, ``-d a.rviz``, or two.
     """

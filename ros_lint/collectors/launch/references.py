@@ -184,7 +184,7 @@ class References:
             self._add("package", package, "", value, value, conditional, default)
 
     def _note_prefix(self, value: LaunchValue, conditional: bool) -> None:
-        """Add a reference to the program in a command prefix: ``xterm`` for ``xterm -e``."""
+        """Add a reference to the program of a command prefix, such as ``xterm`` for ``xterm -e``, if it is in ``_PREFIXES``."""
         texts, default = self._filled(value)
         for program in sorted(_PREFIXES.intersection([text.strip().partition(" ")[0] for text in texts])):
             self._add("program", program, program, value, value, conditional or len(texts) > 1, default)
@@ -243,7 +243,10 @@ class References:
                 self.problems[Problem("no-slash", message, value.span)] = None
 
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
-        """Return the span of the package name in a path: the span of the look-up if the file has one, else that of ``value``."""
+        """Return the span of the package name in a path.
+
+        It is the span of the package look-up, else ``package_span`` if that is inside of ``value``, else the span of ``value``.
+        """
         if package in self._places:
             return self._places[package]
         if package in self._computed:

@@ -40,7 +40,7 @@ class LaunchScope(NamedTuple):
     """The include of the file that is being expanded."""
 
     def after(self, inner: LaunchScope) -> LaunchScope:
-        """Return this scope with the settings of ``inner``, the scope after the actions of an unscoped group."""
+        """Return this scope with namespace, parameters, remappings and environment of ``inner``, the scope after an action."""
         return self._replace(
             namespace=inner.namespace,
             parameters=inner.parameters,

@@ -21,7 +21,7 @@ MOST_DEPTH = 20
 
 
 class ConditionError(ValueError):
-    """A condition that neither ros-lint nor catkin_pkg can parse."""
+    """A condition that cannot be parsed."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -32,7 +32,7 @@ class ConditionError(ValueError):
 
 
 class Operand(NamedTuple):
-    """An operand of a comparison. ``text`` is the name of an environment variable if ``variable`` is True, else a string."""
+    """An operand of a comparison: the value of an environment variable, or a text."""
 
     text: str
     """Name of the variable, or the text."""
@@ -52,7 +52,7 @@ class Comparison(NamedTuple):
 
 
 class Junction(NamedTuple):
-    """Conditions that are joined by ``and`` (``every`` is True: all must hold), or by ``or``."""
+    """Conditions joined by ``and`` (all must hold) or by ``or``."""
 
     every: bool
     """True for ``and``, false for ``or``."""
@@ -117,10 +117,9 @@ def always(text: str) -> bool:
 
 
 def truth(text: str, context: Mapping[str, str]) -> bool | None:
-    """Return whether an element with the condition ``text`` counts, None if that is unknown.
+    """Return whether an element with the condition ``text`` ("" for none) counts, None if that is unknown.
 
-    The result is True for "", that is, without a condition, and None for a condition that cannot be parsed, which
-    :func:`problems` reports.
+    The result is None for a condition that cannot be parsed, too, which :func:`problems` reports.
     """
     if not text:
         return True
@@ -178,10 +177,7 @@ def _value(operand: Operand, context: Mapping[str, str]) -> str | None:
 
 
 def _junction(text: str, at: int, depth: int) -> tuple[Condition, int]:
-    """Parse conditions joined by ``and`` and ``or`` from the offset ``at`` on, and return the condition and the offset after it.
-
-    ``or`` has a lower precedence than ``and``.
-    """
+    """Return the condition that begins at the offset ``at``, and the offset after it. ``and`` has precedence over ``or``."""
     alternatives: list[Condition] = []
     while True:
         parts, at = _conjunction(text, at, depth)

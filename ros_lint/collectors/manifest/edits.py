@@ -30,7 +30,7 @@ SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license"
 
 
 def schema_rank(tag: str) -> int:
-    """Return the position of a tag in :data:`SCHEMA_ORDER`; all dependency tags have the same position."""
+    """Return the position of a tag in :data:`SCHEMA_ORDER`. Dependency tags and unknown tags have the position of ""."""
     return SCHEMA_ORDER.index(tag) if tag in SCHEMA_ORDER else SCHEMA_ORDER.index("")
 
 
@@ -52,7 +52,7 @@ def _insert_by_kind(layout: _Layout, depends: Sequence[Depend], tag: str, name: 
 def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
     """Return whether the dependencies with ``tag`` are sorted by name.
 
-    If there are fewer than two, the result is whether the dependencies of each other tag are sorted.
+    If there are fewer than two, the dependencies of each other tag are checked instead. False if no tag has two dependencies.
     """
     names: dict[str, list[str]] = {}
     for depend in depends:
@@ -109,9 +109,11 @@ def rename(depend: Depend, name: str) -> Edit:
 def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
     """Return the edits that change the tag of a dependency, for example from ``depend`` to ``exec_depend``.
 
-    ``tag`` must differ from its present tag. ``alike`` are all dependencies that change to ``tag`` by the same fix. If the
-    file groups dependencies by tag, the dependency is moved to the group of its new tag. Exception: if its whole group
-    changes to a tag that the file does not have yet, the group stays in place.
+    ``tag`` must differ from its present tag. ``alike`` are all dependencies that change to ``tag`` by the same fix. If the file
+    groups dependencies by tag, the dependency is moved to the group of its new tag. It stays in place
+
+    - if its whole group changes to a tag that the file does not have yet, or
+    - if it is not alone on its line, has a comment or cannot be written again from the manifest.
     """
     depends = manifest.depends
     runs = [list(run) for _, run in groupby(depends, key=lambda sibling: sibling.tag)]
@@ -141,7 +143,7 @@ def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
 
 
 def set_build_type(manifest: Manifest, build_type: str) -> Edit:
-    """Return the edit that adds ``<build_type>`` to ``<export>`` of a manifest without build type."""
+    """Return the edit that adds ``<build_type>`` to a manifest without build type, and ``<export>`` if it is missing."""
     layout, newline, indent = _Layout(manifest), manifest.newline, manifest.indent
     element = f"<build_type>{escaped(build_type)}</build_type>"
     export_element = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
@@ -220,10 +222,7 @@ class _Layout:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Neighbours:
-        """Return the items next to an item on its own lines.
-
-        These are the item that ends on its first line, and the item that starts on its last line, None if there is no such item.
-        """
+        """Return the item that ends on the first line of an item, and the item that begins on its last line."""
         at = self.items.index(span)
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
@@ -279,7 +278,7 @@ class _Layout:
         return self._remove_lines(span.line, span.end_line)
 
     def removals(self, spans: Iterable[Span]) -> Iterator[Edit]:
-        """Yield the edits that remove items, in the order of the file. Each item must be alone on its lines."""
+        """Yield the edits that remove items, which must be alone on their lines. ``spans`` must be in the order of the file."""
         runs: list[list[int]] = []
         for span in spans:
             if runs and runs[-1][1] == span.line - 1:
@@ -314,7 +313,7 @@ class _Layout:
         return self._is_blank(span.end_line + 1)
 
     def kinds_apart(self) -> bool:
-        """Return whether blank lines separate dependencies with different tags.
+        """Return whether a blank line is at most places where the tag of adjacent dependencies changes.
 
         If all dependencies have one tag, the result is whether blank lines separate them from the other elements.
         """

@@ -116,10 +116,10 @@ def _is_valid(element: Element) -> bool:
 def find_problems(
     document: Document, root: XmlNode, format_number: int, elements: Sequence[Element], depends: Sequence[Depend]
 ) -> Iterator[Fault]:
-    """Yield the errors for which catkin_pkg rejects a manifest, in no order. ``format_number`` is 0 if the format is unknown.
+    """Yield the errors for which catkin_pkg rejects a manifest, unsorted. ``format_number`` is 0 if the format is unknown.
 
-    ``elements`` and ``depends`` are the closed children of the root. If the file could not be read to its end, missing
-    elements are not reported.
+    ``elements`` and ``depends`` are the closed children of the root. If the file could not be read to its end, missing elements
+    are not reported.
     """
     nodes = [node for node in children(document) if node.end >= 0]
     dependency_tags = {depend.tag for depend in depends}

@@ -343,7 +343,7 @@ def _qualified(name: str) -> str:
 
 
 def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
-    """Return a fault for each unresolved merge conflict, if the first of them is before the offset ``fault`` of an error."""
+    """Return a fault for each unresolved merge conflict, if the first of them is not after the offset ``fault`` of an error."""
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()

@@ -180,10 +180,9 @@ def _lines(body: list[ast.stmt]) -> range:
 
 
 def _asks(test: ast.expr) -> bool | None:
-    """Return whether a condition is true if a package is installed, False if it is true if the package is missing.
+    """Return whether a condition tests that a package is installed (True) or missing (False), None if it tests something else.
 
-    ``has_resource("packages", "p")`` -> True, ``not has_resource("packages", "p")`` -> False. The result is None if the
-    condition tests something else.
+    ``has_resource("packages", "p")`` -> True, ``not has_resource("packages", "p")`` -> False
     """
     inner = list(ast.walk(test))
     if not any(isinstance(node, ast.Call) and callee(node) in _ASKS for node in inner):

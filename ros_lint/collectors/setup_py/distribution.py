@@ -84,7 +84,7 @@ class Distribution:
         self.opaque.append(Opaque(facet, reason, self._place(value, self._context.call)))
 
     def _items(self, value: Value, facet: Facet) -> Iterator[tuple[Value, bool]]:
-        """Yield the known elements of a list, each with a boolean: True if the list may not contain the element.
+        """Yield the known elements of a list, each with a boolean: True if the element may be missing.
 
         If ``value`` or an element is unknown, an opaque place is recorded, which hides ``facet`` of the package.
         """
@@ -139,7 +139,8 @@ class Distribution:
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
         """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
-        These are the packages in src/, else those in the only top-level package. The folders are a value of ``package_dir``.
+        These are the packages in the root folder of ``package_dir`` or in src/, else those in the only top-level package. The
+        folders are a value of ``package_dir``.
         """
         files = self._context.files
         if "" in folders or files.is_folder("src"):

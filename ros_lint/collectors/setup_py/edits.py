@@ -111,7 +111,7 @@ def program_folders(script: BuildScript) -> dict[str, Span]:
 
 
 def config(place: Span, package: str) -> Edit:
-    """Return the edit that writes a new setup.cfg, which installs programs to ``lib/<package>``."""
+    """Return the edit that writes a new setup.cfg, so that programs are installed to ``lib/<package>``."""
     return Edit(place, "".join(f"[{section}]\n{option}=$base/lib/{package}\n" for section, option in _FOLDERS))
 
 

@@ -93,7 +93,7 @@ def evaluate(
 def _run(program: Program, source: Text, start: Span) -> BuildScript:
     """Interpret a setup.py, and return a build script with its imports and problems.
 
-    The script is opaque if setup.py cannot be evaluated to its end. ``start`` is the span of the opaque place.
+    ``start`` is the span of the Opaque for a setup.py that cannot be evaluated to its end or does not call setup().
     """
     script = BuildScript(source.path)
     try:

@@ -1,4 +1,4 @@
-"""Reader of ``setup.cfg`` with the syntax of ``configparser``, which records the span of each option."""
+"""Reads ``setup.cfg`` with the syntax of ``configparser``, and records the span of each option."""
 
 from __future__ import annotations
 

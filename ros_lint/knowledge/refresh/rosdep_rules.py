@@ -17,7 +17,7 @@ _ONLY_OSX = frozenset({"osx"})
 
 
 def keys(files: Iterable[tuple[str, object]]) -> dict[str, RosdepKey]:
-    """Return the rosdep keys of rule files. ``files`` are pairs of the place of a file and its parsed contents.
+    """Return the rosdep keys of rule files. ``files`` are pairs: the path or URL of a file and its parsed contents.
 
     The files are in the order of rosdep's sources: of several rules for a key, the first one counts, except that a rule
     for macOS only does not hide the others. Raises KnowledgeError for a file that has no rules.
@@ -61,7 +61,7 @@ def _pip(rule: object) -> Iterator[str]:
 def _resolve(rule: Mapping[str, object], platform: str) -> tuple[tuple[str, str], ...] | None:
     """Return pairs of installer and package for a platform; None if the rule does not apply to it.
 
-    The installer is "" for the default one of the platform.
+    The installer is "" if the rule names none, which means the default installer of the platform.
     """
     system, _, version = platform.partition(":")
     entry = rule[system] if system in rule else rule.get("*")

@@ -25,7 +25,7 @@ _MOST_BYTES = 1 << 28
 
 
 class DistributionSource(NamedTuple):
-    """The files that describe a distribution. Places are paths or URLs."""
+    """The files that describe a distribution, as paths or URLs."""
 
     name: str
     files: tuple[str, ...]
@@ -98,7 +98,10 @@ def _described(
 
 
 def load_yaml(place: str) -> Any:
-    """Return the contents of a YAML file, by path or URL, plain or gzipped. Raises KnowledgeError."""
+    """Return the contents of a YAML file, given by path or URL; gzip is unpacked.
+
+    Raises KnowledgeError if the file is unreadable or invalid.
+    """
     data = read(place)
     try:
         return load(data.decode("utf-8-sig"))
@@ -139,7 +142,7 @@ def _is_url(place: str) -> bool:
 
 
 def _resolve_place(index: str, place: str) -> str:
-    """Return a path or URL in an index as one that can be opened: relative ones are relative to the index."""
+    """Return the path or URL of a file that an index names: a relative ``place`` is relative to the folder of ``index``."""
     if _is_url(place) or os.path.isabs(place):
         return place
     folder = index.rpartition("/")[0] if _is_url(index) else os.path.dirname(index)

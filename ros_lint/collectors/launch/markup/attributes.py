@@ -34,7 +34,7 @@ class Reader:
         """Features that not every distribution supports; ``kind`` is the first distribution that does."""
 
     def note_newer(self, feature: str, span: Span) -> None:
-        """Record that the file uses a tag or substitution that not every distribution supports."""
+        """Record that the file uses a tag, attribute or substitution that not every distribution supports."""
         self.newer[Problem(SINCE[feature], feature, span)] = None
 
     def note_rejection(self, error: Rejected) -> None:
@@ -145,7 +145,7 @@ class Reader:
         return LaunchValue(joined(rows, _as_yaml), entity.place(name))
 
     def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
-        """Return the type of ``value``, an element of a list in an attribute, None if it is a text with substitutions."""
+        """Return the type of ``value``, an attribute or an element of a list, None if it is a text with substitutions."""
         if not isinstance(value, str):
             return type(value)
         pieces = self._pieces(entity, name, value)

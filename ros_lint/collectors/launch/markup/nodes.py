@@ -1,4 +1,4 @@
-"""Readers of the tags for nodes, components and processes in XML and YAML launch files."""
+"""Readers of the tags of nodes, components and processes in XML and YAML launch files."""
 
 from __future__ import annotations
 

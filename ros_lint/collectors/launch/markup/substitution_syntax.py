@@ -20,7 +20,7 @@ class SubstitutionError(Exception):
 
 
 class Literal(NamedTuple):
-    """A part of a text outside of substitutions, without escapes. ``start`` and ``end`` are offsets in the whole text."""
+    """Literal text, also in an argument of a substitution. ``text`` has no escapes, ``start`` and ``end`` are offsets."""
 
     text: str
     start: int

@@ -57,10 +57,7 @@ class _Reader:
         return self._entity(key, value, 0)
 
     def _entity(self, key: yaml.Node, value: yaml.Node, depth: int) -> Entity:
-        """Return the entity for a key and its value.
-
-        The value may be a mapping with attributes and lists of child entities, or a list of child entities.
-        """
+        """Return the entity of a key: a mapping has attributes and lists of child entities, a list has child entities."""
         tag = str(key.value) if _is_scalar(key) else "?"
         return self._entity_of_value(tag, key.start_mark.index, key.end_mark.index, value, depth)
 
@@ -116,7 +113,7 @@ def _is_scalar(node: yaml.Node) -> bool:
 
 
 def _value(node: yaml.Node) -> Any:
-    """Return the value of a YAML scalar or of a list of scalars, NO_VALUE for any other node.
+    """Return the text, number, boolean or None of a YAML scalar, a list of them for a list of scalars, else NO_VALUE.
 
     Nested lists are not read, because aliases can multiply a few of them.
     """

@@ -79,7 +79,7 @@ _OTHER_FORMATS: Mapping[str, tuple[str, ...]] = {
 
 
 def rejected_arguments(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield a problem for each argument that the class of a launch object rejects."""
+    """Yield a problem for each argument that the class of a launch object rejects, except in ``try`` blocks."""
     problems = [
         (node, problem)
         for launch_object in launch_objects
@@ -137,7 +137,7 @@ def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], 
 
 
 def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield a problem for each absolute path that is joined to another path, because Python drops the path before it."""
+    """Yield a problem for the first absolute path that a call joins to a relative one, because Python drops the path before."""
     if not _SLASH.search(source.text.text):
         return  # because walking the whole tree takes longer
     for node in ast.walk(tree):
@@ -157,7 +157,7 @@ _SLASH = re.compile(r",\s*['\"]/")
 
 
 def _joined_parts(node: ast.Call) -> list[ast.expr]:
-    """Return the arguments of a call that joins paths, such as ``os.path.join(a, b)``, [] for any other call."""
+    """Return the parts that ``os.path.join(a, b)`` or ``PathJoinSubstitution([a, b])`` joins, [] for any other call."""
     if callee(node) == "PathJoinSubstitution" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
         return node.args[0].elts
     return node.args if dotted(node.func) in ("os.path.join", "path.join") else []

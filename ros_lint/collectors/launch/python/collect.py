@@ -104,7 +104,10 @@ def _has_required_parameters(node: ast.stmt) -> bool:
 
 
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
-    """Yield the modules that a source imports at its top level without a condition, each with its span."""
+    """Yield the modules that a source imports at its top level without a condition, each with its span.
+
+    Nothing is yielded if the source mentions ``sys.path``, because it may change where modules are found.
+    """
     if "sys.path" in text.text:
         return
     for statement in tree.body:

@@ -56,10 +56,7 @@ _QUALIFIED = re.compile(r"launch(?<!\wlaunch)((?:_ros)?\.[a-z_]+)\.([A-Z]\w+)")
 
 
 def misplaced_imports(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield a problem for each name that is imported from a launch module without that name.
-
-    The problem is reported only if another launch module has the name.
-    """
+    """Yield a problem for each name that a launch file imports from the wrong module of the launch libraries."""
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
             for alias in node.names:
@@ -106,10 +103,7 @@ def _imported(tree: ast.Module) -> frozenset[str]:
 
 
 def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
-    """Return whether a called function is imported from a launch library, or qualified with one.
-
-    An example of a qualified name is ``launch.actions.TimerAction``.
-    """
+    """Return whether a called function is imported from a launch library, or qualified with one (``launch.actions.Node``)."""
     root = function
     while isinstance(root, ast.Attribute):
         root = root.value

@@ -54,7 +54,10 @@ _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error"
 
 
 def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
-    """Yield a problem for each substitution that a module uses as a text, at most one for each line."""
+    """Yield a problem for each substitution or condition that a module uses as a string or truth value.
+
+    At most one problem is reported for each line. Uses in ``try`` blocks and in arguments of logging calls are omitted.
+    """
     misuses = [misuse for misuse in misuses if misuse.source is source]
     if not misuses:
         return
@@ -138,7 +141,7 @@ def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]
 
 
 def _same_function(misuse: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
-    """Return whether the function that creates a substitution is also the function that uses it as a text."""
+    """Return whether a substitution is created and used as a truth value in the same function, or both outside of functions."""
     if misuse.made.source is not misuse.source:
         return False
     return all(_contains(function, misuse.node) == _contains(function, misuse.made.node) for function in functions)
@@ -218,10 +221,7 @@ def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[
 
 
 def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return the first number, boolean or action in an argument that must be a text, None if there is none.
-
-    Nested lists are searched, too.
-    """
+    """Return a number, boolean or action in an argument that must be a text, or in its nested lists, None if there is none."""
     pending = [value]
     for _ in range(_MAX_ITEMS):
         if not pending:

@@ -29,9 +29,9 @@ _MAX_STEPS = 2_000
 
 
 class TextEvaluation:
-    """The remaining depth and steps of one evaluation of a value to its texts.
+    """The depth, remaining steps and known results of one evaluation of a value to its texts.
 
-    Both are limited, because objects can contain each other or occur many times.
+    Depth and steps are limited, because objects can contain each other or occur many times.
     """
 
     __slots__ = ("depth", "remaining", "results", "spend")

@@ -1,4 +1,4 @@
-"""The address of an XML schema in a manifest, which ament_xmllint validates with (ament_xmllint/main.py)."""
+"""The published schema that a manifest names, and by which ament_xmllint validates the manifest (ament_xmllint/main.py)."""
 
 from __future__ import annotations
 

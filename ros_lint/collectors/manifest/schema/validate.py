@@ -131,7 +131,7 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _entries(log: Any) -> Iterator[Any]:
-    """Yield the entries of an error log of lxml. The type stubs of lxml do not allow to iterate over it directly."""
+    """Yield the entries of an error log of lxml, whose type stubs lack the iteration."""
     yield from log
 
 

@@ -312,5 +312,5 @@ def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
 
 
 def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame, test: ast.expr) -> int:
-    """Interpret the body of a loop that runs an unknown number of times, and return how the loop ends: NEXT or LEAVE."""
+    """Interpret the body of a loop that runs an unknown number of times. Return NEXT, because the body may not run at all."""
     return either(machine, body, (), PERHAPS, frame, loop=True, test=test)

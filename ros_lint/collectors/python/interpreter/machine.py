@@ -63,8 +63,8 @@ class Machine(Interpreter):
     def __init__(self, modules: Modules, files: Callable[[str], Value], library: Library) -> None:
         """Create an interpreter for one program.
 
-        ``modules`` returns the syntax tree of a module of the workspace, ``files`` the content of a file of the workspace.
-        ``library`` has the models of all other modules.
+        ``modules`` returns the source and the syntax tree of a module of the workspace, ``files`` the content of a file of the
+        workspace. ``library`` has the models of all other modules.
         """
         super().__init__(library)
         self._modules = modules
@@ -160,7 +160,7 @@ class Machine(Interpreter):
         return EVALUATE[type(node)](self, node, frame)
 
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Interpret statements, and return how the last of them ends: NEXT, CONTINUE, BREAK or LEAVE.
+        """Interpret statements, and return how they end: NEXT, CONTINUE, BREAK or LEAVE.
 
         Raises ProgramRaised and BudgetExceeded.
         """
@@ -294,10 +294,7 @@ class Machine(Interpreter):
         return union(guarded_text(text, FilePath(text)) for text in texts)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the content of a file of the workspace, which represents the opened file.
-
-        The result is Unknown for any other file.
-        """
+        """Record that the program opens a file, and return its content, Unknown if it is not a file of the workspace."""
         if not self.guarded and not path.isascii():
             self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")

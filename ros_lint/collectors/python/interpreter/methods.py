@@ -335,8 +335,8 @@ def _popped(machine: Interpreter, owner: list[Value], position: Value) -> Value:
 def replace(machine: Interpreter, owner: list[Value], key: int | slice, values: list[Value]) -> None:
     """Replace the elements of a list at an index or slice by ``values``. Raises IndexError and ValueError.
 
-    If conditions hold, the old and the new elements are guarded by them. If an element may be missing, the positions are
-    unknown, so any element may be the replaced element.
+    If conditions hold, the new elements exist only under them, and the old elements only if they do not hold. If an element may
+    be missing, the positions are unknown, so any element may be the replaced element.
     """
     present = machine.present(owner)
     if isinstance(key, int):

@@ -102,7 +102,7 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
     """Return the truth of a list with guarded elements, and a meaningless condition.
 
-    The truth is False if all elements are missing, True if any element exists, None if that is unknown.
+    The truth is False if all elements are missing, True if no element may be missing, else None.
     """
     elements = machine.present(values)
     if not elements:

@@ -104,7 +104,7 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
-        """Interpret statements, and return how the last of them ends: NEXT, CONTINUE, BREAK or LEAVE.
+        """Interpret statements, and return how they end: NEXT, CONTINUE, BREAK or LEAVE.
 
         Raises ProgramRaised and BudgetExceeded.
         """
@@ -137,10 +137,7 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Return the content of a file of the workspace, which represents the opened file.
-
-        The result is Unknown for any other file.
-        """
+        """Record that the program opens a file, and return its content, Unknown if it is not a file of the workspace."""
 
     @abstractmethod
     def texts(self, value: Value) -> tuple[str, ...]:

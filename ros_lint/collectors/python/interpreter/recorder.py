@@ -24,11 +24,11 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
 from ros_lint.facts.launch import LaunchCondition
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
-"""The operation that uses a substitution as a text."""
+"""The operation that uses a substitution or condition as a text or truth value."""
 
 
 class Misused(NamedTuple):
-    """An operation that uses a substitution of launch as a text."""
+    """An operation that uses a substitution or condition of launch as a text or truth value."""
 
     how: How
     made: LaunchObject

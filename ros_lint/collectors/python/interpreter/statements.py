@@ -45,7 +45,7 @@ _Node = TypeVar("_Node", bound=ast.AST)
 
 
 def execute(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int:
-    """Interpret statements, and return how the last of them ends: NEXT, CONTINUE, BREAK or LEAVE.
+    """Interpret statements, and return how they end: NEXT, CONTINUE, BREAK or LEAVE.
 
     Raises ProgramRaised and BudgetExceeded.
     """

@@ -7,7 +7,7 @@ from typing import Any
 
 
 def at(node: ast.AST | None) -> str:
-    """Return the source of an expression, shortened for a message."""
+    """Return the source of an expression, shortened to 40 characters for a message; "it" for None."""
     text = ast.unparse(_shown(node, _DEEPEST)) if node is not None else "it"
     return text if len(text) <= 40 else text[:37] + "..."
 
@@ -17,10 +17,10 @@ _DEEPEST = 30
 
 
 def _shown(node: ast.AST, levels: int) -> ast.AST:
-    """Return a copy of a syntax tree from which ``ast.unparse()`` writes the short text.
+    """Return a simplified copy of a syntax tree for ``ast.unparse()``.
 
-    F-strings are replaced, because ast.unparse() writes them differently in each version of Python. Nodes that are nested
-    too deeply become ``...``.
+    F-strings are replaced, because ast.unparse() writes them differently in each version of Python. Nodes that are nested too
+    deeply become ``...``.
     """
     if isinstance(node, (ast.JoinedStr, ast.FormattedValue)):
         return ast.Name(_template(node))

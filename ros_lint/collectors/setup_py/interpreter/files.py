@@ -1,4 +1,4 @@
-"""The files of a package as its setup.py sees them: existence, and the results of glob, os.walk and pathlib.
+"""Files of a package for its setup.py: existence, and the results of glob, os.walk and pathlib.
 
 setup.py runs in the folder of the package. The analysis is independent of the place of that folder on the disk, so
 :data:`ROOT`, a path that exists on no file system, is used as its absolute path.

@@ -152,7 +152,7 @@ class SetupLibrary:
         return None
 
     def _generate_distutils_setup(self, call: LibraryCall) -> Value:
-        """Model of generate_distutils_setup() of catkin_pkg: return the given options, with name and version of the package."""
+        """Return the result of generate_distutils_setup() of catkin_pkg: given options, package name and an unknown version."""
         version = Unknown("the version in package.xml is not looked at", None, call.node)
         return {"name": self._package, "version": version, **call.keywords}
 

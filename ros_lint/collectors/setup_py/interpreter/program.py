@@ -123,10 +123,7 @@ class Program(Machine):
         return source
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        """Return the result of a call.
-
-        A call of an unknown function marks the lists and dictionaries in its arguments as possibly changed.
-        """
+        """Return the result of a call. Lists and dictionaries passed to an unknown function are marked as possibly changed."""
         if isinstance(function, (Function, Class, Bound)):
             return super().call(function, arguments, keywords, node, frame)
         if isinstance(function, Method) or (isinstance(function, LibraryName) and function.name not in MODULES):

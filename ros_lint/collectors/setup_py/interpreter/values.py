@@ -80,8 +80,8 @@ def _inner(value: Value) -> tuple[Value, ...]:
 def unknown_in(values: Iterable[Value], tests: Mapping[tuple[str, ...], ast.expr]) -> Unknown | None:
     """Return the first unknown value in ``values`` and their elements, None if everything is known.
 
-    If there is none, but an element depends on an unknown condition, an Unknown for that condition is returned. ``tests``
-    are the tested expressions, by the texts of their conditions.
+    If there is none, but an element depends on an unknown condition, or the values are too large, the result is an Unknown for
+    that reason. ``tests`` are the tested expressions, by the texts of their conditions.
     """
     waiting = [*values]
     if not is_followed(waiting):
@@ -161,7 +161,7 @@ class Deciding:
 
 
 def _same(left: Value, right: Value) -> bool:
-    """Return whether two values are known, have the same type and are equal."""
+    """Return whether two values are the same object, or are known, equal and of the same type."""
     return left is right or (unknown_in((left, right), {}) is None and type(left) is type(right) and bool(left == right))
 
 
