@@ -88,7 +88,7 @@ class Recorder:
         self.named: dict[str, tuple[ast.expr, Source]] = {}
         """The first place of each looked-up package, a literal if possible, by its name or symbolic text."""
         self.variables: list[LaunchObject] = []
-        """Actions that set environment variables of the launch process, in order."""
+        """Actions that set environment variables of the launch process or launch configurations, in order."""
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
@@ -205,6 +205,12 @@ class Recorder:
         made.conditions = self.conditions
         self.variables.append(made)
         self._variables[name] = union([self.variable(name), self.guard(value)]) if self.conditions else value
+
+    def set_configuration(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
+        """Record that a function, which launch calls with the context, sets a launch configuration by the assignment ``at``."""
+        made = LaunchObject("SetLaunchConfiguration", [name, value], {}, at, source)
+        made.conditions = self.conditions
+        self.variables.append(made)
 
     def variable(self, name: str, default: str | None = None) -> Value:
         """Return the value of an environment variable: the value that the program set, else a symbolic text."""

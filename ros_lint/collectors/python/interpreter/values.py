@@ -258,6 +258,10 @@ class Method:
         self.name = name
 
 
+PLAIN_BASES = frozenset({"ABC", "Enum", "NamedTuple", "Protocol", "object"})
+"""Library classes whose subclasses are no objects of the library."""
+
+
 class Class:
     """A class that the program defines."""
 
@@ -274,6 +278,20 @@ class Class:
         for cls in self._line():
             if isinstance(cls, Class) and name in cls.names:
                 return cls.names[name]
+        return None
+
+    def derives_from(self, base: Class) -> bool:
+        """Return whether ``base`` is this class or one of its base classes."""
+        return any(cls is base for cls in self._line())
+
+    def inherited(self, derived: Class, name: str) -> Value | None:
+        """Return the attribute that ``super()`` finds in an object of this class if a method of ``derived`` calls it."""
+        line = list(self._line())
+        for cls in line[line.index(derived) + 1 :] if derived in line else ():
+            if isinstance(cls, Class) and name in cls.names:
+                return cls.names[name]
+            if isinstance(cls, LibraryName) and cls.last not in PLAIN_BASES:
+                return LibraryName(f"{cls.name}.{name}")
         return None
 
     def every_field(self) -> dict[str, None]:
@@ -310,6 +328,16 @@ class Instance:
         self.cls = cls
         self.attributes: dict[str, Value] = {}
         self.made: LaunchObject | None = None
+
+
+class Super:
+    """The result of ``super()`` in a method of the class ``cls``, for one object."""
+
+    __slots__ = ("cls", "instance")
+
+    def __init__(self, cls: Class, instance: Instance) -> None:
+        self.cls = cls
+        self.instance = instance
 
 
 class Context:
