@@ -90,7 +90,7 @@ class Machine(Interpreter):
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Return a context manager that adds conditions to the present ones while its ``with`` block runs."""
+        """Return a context manager that adds ``conditions`` to the present conditions while its ``with`` block runs."""
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:
