@@ -81,7 +81,7 @@ def _folder(package: Package, text: str) -> str | None:
 
 
 def _of_targets(package: Package) -> Iterator[tuple[str, Span, Severity]]:
-    """Yield the include directories of exported targets, each with its place."""
+    """Yield the folders that exported targets have as INCLUDES DESTINATION, each with its span and the severity of a finding."""
     exported = {export.export_set for export in package.built.exports.targets if export.reaches_dependents}
     for call in package.calls("install", anywhere=True):
         texts = call.texts

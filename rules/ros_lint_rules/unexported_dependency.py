@@ -332,7 +332,7 @@ def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
 
 
 def _is_written_out(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether the include directories of a package are exported by the variable of that package."""
+    """Return whether ``package`` exports the include directories of the package ``name``, by ``${name_INCLUDE_DIRS}``."""
     calls = package.calls("target_include_directories", "ament_export_include_directories", anywhere=True)
     words = [word for call in calls if "PRIVATE" not in call.texts for word in call.texts]
     cmake_names = [match[1] for word in words if (match := _DIRECTORIES.fullmatch(word))]

@@ -215,7 +215,7 @@ def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> t
 
 
 def _add_script(source: PackageSource, uses: _Uses) -> None:
-    """Add the names in the build script, and the packages that it finds on behalf of dependents."""
+    """Add the uses that result from the build script: the names in its commands, and the packages that it exports to dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
     unused_finds = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:
