@@ -1,7 +1,7 @@
-"""Settings with their origins. The command line overrides the configuration file, this the environment and the defaults.
+"""Settings with their origins: the command line, else the configuration file, else the environment, else the default.
 
-The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace
-folder or above it.
+The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace folder or
+above it.
 """
 
 from __future__ import annotations

@@ -61,8 +61,8 @@ class Member(NamedTuple):
 class World:
     """Look-ups of names in all layers.
 
-    Data files and underlays are read at their first use, which may raise KnowledgeError. Of several members with one
-    name the first one counts, and of several underlays with one package the first one.
+    Data files and underlays are read at their first use, which may raise KnowledgeError. If several packages of the workspace
+    have the same name, the first one counts. If several underlays have the same package, the first one counts.
     """
 
     def __init__(

@@ -99,7 +99,7 @@ def _of_ament(package: Package) -> Iterator[tuple[str, Span, Severity]]:
 
 
 def _below_include(package: Package, call: Call, at: int, severity: Severity) -> Iterator[tuple[str, Span, Severity]]:
-    """Yield the folder below include/ that an argument names."""
+    """Yield the folder that the argument at index ``at`` names, with its span and ``severity``, if it is below include/."""
     folder = _folder(package, call.texts[at]) if at < len(call.args) else None
     if folder is not None and folder.startswith("include/"):
         yield folder, call.span(at), severity

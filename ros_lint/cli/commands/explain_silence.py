@@ -44,7 +44,7 @@ def _reported(issues: Iterable[Issue], name: str) -> Mapping[str, Confidence]:
 
 
 def _causes(issues: Sequence[Issue], name: str) -> Iterator[str]:
-    """Yield a line for each finding that is shown in place of one about a dependency."""
+    """Yield a line for each finding about ``name`` that is not shown, because another finding explains it."""
     for issue in without_explained(issues):
         for explained in issue.explained:
             if explained.subject == name:

@@ -424,7 +424,7 @@ class FileRoles:
 
 
 def _interface(path: str) -> str:
-    """Return the name of an interface file in a build script, as ``msg/Name``."""
+    """Return the name that a build script uses for the interface file at ``path``: ``a/msg/Pose.msg`` -> ``msg/Pose``."""
     folder, _, name = path.rpartition("/")
     stem, _, suffix = name.rpartition(".")
     return f"{folder.rpartition('/')[2] if suffix == 'idl' else suffix}/{stem}"
