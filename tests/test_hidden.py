@@ -17,7 +17,7 @@ CMAKE = """cmake_minimum_required(VERSION 3.8)
 project(talker)
 find_package(ament_cmake REQUIRED)
 find_package(rclcpp REQUIRED)
-find_package(std_msgs REQUIRED){comment}
+link_directories(lib){comment}
 add_executable(talker talker.cpp)
 target_link_libraries(talker rclcpp::rclcpp)
 install(TARGETS talker DESTINATION lib/talker)
@@ -29,20 +29,20 @@ TOOL = ["<buildtool_depend>ament_cmake</buildtool_depend>"]
 
 
 def report(comment: str = "", **settings: Any) -> Report:
-    """Return the report on a package that finds std_msgs and does not use it."""
+    """Return the report on a package that calls link_directories()."""
     files = {
-        "talker/package.xml": manifest_text("talker", [*TOOL, "<depend>rclcpp</depend>", "<depend>std_msgs</depend>"]),
+        "talker/package.xml": manifest_text("talker", [*TOOL, "<depend>rclcpp</depend>"]),
         "talker/CMakeLists.txt": CMAKE.format(comment=comment),
         "talker/talker.cpp": "#include <rclcpp/rclcpp.hpp>\nint main() { rclcpp::shutdown(); }\n",
     }
     loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "--distro", True))
     rules = registry.load()
-    return check(loader.load(), loader.suppressions(), select(rules, **settings), ReportContext(rules, "", "", ()))
+    return check(loader.load(), loader.suppressions(), select(rules, **settings), ReportContext(rules, "", ("",), ()))
 
 
 def test_findings_of_rules_that_are_off_are_counted() -> None:
-    assert HiddenCount(OFF, 1, (("unused-find-package", 1),)) in report().hidden
-    assert "unused-find-package" not in {issue.rule.name for issue in report().issues}
+    assert HiddenCount(OFF, 1, (("link-directories", 1),)) in report().hidden
+    assert "link-directories" not in {issue.rule.name for issue in report().issues}
 
 
 def test_findings_below_the_lowest_severity_are_hidden_and_counted_once() -> None:
@@ -52,19 +52,19 @@ def test_findings_below_the_lowest_severity_are_hidden_and_counted_once() -> Non
     errors = report(pedantic=True, min_severity="error")
     assert errors.issues == ()
     assert HiddenCount(MINOR, len(everything.issues)) in errors.hidden
-    raised = report(pedantic=True, min_severity="error", severities={"unused-find-package": "error"})
-    assert [issue.rule.name for issue in raised.issues] == ["unused-find-package"]
+    raised = report(pedantic=True, min_severity="error", severities={"link-directories": "error"})
+    assert [issue.rule.name for issue in raised.issues] == ["link-directories"]
     assert report(min_severity="error").hidden == ()
 
 
 @pytest.mark.parametrize(
     "settings",
     [
-        {"ignored": ("unused-find-package",)},
-        {"severities": {"unused-find-package": "off"}},
-        {"added": ("unused-find-package",)},
+        {"ignored": ("link-directories",)},
+        {"severities": {"link-directories": "off"}},
+        {"added": ("link-directories",)},
         {"chosen": ("undeclared-dependency",)},
-        {"per_path": {"CMakeLists.txt": ("unused-find-package",)}},
+        {"per_path": {"CMakeLists.txt": ("link-directories",)}},
         {"pedantic": True},
     ],
     ids=str,
@@ -74,4 +74,4 @@ def test_findings_of_rules_that_the_settings_mention_are_not_counted(settings: d
 
 
 def test_suppressed_findings_of_rules_that_are_off_are_not_counted() -> None:
-    assert not report("  # ros-lint: ignore[unused-find-package] soon").hidden
+    assert not report("  # ros-lint: ignore[link-directories] soon").hidden

@@ -101,7 +101,7 @@ class Finding(NamedTuple):
     steps: bool = False
     """True if the related places are the steps of a path, such as a cycle or a dependency chain."""
     explains: tuple[Consequence, ...] = ()
-    """Findings that probably disappear with this one, or become milder.
+    """Findings that probably disappear, or become milder, once this finding is fixed.
 
     They are not shown beside it if their confidence is not greater.
     """

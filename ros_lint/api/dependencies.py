@@ -3,6 +3,7 @@
 from ros_lint.analysis.dependencies.declared_closure import declared_closure, provided_transitively
 from ros_lint.analysis.dependencies.find_package import (
     find_package_closure,
+    finding_others,
     finds_declared,
     macro_packages,
     names_searched,
@@ -71,6 +72,7 @@ __all__ = [
     "declared_names",
     "exists_in_any_distro",
     "find_package_closure",
+    "finding_others",
     "finds_declared",
     "has_programs",
     "intended_names",

@@ -240,7 +240,10 @@ class _TemplateParser:
         return Field(start, (start + 1, end), debug, conversion, form), at + 1
 
     def _expression_end(self, at: int, depth: int) -> int:
-        """Return the end of a field's expression: before the brace, colon, conversion or equals sign."""
+        """Return the offset of the end of a field's expression, which starts at the offset ``at``.
+
+        The expression ends before a closing brace, a colon, a conversion (``!r``) or the final equals sign.
+        """
         text, closing_brackets = self._text, list[str]()
         while at < len(text):
             match = _token().match(text, at)

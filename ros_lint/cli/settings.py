@@ -1,7 +1,7 @@
-"""Settings with their origins: the command line, else the configuration file, else the environment, else the default.
+"""Settings with their origins. Precedence: the command line, the configuration file, the environment, the defaults.
 
-The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace folder or
-above it.
+The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace
+folder or above it.
 """
 
 from __future__ import annotations
@@ -208,7 +208,7 @@ def _place(path: str, text: str, name: str) -> str:
 
 
 def _relative(option: CliOption, value: Any, path: str) -> Any:
-    """Return the value, and for an option with paths the paths joined to the folder of the configuration file ``path``."""
+    """Return the value of an option; a path is joined to the folder of ``path``, the configuration file that has the value."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value

@@ -142,7 +142,7 @@ class ExportedTarget(NamedTuple):
     export_set: str
     """Name of the set."""
     reaches_dependents: bool
-    """True if each package that finds this one gets the target: ament_export_targets() names the set."""
+    """True if each package that calls find_package() for this package gets the target: ament_export_targets() names the set."""
 
 
 class BuildProject(NamedTuple):
@@ -203,7 +203,7 @@ class BuildExports(NamedTuple):
     """What a package passes on by its CMake script to each package that calls find_package() for it."""
 
     config_extras: tuple[str, ...] = ()
-    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
+    """CMake files, relative to the package, that run in each package that calls find_package() for it (CONFIG_EXTRAS)."""
     packages: tuple[tuple[Mention, bool], ...] = ()
     """Packages that the CMake configuration of this package finds for its dependents.
 

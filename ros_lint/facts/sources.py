@@ -20,7 +20,7 @@ Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool"]
 
 * "export": to pass the package on to dependents.
 * "interfaces": to generate the code of interfaces.
-* "plugins": the package loads the plugins of this one.
+* "plugins": the used package loads plugins that the package with the script provides.
 * "helper": a command of another package of the workspace calls the package.
 * "tool": to run a program of the package in the build.
 """

@@ -53,7 +53,7 @@ class Suppression(NamedTuple):
         return first <= self.lines[1] and self.lines[0] <= last
 
     def without(self, names: Iterable[Name]) -> Edit:
-        """Return the edit that removes ``names``, or the whole suppression if no name remains."""
+        """Return the edit that removes ``names`` from the suppression, or the whole suppression if no name remains."""
         removed = set(names)
         remaining = [name.text for name in self.names if name not in removed]
         return Edit(self.inside, ", ".join(remaining)) if remaining else self.removal

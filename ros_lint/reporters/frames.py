@@ -163,7 +163,10 @@ class _File:
         return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
 
     def _side(self, number: int) -> str:
-        """Return the bar to the left of a source line that is within a place of several lines."""
+        """Return the bar to the left of a source line in a place of several lines; blanks for other lines.
+
+        "" if no place has several lines.
+        """
         for place in self._multi_line:
             if place.line < number <= place.end_line:
                 return self._paint(place, "|") + " "

@@ -67,7 +67,10 @@ def _are_uninstalled(package: Package, workspace: Workspace) -> bool:
 
 
 def _destinations(package: Package, call: Call) -> Iterator[str | None]:
-    """Yield the folders to which a command installs files, None for an unknown one. Those of INCLUDES are exported only."""
+    """Yield the folders to which a command installs files, None for an unknown folder.
+
+    INCLUDES DESTINATION is left out, because it exports a folder and installs nothing.
+    """
     texts = call.texts
     for index, word in enumerate(texts[:-1]):
         if word == "DESTINATION" and texts[index - 1] != "INCLUDES":

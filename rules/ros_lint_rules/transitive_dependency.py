@@ -109,10 +109,10 @@ def _is_command(need: dependencies.Need) -> bool:
 
 
 def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
-    """Return whether packages rarely declare such a use, because the first package of ``path`` is there to provide it.
+    """Return whether packages rarely declare ``need``, because the first package of ``path`` exists in order to provide it.
 
-    This holds for parts of build tools, tools that run tests, linters, what launch files use of a metapackage, and launch
-    in launch files.
+    True for parts of build tools, tools that run tests, linters, packages that launch files use through a metapackage, and
+    launch itself in launch files.
     """
     carrier, is_direct = path[0], len(path) == 2
     if need.name == _CORE or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
@@ -151,7 +151,10 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
 
 
 def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
-    """Return the dependencies that lead to a need, from a declared one that serves the same purpose if possible."""
+    """Return the names on a path of dependencies, from a declared name to the needed package.
+
+    The declared name serves the purpose of the need if possible: to build, to run or to test.
+    """
     best = need.uses[0]
     names = _declared_names(package, workspace)
     for starts in (names[_purpose(best.role)], names[_ANY]):

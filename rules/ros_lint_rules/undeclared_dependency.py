@@ -192,7 +192,10 @@ def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -
 def _brought(
     package: Package, workspace: Workspace, need: dependencies.Need, all_needs: Iterable[tuple[dependencies.Need, bool]]
 ) -> tuple[Consequence, ...]:
-    """Return the undeclared packages that come with another one, ``need``, once it is declared, and need no tag of their own."""
+    """Return the findings for undeclared packages that need no tag of their own once ``need`` is declared.
+
+    These packages are dependencies of ``need``, which provides them.
+    """
     closure = workspace.world.closure((need.name,))
     return tuple(
         [
@@ -224,7 +227,11 @@ _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
 
 
 def _suggestion(name: str, workspace: Workspace) -> str:
-    """Return the package that an unresolved name most likely means: a near match or one with a prefix; "" if ambiguous."""
+    """Return the package that an unresolved name most likely means, "" if ambiguous.
+
+    Either a misspelt name, or the only package of the workspace that has the name after a prefix: ``my_robot_msgs`` for
+    ``robot_msgs``.
+    """
     if workspace.world.resolution(name) != "unknown":
         return ""
     meant = workspace.world.meant(name)

@@ -262,7 +262,11 @@ def _only_files(package: Package, script: BuildScript) -> bool:
 
 
 def _node_parameters(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the files with parameters of nodes, if the package installs nodes, or files only."""
+    """Return the files with parameters of nodes, relative to the package.
+
+    Empty unless the package installs components or programs, or installs nothing but files to its share folder. Empty for
+    a package of examples, too.
+    """
     runs = script.products.components or any(
         provided.path.startswith(f"lib/{package.name}/") for provided in script.products.installs
     )

@@ -98,7 +98,10 @@ def _needless(unresolved: dependencies.UnresolvedDependency, why: str) -> Findin
 
 
 def _own(unresolved: dependencies.UnresolvedDependency) -> str:
-    """Return "program" or "module" if the package has one of that name and refers to no package of that name, else ""."""
+    """Return "program" or "module" if the package itself has a program or module that is called like the unresolved name.
+
+    "" if it has none, or if its build script or launch files refer to a package of this name.
+    """
     package, name = unresolved.package, unresolved.name
     if any(mention.name == name for mention in package.built.mentions):
         return ""

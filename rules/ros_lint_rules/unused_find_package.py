@@ -10,11 +10,11 @@ Configuring takes longer, and this package can only be built where the other one
 
 ## How to fix it
 
-Remove the `find_package()` and the linked target, and the dependency from `package.xml` if nothing else needs it.
+Remove the `find_package()` and the linked target, and the dependency from `package.xml`.
 
 ## Limitations
 
-This rule is off by default. Not reported:
+Not reported:
 
 - The package provides CMake macros, plugins or components, or is a build tool.
 - The code contains the name, as a namespace that a header of another package may declare, or another file of the package does;
@@ -23,22 +23,86 @@ This rule is off by default. Not reported:
 - The script uses more of the package's variables than those for linking.
 - The package is found for tests, or it is optional.
 - The script cannot be fully evaluated, or code is generated from interfaces that cannot be read or are written in IDL.
+
+Reported with medium confidence:
+
+- The package is not declared by `<depend>` or `<build_depend>`. If it is not declared at all, see `undeclared-dependency`.
+- The script links or exports it, and a package whose headers the code includes depends on it. The code may use it by other
+  names, such as an alias of a type. Packages of interfaces are an exception.
+- Its `find_package()` may be the only one that finds another package that the code uses.
+- Its tag may be the only one that provides a package that this package, or another one of the workspace, uses but does not
+  declare.
+- The package has no code of its own, such as a metapackage, whose dependencies are its purpose.
+- A file of the workspace cannot be read.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
-from ros_lint.api import Finding, Mention, Package, Related, Rule, Severity, Workspace, dependencies, first_related
+from ros_lint.api import (
+    Confidence,
+    Declared,
+    Finding,
+    Mention,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    dependencies,
+    first_related,
+)
+
+_TAGS = ("depend", "build_depend")
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for mention in dependencies.unused_find_packages(package, workspace):
-        name = mention.name
+    unused = dependencies.unused_find_packages(package, workspace)
+    if not unused:
+        return
+    declared = {mention.name: _build_tags(package, mention.name) for mention in unused}
+    needed = _needed_for_others(package, workspace, declared)
+    included = {use.package for use in package.uses if use.via == "include"}
+    reached = workspace.world.closure(sorted(included))
+    unsure = workspace.unread() or not dependencies.is_build_visible(package)
+    for mention in unused:
+        name, tags = mention.name, declared[mention.name]
         others = _also_named(package, mention)
-        what = f"find_package({name})" + (f" and the other uses of '{name}' in the build script" if others else "")
-        related = first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others)
-        yield Finding(f"no code uses '{name}'; remove {what}", mention.span, name, related)
+        places = [f"find_package({name})"] + ([f"the other uses of '{name}' in the build script"] if others else [])
+        places += [f"<{tag.depend.tag}>{name}</{tag.depend.tag}>" for tag in tags if name not in needed]
+        *first, last = places
+        by_alias = bool(others) and name in reached and not _is_of_interfaces(name, workspace)
+        sure = tags and name not in needed and not by_alias and not unsure
+        yield Finding(
+            f"no code uses '{name}'; remove {', '.join(first)}{' and ' if first else ''}{last}",
+            mention.span,
+            name,
+            first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others),
+            confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+        )
+
+
+def _is_of_interfaces(name: str, workspace: Workspace) -> bool:
+    """Return whether a package generates interfaces. Code names their types in full, even if it gets them by other headers."""
+    released = workspace.world.released(name)
+    local = workspace.by_name.get(name)
+    return any(member.built.products.interfaces for member in local) if local else bool(released and released.interfaces)
+
+
+def _build_tags(package: Package, name: str) -> tuple[Declared, ...]:
+    return tuple([declared for declared in package.tags(name) if declared.depend.tag in _TAGS and declared.always])
+
+
+def _needed_for_others(package: Package, workspace: Workspace, unused: Mapping[str, Sequence[Declared]]) -> frozenset[str]:
+    """Return the unused packages that may have to stay, because they provide or find another package that is used.
+
+    ``unused``: the names of the packages, with their tags.
+    """
+    tags = [declared for declared_tags in unused.values() for declared in declared_tags]
+    return dependencies.finding_others(package, workspace, unused).union(
+        dependencies.needed_transitively(package, workspace, tags)
+    )
 
 
 def _also_named(package: Package, find: Mention) -> list[Mention]:
@@ -58,6 +122,5 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
-    default=False,
     package=check,
 )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.analysis.build.commands import FINDS_TESTS
 from ros_lint.facts.build import BuildScript
+from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Mention, Purpose
 from ros_lint.workspace.model import Package, Workspace
 
@@ -53,6 +54,30 @@ def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
         mapped = providers.known and not workspace.world.is_package(name)
         starts.update(providers.packages if mapped else (name,))
     return workspace.world.closure(sorted(starts))
+
+
+def finding_others(package: Package, workspace: Workspace, names: Iterable[str]) -> frozenset[str]:
+    """Return the names whose find_package() may be the only one that finds another package that ``package`` uses.
+
+    ``names``: unused packages of one build script, all of which are to be removed. Example: the sources include
+    ``<Eigen/Dense>``, and CMake finds Eigen only because find_package(tf2_eigen) does. A package with unknown dependencies may
+    find anything.
+    """
+    unused = frozenset(names)
+    rest = partial_closure(workspace, sorted(names_searched(package, package.built) - unused)).names
+    needed = [use.providers for use in package.uses if not use.optional and use.role & _BUILT and rest.isdisjoint(use.providers)]
+    needed = [providers for providers in dict.fromkeys(needed) if unused.isdisjoint(providers)]
+    closures = {name: partial_closure(workspace, [name]) for name in unused}
+    return frozenset(
+        [
+            name
+            for name, closure in closures.items()
+            if not closure.complete or any(not closure.names.isdisjoint(providers) for providers in needed)
+        ]
+    )
+
+
+_BUILT = Role.BUILD | Role.EXPORT | Role.TEST
 
 
 def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:

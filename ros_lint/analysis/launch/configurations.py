@@ -95,7 +95,7 @@ class IncludeTree:
         return self._filled[path]
 
     def above(self, file: LaunchFile) -> list[FileConfigurations]:
-        """Return the configurations of every file that includes this one, directly or indirectly."""
+        """Return the configurations of every file that includes ``file``, directly or indirectly."""
         return [self._names[path] for path in sorted(_reached(self._includers, file.path))]
 
 

@@ -28,7 +28,7 @@ class Parts(NamedTuple):
     commands: Mapping[str, ParsedScript]
     """CMake files by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
-    """Declared names by kind letter, as in the index."""
+    """Declared names by the letter of their dependency kind, a letter of :data:`ros_lint.knowledge.index.KINDS`."""
 
 
 class Surroundings:

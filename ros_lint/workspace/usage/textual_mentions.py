@@ -92,6 +92,7 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
 
     * A text other than a build script contains the name: a namespace is often available through a header of another
       package.
+    * C or C++ code contains a type, function or macro that begins with the name: ``rmw_request_id_t``, ``RCUTILS_LOG_INFO(``.
     * The script uses a variable of the package for more than linking.
     * A header of an unknown package may be one of its headers.
     """
@@ -104,10 +105,35 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
     result = frozenset(find_mentions(unused, _contents(tree, package, other_files), whole_names=True))
     commands = b"\n".join([data for _, data in _contents(tree, package, scripts)])
     result |= {name for name in unused if re.search(_VARIABLE % re.escape(to_bytes(name)), commands)}
+    result |= _named_by_prefix(
+        [name for name in unused if name not in result],
+        _contents(tree, package, [file for file in other_files if file.endswith(_C_SUFFIXES)]),
+    )
     if len(result) < len(unused):
         folders = _unknown_folders(package, source)
         result |= {name for name in unused if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
     return result.union(types.used(source, [name for name in unused if name not in result]))
+
+
+def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> frozenset[str]:
+    """Return the names with which a type, function or macro of C begins, outside comments."""
+    if not names:
+        return frozenset()
+    patterns = {
+        name: re.compile(_OF_C % {b"name": re.escape(to_bytes(name)), b"NAME": re.escape(to_bytes(name.upper()))})
+        for name in names
+    }
+    result: set[str] = set()
+    for path, data in files:
+        candidates = [name for name, pattern in patterns.items() if name not in result and pattern.search(data)]
+        code = _without_comments(path, data) if candidates else b""
+        result.update([name for name in candidates if patterns[name].search(code)])
+    return frozenset(result)
+
+
+_OF_C = rb"\b(?:%(name)s_(?:\w+_t\b|\w*[a-z0-9][ \t]*\()|%(NAME)s_[A-Z0-9_]+[ \t]*\()"
+"""A name of a C library, which has no namespaces: a type, a function or macro that is called."""
+_C_SUFFIXES = (".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx")
 
 
 def find_unwritten_classes(tree: Tree, package: Package) -> frozenset[str]:

@@ -125,7 +125,10 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
 
 
 def _find_all(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_find(build|test)`` of ros_macros.cmake: find all dependencies that package.xml declares."""
+    """Run ``ros_lint_find(build|test)`` of ros_macros.cmake.
+
+    It runs find_package() for each dependency that package.xml declares for the build, or for tests.
+    """
     names = run.paths.sources.test_depends
     if args[:1] == ["build"]:
         names = run.paths.sources.build_depends
