@@ -291,7 +291,7 @@ class World:
         return self._providers[key]
 
     def by_include(self, header: str) -> Providers:
-        """Return the providers of a header. ``header`` is the text between the brackets.
+        """Return the providers of a header. ``header`` is the path in ``#include <header>``.
 
         Headers of the workspace are recognized by the package name only, so callers search its files first.
         """
