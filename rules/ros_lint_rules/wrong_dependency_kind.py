@@ -200,7 +200,7 @@ def _once_installed(lacking: _Lack | None) -> _Lack | None:
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
-    """Return the roles that tags cover together: all tags, or those of one name."""
+    """Return the roles that tags cover together: all ``tags``, or with ``name`` only the tags of this name."""
     role = Role(0)
     for declared in tags:
         if name in ("", declared.name):

@@ -94,7 +94,7 @@ def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bo
 
 
 def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
-    """Return whether a package exists in the target distribution, or in any if the user did not choose one."""
+    """Return whether a package exists in the target distribution; if the user chose none, in any distribution."""
     world = workspace.world
     return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
