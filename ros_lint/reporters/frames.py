@@ -84,7 +84,7 @@ class _MarkRange(NamedTuple):
 
 
 class _File:
-    """The part of a frame that shows one file."""
+    """Formats the source lines of one file in a code frame, in which the places of a finding are underlined."""
 
     def __init__(self, source: Text, marks: Sequence[Mark], digits: int, style: Style) -> None:
         self._source = source

@@ -123,7 +123,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files that launch files name without the help of arguments."""
+    """Yield findings for missing files that launch files name independently of launch arguments."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:

@@ -33,7 +33,7 @@ def at_end(script: BuildScript, code: str) -> Edit | None:
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
-    """Return the edit that installs a library target."""
+    """Return the edit that installs a library target, None if the script has no place for further commands."""
     return at_end(script, _LIBRARY.format(name))
 
 

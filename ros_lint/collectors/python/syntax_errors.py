@@ -161,10 +161,7 @@ def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[
 
 
 def _statements(text: str, found: Sequence[Token], lines: Sequence[int]) -> Iterator[int]:
-    """Yield the number of the first line of each top-level statement, where 0 is the first line of the source.
-
-    ``lines`` are the offsets of all lines.
-    """
+    """Yield the number of the first line of each top-level statement, from 0. ``lines`` are the offsets of all lines."""
     yield 0
     line, decorated = 0, False
     for first, _ in _logical_lines(found):
