@@ -123,7 +123,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files that launch files name without the help of arguments."""
+    """Yield findings for missing files that launch files name independently of launch arguments."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
@@ -244,7 +244,7 @@ def _twin(path: str, all_names: tuple[str, ...]) -> str:
 
 
 def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
-    """Return whether the suffix is that of an existing file with its letters in another order: x.yalm."""
+    """Return whether the suffix has the letters of the suffix of an existing file in another order: ``x.yalm``."""
     stem, _, suffix = path.rpartition(".")
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 

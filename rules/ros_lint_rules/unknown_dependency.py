@@ -31,6 +31,8 @@ Not reported:
 - Tags under a condition that is false or cannot be evaluated.
 - Packages of ROS 1 (build type catkin).
 - Any name, if there is no index of the distribution.
+- Packages that may be in a repository that is not cloned: `laser_tools` and `laser_tools_msgs`, if a `.repos` file, a
+  `.rosinstall` file or `.gitmodules` lists a repository `laser_tools`.
 
 Reported with medium confidence, so shown with `--pedantic` only:
 

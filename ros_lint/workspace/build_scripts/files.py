@@ -80,7 +80,11 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
 def _inputs(
     scripts: Mapping[str, ParsedScript], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]
 ) -> Iterator[str]:
-    """Yield resources, their folders and programs that are arguments of CMake commands except install()."""
+    """Yield the files and folders of a package that arguments of its CMake commands name, except those of install().
+
+    ``uninstalled`` has the resource files that are not installed, by folder, ``programs`` the paths of programs. A folder in
+    the result ends with a slash.
+    """
     if not uninstalled and not programs:
         return
     subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
