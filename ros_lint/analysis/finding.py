@@ -16,7 +16,7 @@ class Severity(Sealed, IntEnum):
     INFO = 1
     """A matter of style, or an improvement."""
     WARNING = 2
-    """It works now, or here, and fails later or for others."""
+    """A problem that does not occur now or on this machine, but later or for other users."""
     ERROR = 3
     """The build, the installation or the launch fails."""
 
@@ -91,7 +91,7 @@ class Finding(NamedTuple):
     related: tuple[Related, ...] = ()
     """Other places that matter."""
     fix: Fix | None = None
-    """A way to fix it, if there is one. Then the rule is ``fixable``."""
+    """The fix of the problem, None if there is none. A rule whose findings have fixes is ``fixable``."""
     confidence: Confidence = Confidence.HIGH
     """Probability that the finding is right. Only HIGH is shown without ``--pedantic``."""
     severity: Severity | None = None

@@ -264,9 +264,9 @@ class _TemplateParser:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the offset at which the literal text of an f-string ends that starts at ``at``. ``literal`` is its pattern.
+    """Return the offset of the end of the literal text in an f-string that starts at ``at`` and matches ``literal``.
 
-    In a format specification it also ends at doubled braces, because they are not an escape there.
+    In a format specification, literal text also ends at doubled braces, because they are not an escape there.
     """
     match = literal.match(text, at)
     end = match.end() if match is not None else at

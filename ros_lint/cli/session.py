@@ -69,9 +69,9 @@ class Session(NamedTuple):
 
 
 def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
-    """Return a session for the workspace that the options name. It is not loaded yet.
+    """Return a session for the workspace that the options name. The workspace is not loaded yet.
 
-    ``options`` are those of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
+    ``options`` is the result of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
     :meth:`ros_lint.cli.progress.Progress.update`. Raises UsageError, ConfigError and KnowledgeError.
     """
     return open_session(parse_request(options, environment, with_context=False), progress)
@@ -158,7 +158,7 @@ _WITHOUT_EFFECT = frozenset((
 
 
 _LIBRARIES = ("libcst", "networkx", "yaml")
-"""Libraries that read files of a workspace. A new version of one invalidates the cache."""
+"""Libraries that read files of a workspace. A new version of a library invalidates the cache."""
 
 
 def report_cache(request: Request) -> ReportCache:

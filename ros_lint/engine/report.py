@@ -32,7 +32,7 @@ class Issue(NamedTuple):
     package: str
     finding: Finding
     explained: tuple[ExplainedFinding, ...] = ()
-    """Findings that are not shown, because this one explains them."""
+    """Findings that are not shown, because this finding explains them."""
 
     @property
     def severity(self) -> Severity:
@@ -122,5 +122,5 @@ class Report(NamedTuple):
         return sum(issue.severity is severity for issue in self.issues)
 
     def fixable(self, *, safe: bool) -> int:
-        """Return the number of issues with a safe fix, or with an unsafe one."""
+        """Return the number of issues with a safe fix (``safe`` true), or with an unsafe fix."""
         return sum(issue.finding.fix is not None and issue.finding.fix.safe is safe for issue in self.issues)

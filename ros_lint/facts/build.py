@@ -168,7 +168,7 @@ class BuildProducts(NamedTuple):
     components: tuple[Component, ...] = ()
     """Registered classes (rclcpp_components)."""
     entry_points: tuple[EntryPoint, ...] = ()
-    """Entry points of a setup.py; those of the group "console_scripts" are programs."""
+    """Entry points of a setup.py; entry points of the group "console_scripts" are programs."""
     python_packages: tuple[str, ...] = ()
     """Dotted names of importable modules and packages that the build installs."""
     interfaces: tuple[str, ...] = ()

@@ -327,7 +327,7 @@ class World:
         return self.knowledge.elsewhere(name)
 
     def meant(self, name: str, *, python: bool = False) -> Suggestion | None:
-        """Return the name that an unknown name certainly means, or None. It is certain enough for a fix.
+        """Return the name that an unknown name certainly means, or None. The result is certain enough for a fix.
 
         ``python`` is True if the name is needed to run Python code.
         """

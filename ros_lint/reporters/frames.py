@@ -218,7 +218,7 @@ def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, wid
 
 
 def _extent(place: _MarkRange, number: int) -> tuple[int, int]:
-    """Return the range of characters to underline in a line that is the first or last one of a place."""
+    """Return the range of characters to underline in line ``number``, which is the first or last line of a place."""
     if place.line == place.end_line:
         return place.start, place.end
     return (place.start, place.start + 1) if number == place.line else (max(place.end - 1, 0), place.end)

@@ -47,7 +47,7 @@ def name_or_count(packages: Sequence[str]) -> str:
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield a sentence, without its full stop, about hidden findings and one about what was not fully analysed."""
+    """Yield sentences without their full stop: about hidden findings, and about packages that were not fully analysed."""
     more: Counter[str] = Counter()
     for hidden in report.hidden:
         more.update(dict(hidden.rules))

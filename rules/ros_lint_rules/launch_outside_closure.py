@@ -136,7 +136,7 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
     for need in dependencies.needs(package, workspace):
         uses = [use for use in need.uses if use.certain and use.via in ("import", "package") and use.role & Role.EXEC]
         exported = any(use.certain and use.role & Role.EXPORT for use in need.uses)
-        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, uses))):
+        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, workspace, uses))):
             names.update(need.declared)
     return frozenset(names)
 

@@ -36,7 +36,7 @@ from ros_lint.api import Confidence, Finding, LaunchFile, Package, Rule, Severit
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for launch_file in launch.package_launch_files(package):
+    for launch_file in launch.run_launch_files(package):
         for include in launch.includes(launch_file.file):
             yield from _of_include(include, launch_file.file, workspace)
 

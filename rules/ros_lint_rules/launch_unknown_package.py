@@ -125,7 +125,7 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
     """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
-    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another one.
+    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another package.
     """
     manifest = package.manifest
     if manifest is None or manifest.problems or package.tags(name):

@@ -99,7 +99,7 @@ class _Inside(NamedTuple):
     rest: str
     """The path below the folder of the package; "" for the folder itself, or if the package has no such file."""
     whole: bool
-    """Whether the path leads to the folder of the package itself."""
+    """True if the path leads to the folder of the package itself."""
     program: str
     """The name of the file for ``ros2 run``, "" if the package does not install it as a program."""
 

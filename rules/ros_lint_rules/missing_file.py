@@ -75,7 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_unseen(package: Package, path: str) -> bool:
-    """Return whether a path is in a folder that was not read, such as a submodule, or contains one."""
+    """Return whether a path is in a folder that was not read, such as a submodule, or is a folder above it."""
     return any(f"{path}/".startswith(f"{folder}/") or folder.startswith(f"{path}/") for folder in package.unvisited_folders)
 
 

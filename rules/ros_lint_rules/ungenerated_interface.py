@@ -153,7 +153,7 @@ def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:
 
 
 def _fix(calls: list[Call], files: list[str]) -> Fix | None:
-    """Return the fix that adds files of one folder below the last listed one; None if no file is listed literally."""
+    """Return the fix that lists files of one folder after the last listed file; None if no file is listed literally."""
     folder = f"{files[0].partition('/')[0]}/"
     for call in calls:
         at = max((index for index, text in enumerate(call.texts) if text.startswith(folder)), default=None)

@@ -226,7 +226,7 @@ def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspa
 
 
 def _caller(by: str, key: str) -> str:
-    """Return what the declared name belongs to, such as "pip" or "find_package", for messages; "" if unknown.
+    """Return the tool that uses the declared name, such as "pip" or "find_package", for messages; "" if unknown.
 
     ``by``: how the rosdep key ``key`` was found.
     """

@@ -21,7 +21,7 @@ install(TARGETS {}
 def at_end(script: BuildScript, code: str) -> Edit | None:
     """Return the edit that adds commands before ament_package().
 
-    A blank line separates the commands if one separates ament_package() from the command before it.
+    Blank lines surround the added commands if a blank line is before ament_package().
     """
     if script.commands.insertion is None:
         return None
@@ -65,7 +65,7 @@ def install_folder(package: Package, folder: str) -> Edit | None:
 
 
 def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
-    """Return the edit that exports dependencies by ament_export_dependencies(): by the existing call, or else by a new one."""
+    """Return the edit that adds ``names`` to an existing call of ament_export_dependencies(), or else adds a new call."""
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
         return add_argument(call, *names)

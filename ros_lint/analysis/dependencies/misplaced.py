@@ -95,7 +95,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
             if (
                 not uses
                 or need.name in unguarded
-                or is_part_of_launch(package, uses)
+                or is_part_of_launch(package, workspace, uses)
                 or any(need is other.need for other in result)
             ):
                 continue

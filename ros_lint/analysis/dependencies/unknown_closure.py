@@ -1,4 +1,4 @@
-"""Whether an unknown declared dependency may provide a package. If it may, an undeclared need is not certain."""
+"""Determine whether an unknown declared dependency may provide a package. If so, an undeclared need is not certain."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class Order(NamedTuple):
     names: tuple[str, ...]
     """Packages in an order in which dependencies come first."""
     stuck: tuple[str, ...]
-    """Packages that lie on a cycle or depend on one, sorted."""
+    """Packages that lie on a cycle, or depend on a package on a cycle, sorted."""
 
 
 class Graph:

@@ -139,7 +139,7 @@ def expand(
     *,
     brief: bool = False,
 ) -> Expansion:
-    """Return what a launch file starts if it is launched with the arguments ``passed``.
+    """Return the actions that a launch file starts if it is launched with the arguments ``passed``.
 
     ``files`` returns an included file by its path, None if there is no such file. A path may begin with the mark of an install
     prefix. ``brief`` omits parameters (except parameter files), remappings and the arguments of included files, because they

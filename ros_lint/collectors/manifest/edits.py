@@ -237,7 +237,7 @@ class _Layout:
         return self.neighbours(span) == (None, None) and not heading
 
     def insert_after(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
-        """Return the edit that inserts an element after an item and the comments on its line."""
+        """Return the edit that inserts ``element`` after the item at ``span`` and the comments on its line."""
         tail = span
         while (following := self.neighbours(tail).after) is not None and following in self.manifest.other_contents:
             tail = following

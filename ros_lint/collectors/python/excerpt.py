@@ -23,7 +23,7 @@ class Excerpt(NamedTuple):
 
 
 def excerpt(text: str, words: Collection[str]) -> Excerpt:
-    """Return a Python source without the bodies of those functions whose texts contain none of ``words``.
+    """Return a Python source without the bodies of the functions whose texts contain none of ``words``.
 
     Short functions keep their bodies.
     """

@@ -43,7 +43,7 @@ class Refusal(NamedTuple):
     """A clause."""
     span: Span
     known: bool
-    """Whether it is no Python of any version. If not, it counts as not checked."""
+    """True if the text is not Python of any version. Otherwise the file counts as not checked."""
 
     def problem(self) -> Problem:
         return Problem("syntax", f"not valid Python: {self.message}", self.span)

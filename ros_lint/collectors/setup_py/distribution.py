@@ -139,7 +139,7 @@ class Distribution:
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
         """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
-        These are the packages in the root folder of ``package_dir`` or in src/, else those in the only top-level package. The
+        These are the packages in the root folder of ``package_dir`` or in src/, else in the only top-level package. The
         folders are a value of ``package_dir``.
         """
         files = self._context.files

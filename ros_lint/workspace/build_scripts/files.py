@@ -176,7 +176,7 @@ def _referenced_resources(
 
 _WORKING_FOLDER = re.compile(rb"\b(?:current_path|getcwd|cwd)\s*\(")
 _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
-"""The quoted path component before another one."""
+"""A quoted path component before another component."""
 
 
 def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> bool:

@@ -335,7 +335,7 @@ class FileRoles:
         return frozenset([_stem(file) for file in self._optional if file.endswith(SOURCES)])
 
     def _compiled(self, *, test: bool) -> set[str]:
-        """Return the sources that every build compiles: those of tests, or (``test`` false) those of all other targets.
+        """Return the sources that every build compiles for tests (``test`` true), or for all other targets.
 
         If a target has alternative definitions, a source in all of them counts. If every source is conditional, all count.
         """

@@ -85,7 +85,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
 
 
 def _may_be_package_name(name: str) -> bool:
-    """Return whether a partly known name may be the name of a ROS package. It is not if it has upper case (REP 144)."""
+    """Return whether a partly known name may be the name of a ROS package: False if it has upper case (REP 144)."""
     return not any(letter.isupper() for letter in name)
 
 
@@ -289,7 +289,7 @@ _LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFAC
 
 
 def _link_libraries(run: Run, args: list[str]) -> None:
-    """Run ``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``: record what the target is linked with."""
+    """Run ``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``: record the libraries of the target."""
     link(run, args)
     record_header_sources(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
     _note_modified_target(run, "target_link_libraries", args)

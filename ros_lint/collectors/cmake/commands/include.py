@@ -193,7 +193,7 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
 
 _TOP: Final = "CMakeLists.txt"
 _BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
-"""What a subdirectory can hide: ament_package() does not see what the macros of ament export there."""
+"""The facets that a subdirectory can hide: ament_package() ignores exports by the macros of ament in a subdirectory."""
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:

@@ -38,7 +38,7 @@ _MOST_EXITS = 100
 """The number of conditional exits after which an endless loop counts as left."""
 
 NEXT, CONTINUE, BREAK, LEAVE = range(4)
-"""The ways in which a statement ends: with the next one, or by leaving an iteration, loop or function."""
+"""The ways in which a statement ends: the next statement follows, or an iteration, loop or function is left."""
 
 
 class _Side(NamedTuple):
