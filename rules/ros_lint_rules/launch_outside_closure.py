@@ -84,7 +84,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_from_default, r.conditional, _ORDER.index(r.kind), r.span))
         what = f"'{name}'" if best.name in ("", name) else f"'{best.name}' of '{name}'"
-        how = " under a condition" if best.conditional else ""
+        how = " under a condition" if best.conditional and not _is_in_every_branch(name, best, package) else ""
         how = " by the default of an argument" if best.package_from_default else how
         proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
@@ -97,6 +97,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
+
+
+def _is_in_every_branch(name: str, reference: LaunchReference, package: Package) -> bool:
+    """Return whether the launch file with a reference starts nodes of the package ``name`` whatever its conditions are."""
+    file = next((file for file in package.launch if file.path == reference.package_span.path), None)
+    return file is not None and name in launch.packages_of_every_branch(file)
 
 
 def _declares(package: Package, name: str) -> str:
