@@ -48,13 +48,14 @@ Reported with medium confidence:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
     LaunchFile,
+    LaunchReference,
     Package,
     Related,
     Rule,
@@ -124,7 +125,12 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield findings for missing files that launch files name independently of launch arguments."""
-    for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
+    by_name = launch.references_by_name(package, ("include", "file"))
+    names_at: dict[Span, set[str]] = {}
+    for (_, path), named in by_name.items():
+        for reference in named:
+            names_at.setdefault(reference.package_span, set()).add(path)
+    for (owner, path), named in by_name.items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
             continue
@@ -145,12 +151,19 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace)}",
             best.span,
             path,
-            first_related(Related("also named here", other.span) for other in others),
+            first_related([*_look_up(best, names_at), *(Related("also named here", other.span) for other in others)]),
             confidence=Confidence.HIGH
             if sure and not best.from_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
             severity=_severity(path),
         )
+
+
+def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
+    """Yield the look-up of the package before the line of a reference, unless the launch file uses it for several files."""
+    place, named = reference.span, reference.package_span
+    if place.path == named.path and named.line < place.line and len(names_at[named]) == 1:
+        yield Related("the package is looked up here", named)
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
