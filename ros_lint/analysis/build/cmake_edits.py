@@ -139,7 +139,7 @@ def _beside(package: Package) -> Call | None:
 def keep_permissions(call: Call) -> Edit:
     """Return the edit that adds USE_SOURCE_PERMISSIONS to install(DIRECTORY).
 
-    It comes after the destination, because patterns have to come later.
+    The keyword comes after the destination, because patterns have to come later.
     """
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")
