@@ -244,7 +244,9 @@ class _Uses:
         self.resolver = resolver
         self._own_files = own_files
         self._roles = roles
-        self._uncloned = resolver.names.awaited.uncloned
+        awaited = resolver.names.awaited
+        released = filter(resolver.names.is_package, awaited.listed)  # their repositories need not be cloned
+        self._uncloned = awaited.uncloned.difference(released)
         self._optional_modules = frozenset(
             [name for path in _files_with_optional_imports(source, roles) for name in source.facts[path].optional_modules]
         )
