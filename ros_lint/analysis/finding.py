@@ -50,7 +50,7 @@ class Fix(NamedTuple):
 
     @classmethod
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
-        """Return the fix that makes some edits, or None if there are none or if one of them is None.
+        """Return the fix that makes ``edits``; None if there are no edits, or if an edit is None.
 
         The functions of ``edits`` return None if the file has no place for the edit.
         """

@@ -181,7 +181,11 @@ class _TemplateParser:
         return result
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
-        """Return the pieces of a string or format specification, and the offset of its closing quote or brace."""
+        """Return the pieces of an f-string, or of a format specification in it, from the offset ``at`` on, and their end.
+
+        ``level`` is 0 for the string, which ends at ``quote``. Else it is the depth of the format specification, which ends at
+        a closing brace. ``start`` is the offset of the string, and ``depth`` the number of f-strings around it.
+        """
         text, pieces = self._text, list[Piece]()
         literal = _literal(quote, raw)
         while True:

@@ -39,15 +39,17 @@ def and_list(words: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
-def name_or_count(packages: Sequence[str]) -> str:
-    """Return the names of packages as a list; if there are many: "12 packages (talker, listener ...)"."""
-    if len(packages) <= _NAMED:
-        return and_list(packages)
-    return f"{count(len(packages), 'package')} ({', '.join(packages[:_NAMED])} ...)"
+def name_or_count(names: Sequence[str], noun: str = "packages") -> str:
+    """Return names as a list; if there are many, the number and the first of them: "12 packages (talker, listener ...)"."""
+    if len(names) <= _NAMED:
+        return and_list(names)
+    return f"{len(names)} {noun} ({', '.join(names[:_NAMED])} ...)"
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield sentences without their full stop: about hidden findings, and about packages that were not fully analysed."""
+    """Yield sentences, without full stop, about the distribution, hidden findings and what was not fully analysed."""
+    if proposed := _proposed_distros(report):
+        yield proposed
     more: Counter[str] = Counter()
     for hidden in report.hidden:
         more.update(dict(hidden.rules))
@@ -58,6 +60,10 @@ def limits(report: Report) -> Iterator[str]:
         yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
     if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
         yield f"Hidden: {'; '.join(kinds)}"
+    if report.not_cloned:
+        lists = [f"{name_or_count(names, 'repositories')} ({path})" for path, names in report.not_cloned[:_NAMED]]
+        more_lists = f" and those of {len(report.not_cloned) - _NAMED} more lists" if len(report.not_cloned) > _NAMED else ""
+        yield f"Not cloned here: {'; '.join(lists)}{more_lists}. Their packages are unknown, not missing"
     if report.ros1:
         verb = "is a package" if len(report.ros1) == 1 else "are packages"
         yield f"Not analysed, because only ROS 2 is supported: {name_or_count(report.ros1)} {verb} of ROS 1 (build type catkin)"
@@ -68,6 +74,19 @@ def limits(report: Report) -> Iterator[str]:
         list_of_spots = "; ".join(f"{and_list(what)} of {name_or_count(packages)}" for packages, what in facets.items())
         why = "Checks for missing things were skipped there; 'ros-lint explain-package NAME' lists the places"
         yield f"Not fully analysed: {list_of_spots}. {why}"
+
+
+def _proposed_distros(report: Report) -> str:
+    """Return a sentence about the distributions that the repository builds for, "" if the run was for one of them."""
+    distro = report.target.distro
+    if distro in [named.distro for named in report.named_distros]:
+        return ""
+    named = [named for named in report.named_distros if named.indexed]
+    options = " or ".join(f"--distro {known.distro}" for known in named)
+    places = and_list([f"{known.distro} ({known.path}:{known.line})" for known in named or report.named_distros])
+    if named:
+        return f"This repository builds for {places}, not for {distro}: pass {options}"
+    return f"This repository builds for {places}, without a package index here, not for {distro}" if places else ""
 
 
 def hidden_findings(hidden: HiddenCount) -> str:

@@ -15,7 +15,7 @@ This rule reports all of them because each is a name of a file that is neither i
 ## Why it matters
 
 The launch file stops, or the node starts without its parameters. xacro stops at a missing include. RViz and Gazebo show nothing
-for a missing mesh.
+for a missing mesh. RViz starts with its default display if its own is missing, so this is a warning.
 
 ## How to fix it
 
@@ -123,7 +123,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files that launch files name without the help of arguments."""
+    """Yield findings for missing files that launch files name independently of launch arguments."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
@@ -149,6 +149,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             confidence=Confidence.HIGH
             if sure and not best.from_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
+            severity=_severity(path),
         )
 
 
@@ -177,6 +178,7 @@ def _passed(workspace: Workspace) -> Iterator[Finding]:
             passed.path,
             (Related("named here", passed.span),),
             confidence=Confidence.HIGH if sure and not _is_made(passed.package, passed.path, workspace) else Confidence.MEDIUM,
+            severity=_severity(passed.path),
             package=package.name,
         )
 
@@ -228,6 +230,11 @@ def _message(owner: str, path: str, more: int = 0) -> str:
     return f"'{path}' and {more} other file{'s' if more > 1 else ''} of its folder that this file names do not exist in '{owner}'"
 
 
+def _severity(path: str) -> Severity:
+    """Return the severity of a missing file: without a display, RViz starts with its default display."""
+    return Severity.WARNING if path.endswith(".rviz") else Severity.ERROR
+
+
 def _twin(path: str, all_names: tuple[str, ...]) -> str:
     """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
     folder, _, base = path.rpartition("/")
@@ -237,7 +244,7 @@ def _twin(path: str, all_names: tuple[str, ...]) -> str:
 
 
 def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
-    """Return whether the suffix is that of an existing file with its letters in another order: x.yalm."""
+    """Return whether the suffix has the letters of the suffix of an existing file in another order: ``x.yalm``."""
     stem, _, suffix = path.rpartition(".")
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 

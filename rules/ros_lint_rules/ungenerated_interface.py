@@ -87,7 +87,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _of_python(package: Package) -> Iterator[Finding]:
-    """Yield one finding for all interfaces of a package, at the tag that declares that it generates interfaces."""
+    """Yield one finding for all interface files of an ament_python package, which cannot generate code for them.
+
+    The span is the tag that declares that the package generates interfaces.
+    """
     depends = package.manifest.depends if package.manifest else ()
     tag = next((depend for depend in depends if depend.name in _DECLARE_INTERFACES), None)
     suffixes = tuple([f".{kind}" for kind in names.interfaces.KINDS])

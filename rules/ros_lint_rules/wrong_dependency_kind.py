@@ -189,9 +189,9 @@ class _Lack(NamedTuple):
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
-    """Return the lack of an export that headers in include/ cause, with low confidence; None for any other lack.
+    """Return a missing export to report before the headers of the package are installed, with low confidence.
 
-    The headers are not installed yet.
+    The result is None if ``lacking`` is None or is not about an export.
     """
     if lacking is None or lacking.role is not Role.EXPORT:
         return None

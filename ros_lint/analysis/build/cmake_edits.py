@@ -33,7 +33,7 @@ def at_end(script: BuildScript, code: str) -> Edit | None:
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
-    """Return the edit that installs a library target."""
+    """Return the edit that installs a library target, None if the script has no place for further commands."""
     return at_end(script, _LIBRARY.format(name))
 
 
@@ -139,7 +139,7 @@ def _beside(package: Package) -> Call | None:
 def keep_permissions(call: Call) -> Edit:
     """Return the edit that adds USE_SOURCE_PERMISSIONS to install(DIRECTORY).
 
-    It comes after the destination, because patterns have to come later.
+    The keyword comes after the destination, because patterns have to come later.
     """
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")

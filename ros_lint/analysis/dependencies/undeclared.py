@@ -136,9 +136,9 @@ def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> boo
 
 
 def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
-    """Return ``uses`` if an unknown dependency cannot satisfy every certain use of them, else ().
+    """Return ``uses`` if the unknown dependencies cannot satisfy every certain use, else ().
 
-    ``unknown`` are the declared names whose dependencies are unknown. The uses that none of them could satisfy come first.
+    ``unknown`` are the declared names whose dependencies are unknown. The uses that no unknown name could satisfy come first.
     Each use counts separately: an unknown package may provide a library, but not the file that find_package() needs.
     """
     uses = tuple(uses)

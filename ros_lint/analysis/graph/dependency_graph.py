@@ -103,7 +103,7 @@ class Graph:
     def order(self) -> Order:
         """A build order: of all packages that can be built next, the first by name comes next.
 
-        It respects uncertain edges, too, unless they close a cycle.
+        The order respects uncertain edges, too, unless they close a cycle.
         """
         names, stuck = sort(self.arcs)
         if stuck and any(self.certain_arcs[name] != self.arcs[name] for name in stuck):

@@ -32,7 +32,7 @@ _RESERVED_FOLDERS = frozenset(
 
 
 class SetupContext(NamedTuple):
-    """What is needed, besides the options of setup(), to compute the installed files of a package."""
+    """The inputs, besides the options of setup(), from which the installed files of a package are computed."""
 
     files: Files
     executables: AbstractSet[str]

@@ -202,7 +202,10 @@ def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> No
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages ``names``."""
+    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages ``names``.
+
+    ``how`` is the beginning of the command for messages, such as ``"ament_target_dependencies ..."``.
+    """
     _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
     record_header_sources(

@@ -197,7 +197,7 @@ _BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:
-    """Return the build folder of a subdirectory, which is below that of the current directory.
+    """Return the build folder of a subdirectory, which is below the build folder of the current directory.
 
     Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
     """

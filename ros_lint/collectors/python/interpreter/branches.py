@@ -249,7 +249,7 @@ class _Loop:
     def end(self, orelse: Sequence[ast.stmt]) -> int:
         """Interpret the else block after the last iteration, join the names at all exits, and return how the loop ends.
 
-        The result is NEXT, CONTINUE, BREAK or LEAVE, because the else block may contain statements that end an outer loop.
+        The else block may end an outer loop, so the result is NEXT, CONTINUE, BREAK or LEAVE.
         """
         machine, frame = self._machine, self._frame
         breaks = [way_out for way_out in self.exits if way_out.signal == BREAK]

@@ -42,10 +42,7 @@ def are_unknown(conditions: Conditions) -> bool:
 
 
 class Recorder:
-    """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present.
-
-    The program is a launch file or a setup.py with the modules that it imports.
-    """
+    """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present."""
 
     def __init__(self) -> None:
         self._branches = 0

@@ -445,10 +445,7 @@ def plain(value: Value) -> Value:
 
 
 def cause(value: Value, reason: str) -> Unknown:
-    """Return the value that is reported as the cause if an unknown ``value`` makes the result of an operation unknown.
-
-    This is ``value`` itself, if the interpreter recorded its origin, else a new unknown value with ``reason``.
-    """
+    """Return ``value`` if it is an unknown value whose origin is recorded, else a new unknown value with ``reason``."""
     return value if isinstance(value, Unknown) and value.node is not None else Unknown(reason)
 
 
