@@ -82,3 +82,15 @@ def test_the_summary_names_repositories_that_are_not_cloned() -> None:
     assert (
         not_cloned("repositories:\n  BehaviorTree.CPP:\n    type: git\n  rclcpp:\n    type: git\n  car:\n    type: git\n") == ""
     )
+
+
+def test_a_declared_package_is_certainly_used_even_if_its_repository_is_not_cloned() -> None:
+    files = {
+        "deps.repos": "repositories:\n  arm_msgs:\n    type: git\n  tool:\n    type: git\n",
+        "arm/package.xml": manifest_text("arm", ["<depend>arm_msgs</depend>"]),
+        "car/package.xml": manifest_text("car", build_type="ament_python"),
+        "car/setup.py": "from setuptools import setup\nsetup(name='car', packages=['car'])\n",
+        "car/car/__init__.py": "from arm_msgs.msg import Pose\nimport tool\n",
+    }
+    (car,) = loaded(files).called("car")
+    assert [(use.package, use.certain) for use in car.uses if use.via == "import"] == [("arm_msgs", True)]
