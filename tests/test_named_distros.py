@@ -77,15 +77,15 @@ def test_nothing_is_read_if_the_user_chose_a_distribution() -> None:
     [
         (
             [NamedDistro("humble", CI, 12)],
-            f"This repository builds for humble ({CI}:12), not for lyrical: pass --distro humble",
+            f"This repository builds for humble ({CI}:12): pass --distro humble",
         ),
         (
             [NamedDistro("humble", "a", 1), NamedDistro("jazzy", "b", 2), NamedDistro("foxy", "c", 3, indexed=False)],
-            "This repository builds for humble (a:1) and jazzy (b:2), not for lyrical: pass --distro humble or --distro jazzy",
+            "This repository builds for humble (a:1) and jazzy (b:2): pass --distro humble or --distro jazzy",
         ),
         (
             [NamedDistro("foxy", "c", 3, indexed=False)],
-            "This repository builds for foxy (c:3), without a package index here, not for lyrical",
+            "This repository builds for foxy (c:3), which has no package index here",
         ),
         ([NamedDistro("lyrical", "a", 1), NamedDistro("jazzy", "b", 2)], None),
         ([], None),

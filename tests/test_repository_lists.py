@@ -66,14 +66,31 @@ def test_packages_of_repositories_that_are_not_cloned_are_unknown() -> None:
 
 
 def test_the_summary_names_repositories_that_are_not_cloned() -> None:
-    def not_cloned(text: str) -> str:
-        files = {"car/package.xml": manifest_text("car"), "deps.repos": text}
+    def not_cloned(text: str, *others: str) -> str:
+        files = {"car/package.xml": manifest_text("car"), "deps.repos": text, **dict.fromkeys(others, text)}
         rules = registry.load()
         report = check(loaded(files), (), select(rules), ReportContext(rules, "", ("",), ()))
         return next((sentence for sentence in limits(report) if "cloned" in sentence), "")
 
-    names = "".join(f"  {name}:\n    type: git\n" for name in ("legs", "arm", "rclcpp"))
+    names = "".join(f"  {name}:\n    type: git\n" for name in ("legs", "arm", "rclcpp", "ament-cmake"))
     assert not_cloned(f"repositories:\n{names}") == (
         "Not cloned here: arm and legs (deps.repos). Their packages are unknown, not missing"
     )
-    assert not_cloned("repositories:\n  rclcpp:\n    type: git\n  car:\n    type: git\n") == ""
+    assert not_cloned(f"repositories:\n{names}", "humble.repos", "jazzy.repos") == (
+        "Not cloned here: arm and legs (deps.repos and 2 other files). Their packages are unknown, not missing"
+    )
+    assert (
+        not_cloned("repositories:\n  BehaviorTree.CPP:\n    type: git\n  rclcpp:\n    type: git\n  car:\n    type: git\n") == ""
+    )
+
+
+def test_a_declared_package_is_certainly_used_even_if_its_repository_is_not_cloned() -> None:
+    files = {
+        "deps.repos": "repositories:\n  arm_msgs:\n    type: git\n  tool:\n    type: git\n",
+        "arm/package.xml": manifest_text("arm", ["<depend>arm_msgs</depend>"]),
+        "car/package.xml": manifest_text("car", build_type="ament_python"),
+        "car/setup.py": "from setuptools import setup\nsetup(name='car', packages=['car'])\n",
+        "car/car/__init__.py": "from arm_msgs.msg import Pose\nimport tool\n",
+    }
+    (car,) = loaded(files).called("car")
+    assert [(use.package, use.certain) for use in car.uses if use.via == "import"] == [("arm_msgs", True)]

@@ -10,6 +10,7 @@ from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
 from ros_lint.facts.repositories import UnclonedRepositories
+from ros_lint.knowledge.spelling import package_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -69,7 +70,7 @@ def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
     """Yield the listed repositories that are not cloned, without released packages, which need not be cloned."""
     world = workspace.world
     for path, names in world.awaited.lists:
-        if unknown := [name for name in names if not world.is_package(name.lower().replace("-", "_"))]:
+        if unknown := [name for name in names if not world.is_package(package_name(name))]:
             yield UnclonedRepositories(path, tuple(unknown))
 
 

@@ -17,7 +17,7 @@ from ros_lint.knowledge.closure import Closure, Reach
 from ros_lint.knowledge.index import RUNTIME
 from ros_lint.knowledge.providers import Layer, Providers, Suggestion
 from ros_lint.knowledge.provides import NOTHING_KNOWN
-from ros_lint.knowledge.spelling import Spelling
+from ros_lint.knowledge.spelling import Spelling, package_name
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
@@ -139,7 +139,7 @@ class World:
     @cached_property
     def _uncloned(self) -> tuple[str, ...]:
         """Beginnings of the names of packages in repositories that are not cloned."""
-        return tuple([f"{re.sub(r'[-.]', '_', name.lower())}_" for name in self.awaited.uncloned])
+        return tuple([f"{package_name(name)}_" for name in self.awaited.uncloned])
 
     def successor(self, name: str) -> str:
         """Return the ROS 2 successor of a ROS 1 package, or ""."""

@@ -61,9 +61,10 @@ def limits(report: Report) -> Iterator[str]:
     if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
         yield f"Hidden: {'; '.join(kinds)}"
     if report.not_cloned:
-        lists = [f"{name_or_count(names, 'repositories')} ({path})" for path, names in report.not_cloned[:_NAMED]]
-        more_lists = f" and those of {len(report.not_cloned) - _NAMED} more lists" if len(report.not_cloned) > _NAMED else ""
-        yield f"Not cloned here: {'; '.join(lists)}{more_lists}. Their packages are unknown, not missing"
+        names = sorted({name for uncloned in report.not_cloned for name in uncloned.names})
+        more_lists = f" and {count(len(report.not_cloned) - 1, 'other file')}" if len(report.not_cloned) > 1 else ""
+        why = "Their packages are unknown, not missing"
+        yield f"Not cloned here: {name_or_count(names, 'repositories')} ({report.not_cloned[0].path}{more_lists}). {why}"
     if report.ros1:
         verb = "is a package" if len(report.ros1) == 1 else "are packages"
         yield f"Not analysed, because only ROS 2 is supported: {name_or_count(report.ros1)} {verb} of ROS 1 (build type catkin)"
@@ -85,8 +86,8 @@ def _proposed_distros(report: Report) -> str:
     options = " or ".join(f"--distro {known.distro}" for known in named)
     places = and_list([f"{known.distro} ({known.path}:{known.line})" for known in named or report.named_distros])
     if named:
-        return f"This repository builds for {places}, not for {distro}: pass {options}"
-    return f"This repository builds for {places}, without a package index here, not for {distro}" if places else ""
+        return f"This repository builds for {places}: pass {options}"
+    return f"This repository builds for {places}, which has no package index here" if places else ""
 
 
 def hidden_findings(hidden: HiddenCount) -> str:

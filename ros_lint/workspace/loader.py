@@ -50,7 +50,7 @@ Progress = Callable[[str, int, int], None]
 _NO_ROLE = Role(0)
 
 _MOST_CONTEXT = 20_000
-"""Number of folders outside packages up to which a context is searched for packages."""
+"""Maximum number of folders outside packages that are searched for the packages of the context."""
 
 
 class _ReadPackage(NamedTuple):
@@ -72,7 +72,10 @@ class _ReadPackage(NamedTuple):
 
 
 class Loader:
-    """Loads the packages below ``roots`` of a tree, and those below ``context``. Paths are relative to the base of the tree."""
+    """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
+
+    Paths are relative to the base of the tree.
+    """
 
     def __init__(
         self,
@@ -186,9 +189,10 @@ class Loader:
             yield from collected[path].suppressions
 
     def _discover(self, tree: Tree) -> tuple[tuple[str, ...], Discovery]:
-        """Return the folders that are read and their packages.
+        """Return the folders that are read (the context, or else the requested folders), and their packages.
 
-        The context is left out if it is huge, or if colcon does not find a requested folder in it, such as an ignored folder.
+        The context is left out if it has too many folders, or if colcon finds nothing in a requested folder from there, for
+        example because an outer folder is ignored.
         """
         if self._around:
             around = discover(tree, self._around, self.target.context, _MOST_CONTEXT)
