@@ -181,7 +181,11 @@ class _TemplateParser:
         return result
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
-        """Return the pieces of a string or format specification, and the offset of its closing quote or brace."""
+        """Return the pieces of an f-string, or of a format specification in it, from the offset ``at`` on, and their end.
+
+        ``level`` is 0 for the string, which ends at ``quote``. Else it is the depth of the format specification, which ends at
+        a closing brace. ``start`` is the offset of the string, and ``depth`` the number of f-strings around it.
+        """
         text, pieces = self._text, list[Piece]()
         literal = _literal(quote, raw)
         while True:
@@ -264,9 +268,9 @@ class _TemplateParser:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the offset at which the literal text of an f-string ends that starts at ``at``. ``literal`` is its pattern.
+    """Return the offset of the end of the literal text in an f-string that starts at ``at`` and matches ``literal``.
 
-    In a format specification it also ends at doubled braces, because they are not an escape there.
+    In a format specification, literal text also ends at doubled braces, because they are not an escape there.
     """
     match = literal.match(text, at)
     end = match.end() if match is not None else at

@@ -55,6 +55,7 @@ _NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue01
 BRACKETS = re.compile("([\ue010\ue012\ue014])|[\ue011\ue013\ue015]")
 """Begins (in group 1) or ends a part of a text that is known only at launch."""
 _EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
+_NEGATION = re.compile("\ue012(?:not (\ue010[^\ue010-\ue013]*\ue011)|_not(_equals\\(.*\\)))\ue013")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
@@ -182,7 +183,7 @@ def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
 
 
 def runs_xacro(text: str) -> bool:
-    """Return whether a text is a command line of xacro, or contains the output of one."""
+    """Return whether a text is a command line of xacro, or contains the output of a command line of xacro."""
     return text.startswith("xacro ") or _XACRO_COMMAND in text
 
 
@@ -246,7 +247,7 @@ def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
 def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Return the names of the launch configurations whose values may contain an install place or a command of xacro.
 
-    ``values`` has the values of each configuration. A value may refer to a configuration that contains one.
+    ``values`` has the values of each configuration. A value may do so by referring to another configuration.
     """
     result: set[str] = set()
     candidates: dict[str, tuple[str, ...]] = {}
@@ -302,6 +303,12 @@ def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
 def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
     """Return the conditions of a text made by :func:`conditional`; () for any other text."""
     return text.conditions if isinstance(text, Conditional) else ()
+
+
+def negated(text: str) -> str:
+    """Return the launch configuration or comparison that an expression negates, "" for other texts."""
+    match = _NEGATION.fullmatch(text)
+    return "" if match is None else match[1] or expression(match[2])
 
 
 def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:

@@ -175,7 +175,7 @@ def _edited_files(issue: Issue) -> Iterable[str]:
 def _new_findings(before: Counter[str], after: Sequence[Issue]) -> list[Issue]:
     """Return the new findings of high confidence and of rules that are on by default.
 
-    Other findings may change: an undeclared dependency, for example, can become a transitive one.
+    Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
     """
     count = Counter(issue.identity for issue in after)
     serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]

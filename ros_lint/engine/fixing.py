@@ -21,7 +21,7 @@ _MOST_ROUNDS = 100
 
 
 class FixResult(NamedTuple):
-    """The fixes that were verified, and those that were skipped."""
+    """The fixes that were verified, and the fixes that were skipped."""
 
     changed: Mapping[str, bytes]
     """New content by path."""

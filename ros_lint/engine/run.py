@@ -22,7 +22,7 @@ def run_rules(
 ) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
     """Return all findings of the rules about packages and files below ``folders``, sorted by place, and the crashes.
 
-    If a rule crashes for one package, its findings in other packages and those of other rules are still returned.
+    If a rule crashes for one package, its findings in other packages and the findings of other rules are still returned.
     """
     issues: set[Issue] = set()
     crashes: list[Crash] = []
@@ -43,9 +43,9 @@ def run_rules(
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
-    """Yield the findings of a rule in a package, or those in the workspace if it is a rule of workspaces."""
+    """Yield the findings of a rule in ``package``; for a rule of workspaces (``package`` is None), in the whole workspace."""
     if rule.package is not None and package is not None:
-        for finding in rule.package(package, workspace):
+        for finding in rule.package(package, workspace.seen_from(package)):
             yield Issue(rule, package.name, finding)
     elif rule.workspace is not None:
         for finding in rule.workspace(workspace):

@@ -40,7 +40,7 @@ class Selection(NamedTuple):
         return self.severities.get(issue.rule.name, issue.severity)
 
     def is_severe(self, issue: Issue) -> bool:
-        """Return whether an issue has the lowest severity to show, or a higher one."""
+        """Return whether the severity of an issue is at least the lowest severity to show."""
         return self.severity(issue) >= self.min_severity
 
     def ignores_path(self, issue: Issue) -> bool:

@@ -101,6 +101,8 @@ class MachinePath(NamedTuple):
     """True if the reader of the path would resolve a relative path from the folder of the file."""
     parameter_default: bool = False
     """True if the path is the default of a parameter that a program declares."""
+    generated_from: str = ""
+    """The name of the file from which xacro generated the file with the path, "" if its header names none."""
 
     @property
     def distribution(self) -> str:

@@ -78,7 +78,7 @@ class UnknownSelector(NamedTuple):
     suggestion: str
     """The nearest name or code, or ""."""
     fate: str = ""
-    """What became of a former rule of this name, or ""."""
+    """End of the message about a former rule of this name, such as "was removed"; "" if no former rule has the name."""
 
 
 def lines_of(span: Span) -> tuple[int, int]:

@@ -17,7 +17,7 @@ from ros_lint.knowledge.rosdep import PLATFORMS, Rosdep
 from ros_lint.knowledge.store import Store
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     from ros_lint.knowledge.provides import ContentKind, Known
 
@@ -40,7 +40,7 @@ def distros(places: Sequence[str] = ()) -> tuple[RosDistribution, ...]:
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:
-    """Return the newest long-term support release with an index. ``places`` are those of :func:`distros`."""
+    """Return the newest long-term support release with an index. ``places`` are folders with data as for :func:`distros`."""
     return [distro.name for distro in distros(places) if distro.long_term][-1]
 
 
@@ -71,6 +71,12 @@ class Knowledge:
     def covered(self) -> bool:
         """True if the distribution has an index."""
         return len(self.index) > 0
+
+    @property
+    def distributions(self) -> Mapping[str, bool]:
+        """Return all distributions by name, with whether each has an index: those at their end of life mostly have none."""
+        ended = dict.fromkeys([name.rpartition(" ")[2].lower() for name in names.END_OF_LIFE.values()], False)
+        return {**ended, **dict.fromkeys(self._order, True)}
 
     @property
     def date(self) -> str:
@@ -183,7 +189,7 @@ class Knowledge:
     def rosdep_resolves(self, name: str, distro: str) -> bool:
         """Return whether ``rosdep install`` resolves a name in a distribution, as a released package or as a key.
 
-        ``distro`` is an active distribution or the one of this object. If the platforms of the distribution are
+        ``distro`` is an active distribution or the distribution of this object. If the platforms of the distribution are
         unknown, all keys count as resolved.
         """
         if self._index(distro).releases(name):

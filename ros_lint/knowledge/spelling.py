@@ -43,7 +43,7 @@ class Spelling:
     def one_slip(self, name: str) -> tuple[str, ...]:
         """Return the names that differ by one letter, sorted.
 
-        The letter is omitted, added, changed, or swapped with the next one. Digits must be equal, because ``lidar_2`` is
+        The letter is omitted, added, changed, or swapped with the next letter. Digits must be equal, because ``lidar_2`` is
         not a typo of ``lidar_1``.
         """
         if len(name) < _MIN_LETTERS:
@@ -134,6 +134,11 @@ def may_be_package(name: str) -> bool:
     A valid name consists of lower-case letters, digits and underscores, and starts with a letter.
     """
     return _PACKAGE_NAME.fullmatch(name) is not None
+
+
+def package_name(repository: str) -> str:
+    """Return the name that a package of a repository most likely has: "BehaviorTree.CPP" -> "behaviortree_cpp"."""
+    return re.sub("[-.]", "_", repository.lower())
 
 
 def plain(name: str) -> str:

@@ -30,8 +30,21 @@ class TargetDistro(NamedTuple):
 
     @property
     def context(self) -> Mapping[str, str]:
-        """Known variables of conditions in package.xml (REP 149)."""
+        """Values, by name, of the variables in conditions of package.xml that are known for the distribution (REP 149)."""
         return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
+
+
+class NamedDistro(NamedTuple):
+    """A distribution that a repository builds for, with the first place that names it."""
+
+    distro: str
+    """Name of the distribution, such as "jazzy"."""
+    path: str
+    """Path of the file, relative to the base."""
+    line: int
+    """Line of the file, from 1."""
+    indexed: bool = True
+    """False if the distribution is at its end of life and has no package index."""
 
 
 class UnreadFile(NamedTuple):

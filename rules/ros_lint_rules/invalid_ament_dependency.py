@@ -107,7 +107,10 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
 
 
 def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
-    """Return whether ``find_package(name)`` may succeed for reasons that are not visible, or another rule reports the name."""
+    """Return whether ``find_package(name)`` may succeed, because a declared or known package or a file may provide ``name``.
+
+    The result is True as well for a name with ``::``, because another rule reports it.
+    """
     if "::" in name:
         return True  # reported when the command is evaluated
     world = workspace.world

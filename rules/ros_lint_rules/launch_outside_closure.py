@@ -85,30 +85,43 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     readable = not workspace.unread(package)  # an unreadable file may be the script that runs these launch files as tests
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_from_default, r.conditional, _ORDER.index(r.kind), r.span))
-        how = " under a condition" if best.conditional else ""
+        how = " under a condition" if best.conditional and not _is_in_every_branch(name, best, package) else ""
         how = " by the default of an argument" if best.package_from_default else how
+        place = _place(best, others)
         proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
         certain = readable and needed and proposal.certain and not dependencies.may_provide(unknown, name, workspace)
         yield Finding(
-            f"{_use(best, name)}{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
-            best.package_span,
+            f"{_use(best, name, place)}{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
+            place,
             name,
-            first_related(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
+            first_related(Related("also needed here", span) for span in _elsewhere(place, others)),
             proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
 
 
-def _use(reference: LaunchReference, name: str) -> str:
+def _use(reference: LaunchReference, name: str, place: Span) -> str:
     """Return the part of the message that says what a launch file does with a package at the place of the finding."""
-    verb, package_place, place = _DONE[reference.kind], reference.package_span, reference.span
+    verb, file_place = _DONE[reference.kind], reference.span
     if reference.name in ("", name):
         return f"'{name}' is {verb} here"
-    looked_up = reference.kind in ("include", "file") and place.path == package_place.path
-    if looked_up and abs(place.line - package_place.line) > _LINES_OF_CALL:
-        return f"'{name}' is looked up here, and its '{reference.name}' is {verb} in line {place.line}"
+    looked_up = reference.kind in ("include", "file") and file_place.path == place.path
+    if looked_up and abs(file_place.line - place.line) > _LINES_OF_CALL:
+        return f"'{name}' is looked up here, and its '{reference.name}' is {verb} in line {file_place.line}"
     return f"'{reference.name}' of '{name}' is {verb} here"
+
+
+def _is_in_every_branch(name: str, reference: LaunchReference, package: Package) -> bool:
+    """Return whether the launch file with a reference starts nodes of the package ``name`` whatever its conditions are."""
+    file = next((file for file in package.launch if file.path == reference.package_span.path), None)
+    return file is not None and name in launch.packages_of_every_branch(file)
+
+
+def _place(best: LaunchReference, others: Sequence[LaunchReference]) -> Span:
+    """Return the place of the package name, or that of the file if the package is looked up there for several files."""
+    is_shared = any(other.package_span == best.package_span and other.name != best.name for other in others)
+    return best.span if is_shared and best.kind in ("include", "file") else best.package_span
 
 
 def _declares(package: Package, name: str) -> str:
@@ -148,7 +161,7 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
     for need in dependencies.needs(package, workspace):
         uses = [use for use in need.uses if use.certain and use.via in ("import", "package") and use.role & Role.EXEC]
         exported = any(use.certain and use.role & Role.EXPORT for use in need.uses)
-        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, uses))):
+        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, workspace, uses))):
             names.update(need.declared)
     return frozenset(names)
 

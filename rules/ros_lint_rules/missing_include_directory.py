@@ -84,7 +84,7 @@ def _folder(package: Package, text: str) -> str | None:
 
 
 def _of_targets(package: Package) -> Iterator[tuple[str, Span, Severity]]:
-    """Yield the include directories of exported targets, each with its place."""
+    """Yield the folders that exported targets have as INCLUDES DESTINATION, each with its span and the severity of a finding."""
     exported = {export.export_set for export in package.built.exports.targets if export.reaches_dependents}
     for call in package.calls("install", anywhere=True):
         texts = call.texts
@@ -102,7 +102,7 @@ def _of_ament(package: Package) -> Iterator[tuple[str, Span, Severity]]:
 
 
 def _below_include(package: Package, call: Call, at: int, severity: Severity) -> Iterator[tuple[str, Span, Severity]]:
-    """Yield the folder below include/ that an argument names."""
+    """Yield the folder that the argument at index ``at`` names, with its span and ``severity``, if it is below include/."""
     folder = _folder(package, call.texts[at]) if at < len(call.args) else None
     if folder is not None and folder.startswith("include/"):
         yield folder, call.span(at), severity

@@ -91,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
-        if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
+        if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, workspace, need.uses)):
             may_be_unused = all(map(_is_in_cmake, need.uses)) and (uses_are_hidden or len(need.uses) == 1)
             certain = need.sure and not may_be_unused
             yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
@@ -127,7 +127,12 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
     if is_direct and all(use.via in ("launch", "package") for use in need.uses):
         return dependencies.only_brings(workspace.world, carrier)
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
-    return dependencies.is_part_of_launch(package, outside_tests or need.uses)
+    return dependencies.is_part_of_launch(package, workspace, outside_tests or need.uses)
+
+
+def _is_part_of_build_tool(path: Sequence[str]) -> bool:
+    """Return whether ``ament_cmake`` itself depends on the last package of ``path``, as it does on ``ament_cmake_python``."""
+    return len(path) == 2 and path[0] == _BUILD_TOOL and path[1].startswith(f"{_BUILD_TOOL}_")
 
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:
@@ -146,7 +151,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
-        None if dependencies.is_found_by_cmake(need) else Severity.INFO,
+        None if dependencies.is_found_by_cmake(need) and not _is_part_of_build_tool(path) else Severity.INFO,
     )
 
 

@@ -87,7 +87,10 @@ missing. They are reported as `transitive-dependency` once the other one is decl
 - libraries that only files with headers of the other one include, if it depends on them directly: `orocos_kdl_vendor` beside
   `kdl_parser`. Packages that `find_package()` names and interfaces are shown.
 
-The severity is info for modules of launch that only launch files import, because `ros2 launch` provides them.
+The severity is lower if the package works where it is built and launched today:
+
+- info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
+- warning for `python3-pytest`, because colcon itself depends on it.
 """
 
 from __future__ import annotations
@@ -115,10 +118,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
     undeclared_needs = dependencies.undeclared(package, workspace)
-    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, need.uses)}
+    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
         problem = "is used here, but package.xml does not declare it"
-        severity = Severity.INFO if need.name in with_launch else None
+        severity = Severity.INFO if need.name in with_launch else Severity.WARNING if need.name == _PYTEST else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
@@ -128,7 +131,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             finding = finding._replace(message=message, fix=None)
         if finding.fix:
             finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
-        yield finding._replace(severity=severity)
+        yield finding._replace(severity=severity or finding.severity)
     for lack in dependencies.misplaced(package, workspace):
         tag = lack.depend.tag
         problem = f"is used here, but comes only with <{tag}>{lack.depend.name}</{tag}>, which is not installed {lack.purpose}"
@@ -176,6 +179,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
+        Severity.WARNING if proposal.conditional and not workspace.target.explicit else None,
     )
 
 
@@ -213,7 +217,7 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False
-    if dependencies.is_part_of_launch(package, other.uses):
+    if dependencies.is_part_of_launch(package, workspace, other.uses):
         return True
     if other.role is Role.TEST and other.name in dependencies.TEST_MODULES:
         return True
@@ -223,6 +227,7 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
     )
 
 
+_PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
 """Headers of interfaces, which packages declare even if another package brings them."""

@@ -144,9 +144,9 @@ def _exported(script: BuildScript) -> set[str]:
 
 
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
-    """Yield the packages whose targets exported libraries link but which dependents do not find: CMake names and finding.
+    """Yield the finding about packages that dependents do not find, although an exported library links their targets.
 
-    The names are () if it is uncertain that dependents do not find the packages.
+    Each finding comes with the names of the packages, () if it is uncertain that dependents do not find them.
     """
     script = package.script
     if script is None or not _is_seen(package):

@@ -97,7 +97,7 @@ def references_by_name(
 ) -> dict[tuple[str, str], list[LaunchReference]]:
     """Return the references in the launch files of a package whose kind is in ``kinds``, such as "node" or "include".
 
-    The keys are the package and the name that a reference contains. ``apart`` is that of :func:`package_launch_files`.
+    The keys are the package and the name that a reference contains. ``apart`` adds the launch files of tests and examples.
     """
     result: dict[tuple[str, str], list[LaunchReference]] = {}
     for launch in package_launch_files(package, apart=apart):

@@ -119,7 +119,7 @@ class IncludeResolver:
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return the launch file of the workspace that is installed at ``path``, or None if there is not exactly one."""
+        """Return the launch file of the workspace that is installed at ``path``; None if no file or several files are."""
         place = installed_place(path)
         candidates = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
         return candidates[0].file if len(candidates) == 1 else None
@@ -179,7 +179,7 @@ def _is_read_completely(file: LaunchFile) -> bool:
 
 
 def configurations_read(file: LaunchFile) -> set[str]:
-    """Return the configurations that a file reads; with UNKNOWN if there may be others."""
+    """Return the configurations that a launch file reads, and UNKNOWN if the file may read further configurations."""
     names = set(file.configurations_read)
     if file.language == "python":  # in XML and YAML files, the text is complete
         for action in walk_actions(file.actions):

@@ -80,7 +80,11 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
 def _inputs(
     scripts: Mapping[str, ParsedScript], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]
 ) -> Iterator[str]:
-    """Yield resources, their folders and programs that are arguments of CMake commands except install()."""
+    """Yield the files and folders of a package that arguments of its CMake commands name, except those of install().
+
+    ``uninstalled`` has the resource files that are not installed, by folder, ``programs`` the paths of programs. A folder in
+    the result ends with a slash.
+    """
     if not uninstalled and not programs:
         return
     subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
@@ -176,7 +180,7 @@ def _referenced_resources(
 
 _WORKING_FOLDER = re.compile(rb"\b(?:current_path|getcwd|cwd)\s*\(")
 _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
-"""The quoted path component before another one."""
+"""A quoted path component before another component."""
 
 
 def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> bool:
@@ -198,7 +202,7 @@ def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> 
 def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
     """Return the scripts with the ``ros2 run`` commands that start them, and with started programs that are not installed.
 
-    In a CMake package, only ``files`` can be such programs. In a Python package, modules can be, too, because entry
+    Such a program is one of ``files`` in a CMake package. In a Python package it may also be a module, because entry
     points make programs of modules.
     """
     if script.of_cmake:

@@ -29,7 +29,7 @@ _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
 def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
     """Return the topmost folders of a package of which nothing is installed, with their resources.
 
-    ``files`` are the files of the package, ``sources`` the installed ones; both are relative to it.
+    ``files`` are the files of the package, ``sources`` the installed files; both are relative to the package.
     """
     # Few folders have many files, so each folder is examined once.
     source_folders = {parent(source) for source in sources}

@@ -11,7 +11,7 @@ from ros_lint.facts.visibility import Opaque, Problem
 
 
 class Results:
-    """What the commands of a package name, build, install and export, in the order of the commands."""
+    """The names, targets, files and exports that result from the commands of a package, in the order of the commands."""
 
     def __init__(self) -> None:
         self.project = BuildProject()

@@ -90,7 +90,7 @@ class Machine(Interpreter):
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Return a context manager that adds conditions to the present ones while its ``with`` block runs."""
+        """Return a context manager that adds ``conditions`` to the present conditions while its ``with`` block runs."""
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:
@@ -112,8 +112,7 @@ class Machine(Interpreter):
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
         """Return the interpreted module that the import statement ``at`` names, None if the module cannot be interpreted.
 
-        A module of the workspace is interpreted once. For a released module, the model of its effects is interpreted, if the
-        library has a model.
+        Each module is interpreted once. For a released module, this is the model in the library, if there is one.
         """
         top = name.partition(".")[0]
         known = top in STANDARD_LIBRARY or self.library.describes(top)
@@ -136,10 +135,9 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return a copy of the definition of a function, and the module of the copy.
+        """Return a copy of a function in the model of a released module, with all nodes at ``call``, and the module of the copy.
 
-        The function belongs to the model of a released module. All nodes of the copy have the position of ``call``, so that
-        findings about the function are reported at the call.
+        So findings about the function are reported at the call.
         """
         key = id(function.node), id(call)
         if key not in self._placed:
