@@ -26,9 +26,7 @@ _SOURCE_PATH = re.compile(
     r"""(?:[=(:\[{]|\breturn|["']\s*,)\s*[rbu]?(?P<quote>["'])"""
     r"""(?P<path>(?:\./)?src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?P=quote)"""
 )
-_CLIMBING_PATH = re.compile(
-    r"""(?<=["')}])/?(?P<path>(?:\.\./){3,}src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])"""
-)
+_CLIMBING_PATH = re.compile(r"""(?<=["')}])/?(?P<path>(?:\.\./){3,}src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])""")
 """A share folder is three or four folders below the workspace."""
 _INCLUDE = re.compile(r"#[ \t]*include[ \t]*[\"<]\Z")
 _JOINED = re.compile(r"join(?:path)?\([^()]*\Z")
