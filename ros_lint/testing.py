@@ -59,7 +59,7 @@ class Want(NamedTuple):
     """Words in brackets: each must be the confidence of the finding or the name of its rule."""
 
     def fits(self, issue: Issue) -> bool:
-        """Return whether a finding is the expected one."""
+        """Return whether ``issue`` is the expected finding."""
         finding = issue.finding
         place = (finding.span.path, finding.span.line) == (self.path, self.line)
         return place and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}

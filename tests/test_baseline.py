@@ -194,7 +194,8 @@ def test_conflicting_options_are_rejected(demo: Path, tmp_path: Path) -> None:
         assert not (tmp_path / "k.json").exists()
     manifest = "src/rover_driver/package.xml"
     assert filecmp.cmp(DEMO / manifest, demo / manifest, shallow=False)  # nothing was fixed before the error
-    process = run(tmp_path / "ws" / "src" / "rover_teleop" / "launch", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
+    (tmp_path / "empty").mkdir()
+    process = run(tmp_path / "empty", "--baseline", "k.json", "--write-baseline", cwd=tmp_path)
     assert process.returncode == 2
     assert "k.json: not written: no package found below" in process.stderr
     assert not (tmp_path / "k.json").exists()

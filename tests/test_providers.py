@@ -142,7 +142,7 @@ def test_python_modules_are_resolved(module: str, names: tuple[str, ...]) -> Non
 
 
 def test_modules_of_the_standard_library_need_no_package() -> None:
-    assert all(world().by_import(module).none_needed for module in ("os.path", "tomllib", "distutils", "typing"))
+    assert all(world().by_import(module).none_needed for module in ("os.path", "tomllib", "typing"))
 
 
 @pytest.mark.parametrize(

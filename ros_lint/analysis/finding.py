@@ -16,7 +16,7 @@ class Severity(Sealed, IntEnum):
     INFO = 1
     """A matter of style, or an improvement."""
     WARNING = 2
-    """It works now, or here, and fails later or for others."""
+    """A problem that does not occur now or on this machine, but later or for other users."""
     ERROR = 3
     """The build, the installation or the launch fails."""
 
@@ -50,7 +50,7 @@ class Fix(NamedTuple):
 
     @classmethod
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
-        """Return the fix that makes some edits, or None if there are none or if one of them is None.
+        """Return the fix that makes ``edits``; None if there are no edits, or if an edit is None.
 
         The functions of ``edits`` return None if the file has no place for the edit.
         """
@@ -91,7 +91,7 @@ class Finding(NamedTuple):
     related: tuple[Related, ...] = ()
     """Other places that matter."""
     fix: Fix | None = None
-    """A way to fix it, if there is one. Then the rule is ``fixable``."""
+    """The fix of the problem, None if there is none. A rule whose findings have fixes is ``fixable``."""
     confidence: Confidence = Confidence.HIGH
     """Probability that the finding is right. Only HIGH is shown without ``--pedantic``."""
     severity: Severity | None = None
@@ -101,7 +101,7 @@ class Finding(NamedTuple):
     steps: bool = False
     """True if the related places are the steps of a path, such as a cycle or a dependency chain."""
     explains: tuple[Consequence, ...] = ()
-    """Findings that probably disappear with this one, or become milder.
+    """Findings that probably disappear, or become milder, once this finding is fixed.
 
     They are not shown beside it if their confidence is not greater.
     """

@@ -32,7 +32,7 @@ class OwnHeaders(NamedTuple):
     installed: bool
     """True if some of them are installed."""
     included: Includes
-    """Where other packages of the workspace include them."""
+    """The includes of these headers in other packages of the workspace."""
     exports: Sequence[Call]
     """Unconditional calls of ament_export_include_directories() that export their folder."""
     library: bool
@@ -40,7 +40,7 @@ class OwnHeaders(NamedTuple):
     loaded: bool
     """True if a library of the package may be loaded at run time instead of linked."""
     insertion: Span
-    """Where the build script may install further files."""
+    """The place in the build script where a fix can insert an install() command."""
 
 
 EXPORTING_LIBRARIES = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
@@ -50,7 +50,7 @@ _FOLDERS = ("include_directories", "target_include_directories")
 
 @cached_by_package
 def own_headers(package: Package, workspace: Workspace) -> OwnHeaders | None:
-    """Return the headers of a package; None if it has none or its build script cannot be fully analysed."""
+    """Return the headers of a package; None if there are none, or if the build script cannot be fully analysed."""
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return None

@@ -8,7 +8,7 @@ from ros_lint.facts.manifest import Manifest
 
 
 def violations(manifest: Manifest) -> tuple[validate.Violation, ...]:
-    """Return what the schema of its format does not allow in a manifest that catkin_pkg accepts."""
+    """Return the violations of a manifest against the schema of its format. catkin_pkg has to accept the manifest."""
     return validate.violations(_source(manifest), manifest.format) or ()
 
 

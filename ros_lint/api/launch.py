@@ -17,6 +17,7 @@ from ros_lint.analysis.launch.files import (
     package_launch_files,
     references_by_name,
     rename_fix,
+    run_launch_files,
     used_files,
 )
 from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
@@ -67,6 +68,7 @@ __all__ = [
     "passed_files",
     "references_by_name",
     "rename_fix",
+    "run_launch_files",
     "scope_leaks",
     "substitute",
     "used_files",

@@ -41,7 +41,7 @@ def is_backup_copy(path: str) -> bool:
 def in_auxiliary_folder(path: str) -> bool:
     """Return whether a file is in a folder for tests, examples, templates or discarded files.
 
-    A path with "{" is one of a template. The file name is ignored, because files named like tests are often started
+    A path with "{" is the path of a template. The file name is ignored, because files named like tests are often started
     by hand.
     """
     folders = path.split("/")[:-1]

@@ -19,7 +19,7 @@ _NO_LINK: int = getattr(os, "O_NOFOLLOW", 0)
 
 
 def read(place: str, most: int = MOST_BYTES, *, links: bool = True, private: bool = False) -> bytes:
-    """Return the bytes of a regular file. What is appended to the file after it was opened is left out.
+    """Return the bytes of a regular file. Bytes that are appended after the file was opened are left out.
 
     Raises OSError with one of these errors:
 

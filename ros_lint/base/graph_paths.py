@@ -67,7 +67,7 @@ def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str)
 
 
 def _set_distance(distance: dict[str, int], name: str, successor: str) -> bool:
-    """Set the distance of a node to one more than that of its successor. Returns False if the node already has one."""
+    """Set the distance of a node to the distance of its successor plus 1; return False if the node has a distance already."""
     if name in distance:
         return False
     distance[name] = distance[successor] + 1

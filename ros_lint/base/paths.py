@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import posixpath
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 
 def join(directory: str, name: str) -> str:
@@ -46,6 +46,11 @@ def parent(path: str) -> str:
 def is_below(path: str, folder: str) -> bool:
     """Return whether ``path`` is ``folder`` or is inside it. The empty folder contains everything."""
     return path == folder or path.startswith(f"{folder.rstrip('/')}/" if folder else "")
+
+
+def is_below_any(path: str, folders: Iterable[str]) -> bool:
+    """Return whether ``path`` is one of the folders or is inside one."""
+    return any(is_below(path, folder) for folder in folders)
 
 
 def folders_of(path: str) -> Iterator[str]:

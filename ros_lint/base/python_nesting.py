@@ -122,7 +122,7 @@ def _is_in_subscript(before: str) -> bool:
 
 
 def _has_newer_star(code: str) -> bool:
-    """Return whether a star may be in a subscript, before an annotation, or at the start of a comprehension."""
+    """Return whether ``code`` may have a star as in ``a[*b]``, ``*args: *Ts`` or ``[*a for a in b]``, which is newer syntax."""
     for match in _STAR.finditer(code):
         before = code[max(0, match.start() - _LONGEST_SUBSCRIPT) : match.start()].rstrip()
         if before.endswith(("(", "[", "{")) and _UNPACKED.match(code, match.end()):

@@ -181,7 +181,11 @@ class _TemplateParser:
         return result
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
-        """Return the pieces of a string or format specification, and the offset of its closing quote or brace."""
+        """Return the pieces of an f-string, or of a format specification in it, from the offset ``at`` on, and their end.
+
+        ``level`` is 0 for the string, which ends at ``quote``. Else it is the depth of the format specification, which ends at
+        a closing brace. ``start`` is the offset of the string, and ``depth`` the number of f-strings around it.
+        """
         text, pieces = self._text, list[Piece]()
         literal = _literal(quote, raw)
         while True:
@@ -236,7 +240,10 @@ class _TemplateParser:
         return Field(start, (start + 1, end), debug, conversion, form), at + 1
 
     def _expression_end(self, at: int, depth: int) -> int:
-        """Return the end of a field's expression: before the brace, colon, conversion or equals sign."""
+        """Return the offset of the end of a field's expression, which starts at the offset ``at``.
+
+        The expression ends before a closing brace, a colon, a conversion (``!r``) or the final equals sign.
+        """
         text, closing_brackets = self._text, list[str]()
         while at < len(text):
             match = _token().match(text, at)
@@ -261,9 +268,9 @@ class _TemplateParser:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the offset at which the literal text of an f-string ends that starts at ``at``. ``literal`` is its pattern.
+    """Return the offset of the end of the literal text in an f-string that starts at ``at`` and matches ``literal``.
 
-    In a format specification it also ends at doubled braces, because they are not an escape there.
+    In a format specification, literal text also ends at doubled braces, because they are not an escape there.
     """
     match = literal.match(text, at)
     end = match.end() if match is not None else at

@@ -44,18 +44,18 @@ class YamlBoundError(YamlError):
 
 
 def compose(text: str) -> yaml.Node | None:
-    """Return the root node of a text with at most one document, None if it has none. Raises YamlError.
+    """Return the root node of a text with at most one document, None if there is no document. Raises YamlError.
 
     The marks of the nodes count characters of the text. launch and colcon read with the library's pure Python code,
-    which rejects a tab within a plain text and treats "?" in brackets as a key marker; libyaml does neither. Such
-    texts are therefore read with the Python code.
+    which rejects a tab within a plain text and treats "?" in brackets as a key marker; libyaml does neither. A text
+    with a tab or a "?" in brackets is therefore read with the Python code.
     """
     strict = len(text) <= _LONGEST_FOR_PYTHON and ("\t" in text or "?" in text)
     return _read(text, _loader(fast=not strict), _root)
 
 
 def load(text: str) -> Any:
-    """Return the value of a text with at most one document, None if it has none. Raises YamlError."""
+    """Return the value of a text with at most one document, None if there is no document. Raises YamlError."""
     return _read(text, _loader(fast=True), _value)
 
 

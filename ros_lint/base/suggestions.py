@@ -15,6 +15,26 @@ def similar_names(name: str, names: Iterable[str], most: int = 1, least: float =
     return get_close_matches(name, list(names), most, least)
 
 
+_DESCRIPTIONS = frozenset({"launch", "lua", "rviz", "sdf", "srdf", "urdf", "yaml"})
+_SAME_KIND = {"world": "sdf", "yml": "yaml"}
+
+
+def of_same_kind(path: str, paths: Iterable[str]) -> list[str]:
+    """Return those of ``paths`` that may be meant by ``path``: robot.srdf is not meant by robot.urdf.xacro.
+
+    The kind is the last suffix before ``.xacro`` or the suffix of the language (``.launch.py``). Only descriptions, launch
+    files and parameters have kinds that exclude each other; a mesh, for example, may be stored in another format.
+    """
+    kind = _kind_of_file(path)
+    return [other for other in paths if not kind or _kind_of_file(other) in ("", kind)]
+
+
+def _kind_of_file(path: str) -> str:
+    suffixes = path.rpartition("/")[2].split(".")[1:]
+    kinds = [_SAME_KIND.get(suffix, suffix) for suffix in suffixes]
+    return next((kind for kind in ("launch", *reversed(kinds)) if kind in kinds and kind in _DESCRIPTIONS), "")
+
+
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
     """Return the end of a message that suggests ``names``: "; did you mean 'a' or 'b'?"; "" without names.
 

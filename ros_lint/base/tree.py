@@ -13,7 +13,7 @@ from operator import itemgetter
 from typing import Literal, NamedTuple, Protocol
 
 from ros_lint.base import files
-from ros_lint.base.paths import is_below, join, parent, upwards
+from ros_lint.base.paths import is_below_any, join, parent, upwards
 from ros_lint.base.text import Text, read, to_bytes
 
 Kind = Literal["file", "directory", "other"]
@@ -152,12 +152,12 @@ class DiskTree:
     def _may_lead_to(self, target: str, folder: str) -> bool:
         """Return whether a link to a file in ``folder`` may lead to the real path ``target``; see the class."""
         inside = self._inside or (self.identity(""),)
-        if _is_in(target, inside):
+        if is_below_any(target, inside):
             return True
         linked = ""  # the real path of the outermost folder that is reached by a link to elsewhere
-        while folder and not _is_in(real := self.identity(folder), inside):
+        while folder and not is_below_any(real := self.identity(folder), inside):
             linked, folder = real, parent(folder)
-        return bool(linked) and _is_in(target, (linked, repository_of(linked) or linked))
+        return bool(linked) and is_below_any(target, (linked, repository_of(linked) or linked))
 
     def stamp(self, path: str) -> Stamp:
         status = os.stat(self.place(path))
@@ -169,10 +169,6 @@ class DiskTree:
 
 _IS_LINK = (errno.ELOOP, errno.EMLINK)
 """Errors of O_NOFOLLOW for a link: ELOOP on Linux and macOS, EMLINK on FreeBSD."""
-
-
-def _is_in(path: str, folders: Iterable[str]) -> bool:
-    return any(is_below(path, folder) for folder in folders)
 
 
 class MachineTree(DiskTree):

@@ -69,7 +69,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
 
 
 def create_parser(command: str, *, top: bool = False) -> _ArgumentParser:
-    """Return the parser of a command. With ``top``, its help is that of ros-lint and lists all commands."""
+    """Return the parser of a command. With ``top``, its help text describes ros-lint and lists all commands."""
     commands = "\n".join(f"  {name:17}{summary}" for name, summary in COMMANDS.items())
     parser = _ArgumentParser(
         "ros-lint" if top else f"ros-lint {command}",

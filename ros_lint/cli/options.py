@@ -65,6 +65,13 @@ OPTIONS: tuple[CliOption, ...] = (
     CliOption("min-severity", "word", "info", "lowest severity of findings to show", choices=SEVERITIES),
     CliOption("exclude", "words", (), "patterns of files or folders not to read, such as build_*", metavar="PATTERNS"),
     CliOption(
+        "context",
+        "flag",
+        True,
+        "also read the packages around the requested ones, without reporting their findings",
+        in_file=False,
+    ),
+    CliOption(
         "severity",
         "table",
         {},

@@ -33,7 +33,7 @@ class Progress:
         self.clear()
 
     def update(self, what: str, done: int, total: int) -> None:
-        """Show that ``done`` of ``total`` items of a step are done. ``what`` is its name; ``total`` is 0 if unknown."""
+        """Show that ``done`` of ``total`` items of the step ``what`` are done; ``total`` is 0 if unknown."""
         if (now := self._clock()) < self._next:
             return
         self._next = now + _INTERVAL

@@ -78,7 +78,7 @@ def _fate(former: FormerRule) -> str:
 
 
 def settings(options: Iterable[CliOption]) -> str:
-    """Return a table of options in Markdown. Those that configuration files can set come first."""
+    """Return a table of options in Markdown. Options that configuration files can set come first."""
     lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
     for option in sorted(options, key=lambda option: not option.in_file):
         name = f"`{option.name}`" if option.in_file else ""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.base.tree import DiskTree, repository_of
+from ros_lint.cli.context import context_of, requested_folder
 from ros_lint.cli.options import COMMANDS, OPTIONS
 from ros_lint.cli.settings import Settings, settle
 from ros_lint.engine.registry import BUILTIN
@@ -35,7 +36,9 @@ class Request(NamedTuple):
     base: str
     """Absolute folder to which paths in the output are relative: the repository or the workspace."""
     roots: tuple[str, ...]
-    """The requested paths, relative to the base."""
+    """The requested folders, relative to the base: their packages are checked."""
+    context: tuple[str, ...]
+    """Folders, relative to the base, whose other packages are read as well; () without context."""
     inside: tuple[str, ...]
     """Absolute folders that links in the workspace may lead into: the repository, or the requested paths."""
     target: TargetDistro
@@ -64,40 +67,54 @@ class Session(NamedTuple):
     """As in :class:`Request`."""
     warnings: tuple[str, ...]
 
-    @property
-    def folder(self) -> str:
-        """The checked folder relative to the base; "" for the base itself or for several folders."""
-        return self.roots[0] if len(self.roots) == 1 else ""
-
 
 def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
-    """Return a session for the workspace that the options name. It is not loaded yet.
+    """Return a session for the workspace that the options name. The workspace is not loaded yet.
 
-    ``options`` are those of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
+    ``options`` is the result of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
     :meth:`ros_lint.cli.progress.Progress.update`. Raises UsageError, ConfigError and KnowledgeError.
     """
-    return open_session(parse_request(options, environment), progress)
+    return open_session(parse_request(options, environment, with_context=False), progress)
 
 
-def parse_request(options: Mapping[str, Any], environment: Mapping[str, str]) -> Request:
-    """Validate the options of the command line. Raises UsageError and ConfigError."""
-    paths = [os.path.realpath(path) for path in options.get("paths") or ["."]]
-    for path, written in zip(paths, options.get("paths") or ["."], strict=True):
-        if not os.path.exists(path):
-            raise UsageError(f"{written}: no such file or directory{_command(written)}")
-        if not os.path.isdir(path):
-            raise UsageError(f"{written}: not a directory; pass a workspace or a package")
-    base = _base(paths)
-    inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in paths)
-    settings = settle(
-        {name: value for name, value in options.items() if name != "paths"}, os.path.commonpath(paths), environment, base
-    )
+def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *, with_context: bool = True) -> Request:
+    """Validate the options of the command line. Raises UsageError and ConfigError.
+
+    Without ``with_context``, only the requested folders are read.
+    """
+    paths = list(dict.fromkeys(_requested_folder(written) for written in options.get("paths") or ["."]))
     places = (user_directory(environment),)
+    given = {name: value for name, value in options.items() if name != "paths"}
+    around = list(dict.fromkeys(context_of(path) if with_context and given.get("context", True) else path for path in paths))
+    base = _base(around)
+    settings = settle(given, os.path.commonpath(paths), environment, base)
+    inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in around)
     target, warnings = _target(settings, places)
-    roots = tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
     return Request(
-        settings, base, roots, inside, target, places, fact_cache.folder(environment) if settings["cache"] else "", warnings
+        settings,
+        base,
+        _relative(paths, base),
+        _relative(around, base) if around != paths else (),
+        inside,
+        target,
+        places,
+        fact_cache.folder(environment) if settings["cache"] else "",
+        warnings,
     )
+
+
+def _requested_folder(written: str) -> str:
+    """Return the absolute folder to check for a path of the command line. Raises UsageError."""
+    path = os.path.realpath(written)
+    if not os.path.exists(path):
+        raise UsageError(f"{written}: no such file or directory{_command(written)}")
+    if folder := requested_folder(path):
+        return folder
+    raise UsageError(f"{written}: not a directory and not in a package; pass a workspace, a package or a file of a package")
+
+
+def _relative(paths: Iterable[str], base: str) -> tuple[str, ...]:
+    return tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
 
 
 def open_session(request: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
@@ -114,6 +131,7 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
         workspace or request.disk,
         request.roots,
         request.target,
+        context=request.context,
         underlays=underlays,
         knowledge=knowledge,
         exclude=_excluder(settings["exclude"]),
@@ -125,7 +143,10 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
 
 def _fact_cache_key(request: Request) -> str:
-    """Return the cache key of the facts: the base, and the folders that links may lead into if there are more."""
+    """Return the cache key of the facts: the base, followed by the folders that links may lead into.
+
+    If links may lead into the base only, the key is the base alone.
+    """
     return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
 
 
@@ -137,13 +158,13 @@ _WITHOUT_EFFECT = frozenset((
 
 
 _LIBRARIES = ("libcst", "networkx", "yaml")
-"""Libraries that read files of a workspace. A new version of one invalidates the cache."""
+"""Libraries that read files of a workspace. A new version of a library invalidates the cache."""
 
 
 def report_cache(request: Request) -> ReportCache:
     """Return the cache of the reports of a request.
 
-    It is off if plugins are enabled, because a change in the files of plugins would not be noticed.
+    Nothing is cached if plugins are enabled, because a change in the files of plugins would not be noticed.
     """
     settings = request.settings
     if not request.cache or settings["plugins"]:
@@ -156,7 +177,9 @@ def report_cache(request: Request) -> ReportCache:
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
     data = [*libraries, *(file for folder in folders for file in fact_cache.files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
-    request_key = repr((request.roots, request.inside, request.target, values, prefixes, settings.origin("underlay")))
+    request_key = repr(
+        (request.roots, request.context, request.inside, request.target, values, prefixes, settings.origin("underlay"))
+    )
     return ReportCache(request.cache, request.base, request_key, data)
 
 

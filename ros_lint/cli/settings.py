@@ -1,4 +1,4 @@
-"""Settings with their origins. The command line overrides the configuration file, this the environment and the defaults.
+"""Settings with their origins. Precedence: the command line, the configuration file, the environment, the defaults.
 
 The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace
 folder or above it.
@@ -208,7 +208,7 @@ def _place(path: str, text: str, name: str) -> str:
 
 
 def _relative(option: CliOption, value: Any, path: str) -> Any:
-    """Return the value, and for an option with paths the paths joined to the folder of the configuration file ``path``."""
+    """Return the value of an option; a path is joined to the folder of ``path``, the configuration file that has the value."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value

@@ -53,7 +53,7 @@ def java(source: Text) -> FileFacts:
 
 
 def rust(source: Text) -> FileFacts:
-    """Return the packages of the interfaces that a Rust source names, and those of the client library.
+    """Return the packages of the interfaces that a Rust source names, and the packages of the client library.
 
     Names in the unit tests of the source count for tests only.
     """

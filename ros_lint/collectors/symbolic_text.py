@@ -182,7 +182,7 @@ def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
 
 
 def runs_xacro(text: str) -> bool:
-    """Return whether a text is a command line of xacro, or contains the output of one."""
+    """Return whether a text is a command line of xacro, or contains the output of a command line of xacro."""
     return text.startswith("xacro ") or _XACRO_COMMAND in text
 
 
@@ -246,7 +246,7 @@ def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
 def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Return the names of the launch configurations whose values may contain an install place or a command of xacro.
 
-    ``values`` has the values of each configuration. A value may refer to a configuration that contains one.
+    ``values`` has the values of each configuration. A value may do so by referring to another configuration.
     """
     result: set[str] = set()
     candidates: dict[str, tuple[str, ...]] = {}

@@ -46,10 +46,10 @@ class Baseline(NamedTuple):
     known: Mapping[FindingKey, KnownFindings]
 
     def hide_known(self, report: Report, name: str, folders: Sequence[str]) -> Report:
-        """Return a report without the known findings, and with a warning about those that no longer occur.
+        """Return a report without the known findings, and with a warning about known findings that no longer occur.
 
         ``name`` is the name of the file in messages. ``folders`` are the checked folders. The warning is only given if
-        they are those of the file, because findings in other folders may still occur.
+        they equal the folders in the file, because findings in other folders may still occur.
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
+from ros_lint.base.paths import is_below_any
 from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from ros_lint.analysis.rule import Rule
     from ros_lint.facts.suppressions import Suppression
@@ -18,14 +19,14 @@ if TYPE_CHECKING:
 
 
 class ReportContext(NamedTuple):
-    """What a report needs besides the workspace: data about the run, and the rules that suppressions may name."""
+    """Data about the run that its report contains, and the rules that suppressions may name."""
 
     rules: tuple[Rule, ...]
     """All rules, selected or not."""
     data_date: str
     """The date of the package index, as YYYY-MM-DD."""
-    folder: str
-    """The checked folder relative to the base; "" for the base itself or for several folders."""
+    folders: tuple[str, ...]
+    """The folders to report findings of, relative to the base; "" is the base. Other packages are context."""
     warnings: tuple[str, ...]
     """Warnings about the command line and the settings."""
 
@@ -33,31 +34,35 @@ class ReportContext(NamedTuple):
 def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: ReportContext) -> Report:
     """Return the report of the selected rules, with suppressions and settings applied."""
     suppressions = tuple(suppressions)
-    checked = find_issues(workspace, selection.rules, suppressions, context.rules)
+    checked = find_issues(workspace, selection.rules, suppressions, context.rules, context.folders)
     shown, hidden = show(checked.issues, selection)
-    of_others = find_issues(workspace, selection.off, suppressions, context.rules).issues
+    of_others = find_issues(workspace, selection.off, suppressions, context.rules, context.folders).issues
     if off := [issue for issue in of_others if not selection.ignores_path(issue) and selection.is_severe(issue)]:
         hidden = (*hidden, HiddenCount.of(OFF, off))
     if checked.suppressed:
         hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
+    packages = [package for package in workspace.packages if is_below_any(package.path, context.folders)]
+    unusable = [package for package in workspace.unusable if is_below_any(package.path, context.folders)]
+    checked_packages = len(packages) + len(unusable)
     return Report(
         issues=shown,
         rules=selection.rules,
-        packages=len(workspace.packages) + len(workspace.unusable),
+        packages=checked_packages,
+        context_packages=len(workspace.packages) + len(workspace.unusable) - checked_packages,
         target=workspace.target,
         data_date=context.data_date,
         version=__version__,
         hidden=hidden,
         not_checked=workspace.not_checked,
-        blind_spots=_blind_spots(workspace),
-        ros1=tuple([_name(package) for package in workspace.packages if package.is_ros1]),
+        blind_spots=_blind_spots(packages),
+        ros1=tuple([_name(package) for package in packages if package.is_ros1]),
         crashes=checked.crashes,
-        workspace=context.folder,
+        workspace=context.folders[0] if len(context.folders) == 1 else "",
         warnings=context.warnings,
     )
 
 
-def _blind_spots(workspace: Workspace) -> tuple[BlindSpot, ...]:
+def _blind_spots(packages: Sequence[Package]) -> tuple[BlindSpot, ...]:
     from ros_lint.facts.visibility import Facet  # noqa: PLC0415
 
     words = {
@@ -71,7 +76,7 @@ def _blind_spots(workspace: Workspace) -> tuple[BlindSpot, ...]:
         Facet.EXPORTS: "exported dependencies",
     }
     names_by_word = {
-        word: tuple([_name(package) for package in workspace.packages if package.hidden(facet) and not package.is_ros1])
+        word: tuple([_name(package) for package in packages if package.hidden(facet) and not package.is_ros1])
         for facet, word in words.items()
     }
     return tuple(BlindSpot(word, packages) for word, packages in names_by_word.items() if packages)

@@ -19,7 +19,7 @@ from ros_lint.base.tree import Tree
 
 
 class EditError(Exception):
-    """A file that cannot be written. The message names it. ``written`` lists the files written before."""
+    """A file cannot be edited or written. The message names the file; ``written`` lists the files that were already written."""
 
     def __init__(self, message: str, written: Sequence[str] = ()) -> None:
         super().__init__(message)
@@ -27,7 +27,7 @@ class EditError(Exception):
 
 
 def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
-    """Return the fixes that can be applied together: those that do not overlap an earlier one."""
+    """Return the fixes that can be applied together: a fix that overlaps an earlier returned fix is left out."""
     chosen: list[Fix] = []
     chosen_edits: list[Edit] = []
     for fix in fixes:

@@ -41,7 +41,7 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
 
 
 def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
-    """Return those of the issues of the same package that a cause explains."""
+    """Return the members of ``issues``, which are of one package, that the issue ``cause`` explains."""
     keys = {(consequence.rule, consequence.subject) for consequence in cause.finding.explains}
     return [
         issue

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.finding import Confidence
 from ros_lint.base.diff import line_before, unified_bytes
-from ros_lint.base.paths import join
+from ros_lint.base.paths import is_below_any, join
 from ros_lint.base.text import Span, Text, read
 from ros_lint.engine import edits
 from ros_lint.engine.fixing import Regression
@@ -141,6 +141,7 @@ class FixTrials:
     def _fixable_issues(self, changed: Mapping[str, bytes]) -> list[Issue]:
         """Return the shown issues with a fix of the selected kind."""
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
+        issues = [issue for issue in issues if is_below_any(issue.finding.span.path, self._roots)]
         shown, _ = show(issues, self._selection)
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or self._unsafe)]
 
@@ -174,7 +175,7 @@ def _edited_files(issue: Issue) -> Iterable[str]:
 def _new_findings(before: Counter[str], after: Sequence[Issue]) -> list[Issue]:
     """Return the new findings of high confidence and of rules that are on by default.
 
-    Other findings may change: an undeclared dependency, for example, can become a transitive one.
+    Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
     """
     count = Counter(issue.identity for issue in after)
     serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]

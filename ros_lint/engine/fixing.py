@@ -21,7 +21,7 @@ _MOST_ROUNDS = 100
 
 
 class FixResult(NamedTuple):
-    """The fixes that were verified, and those that were skipped."""
+    """The fixes that were verified, and the fixes that were skipped."""
 
     changed: Mapping[str, bytes]
     """New content by path."""
@@ -38,7 +38,7 @@ class Regression(NamedTuple):
     subject: str | None = None
 
     def suspects(self, group: Sequence[Issue]) -> list[Issue]:
-        """Return the issues whose fixes most likely cause it, by package and subject."""
+        """Return the issues of ``group`` whose fixes most likely cause the regression, by package and subject."""
         same_package = [issue for issue in group if issue.package == self.package]
         same_subject = [issue for issue in group if issue.finding.subject == self.subject]
         both = [issue for issue in same_package if issue in same_subject]
@@ -95,10 +95,10 @@ class _Round:
             self._try(self._groups.pop())
 
     def _try(self, identities: frozenset[str]) -> None:
-        """Apply or skip the fixes with these issue identities, and postpone those that need a trial in a smaller group.
+        """Apply or skip the fixes of the issues with ``identities``; postpone the fixes that need a trial in a smaller group.
 
-        Most groups are large, and few of their fixes cause a regression. So the suspects are postponed first. If the others
-        cause none, a suspect with a regression of its own needs no further trial. Otherwise the group is halved.
+        Most groups are large, and few of their fixes cause a regression. So the suspects are postponed first. If the other
+        fixes cause none, a suspect with a regression of its own needs no further trial. Otherwise the group is halved.
         """
         issues = [issue for issue in self._trials.fixable(self.changed) if issue.identity in identities]  # with current spans
         fixes = edits.choose(issue.finding.fix for issue in issues if issue.finding.fix)

@@ -19,7 +19,7 @@ class FormerRule(NamedTuple):
 
     @property
     def fate(self) -> str:
-        """What became of the rule: completes "rule 'x'"."""
+        """The end of the message that begins with "rule 'x'": "was removed", or "was divided into 'y' and 'z'"."""
         *others, last = (f"'{name}'" for name in self.successors or ("",))
         return f"was divided into {', '.join(others)} and {last}" if others else "was removed"
 
@@ -56,5 +56,5 @@ FORMER = (
 
 
 def former_rule(selector: str) -> FormerRule | None:
-    """Return the former rule with this name or code, in upper or lower case."""
+    """Return the former rule with this name or code, in upper or lower case; None if there is none."""
     return next((rule for rule in FORMER if selector.lower() in (rule.name, rule.code.lower())), None)

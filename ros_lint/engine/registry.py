@@ -28,7 +28,7 @@ class PluginError(UserError):
 
 @lru_cache(maxsize=2)
 def load(plugins: bool = False) -> tuple[Rule, ...]:
-    """Return the built-in rules, and with ``plugins`` those of plugins, sorted by code. Raises PluginError."""
+    """Return the built-in rules, and with ``plugins`` the rules of plugins, sorted by code. Raises PluginError."""
     rules = list(_rules_of(importlib.import_module(BUILTIN)))
     if plugins:
         rules += _plugin_rules()

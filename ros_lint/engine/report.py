@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class ExplainedFinding(NamedTuple):
-    """A finding that is not shown, because another one explains it."""
+    """A finding that is not shown, because another finding explains it."""
 
     rule: str
     """The name of its rule."""
@@ -26,13 +26,13 @@ class ExplainedFinding(NamedTuple):
 
 
 class Issue(NamedTuple):
-    """A finding with its rule, and the package that has to change, "" if the finding is in none."""
+    """A finding with its rule and the name of the package that has to change; "" if no package contains the place."""
 
     rule: Rule
     package: str
     finding: Finding
     explained: tuple[ExplainedFinding, ...] = ()
-    """Findings that are not shown, because this one explains them."""
+    """Findings that are not shown, because this finding explains them."""
 
     @property
     def severity(self) -> Severity:
@@ -110,6 +110,8 @@ class Report(NamedTuple):
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    context_packages: int = 0
+    """Number of packages that were read to check the others, and whose findings are not reported."""
     ros1: tuple[str, ...] = ()
     """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()
@@ -120,5 +122,5 @@ class Report(NamedTuple):
         return sum(issue.severity is severity for issue in self.issues)
 
     def fixable(self, *, safe: bool) -> int:
-        """Return the number of issues with a safe fix, or with an unsafe one."""
+        """Return the number of issues with a safe fix (``safe`` true), or with an unsafe fix."""
         return sum(issue.finding.fix is not None and issue.finding.fix.safe is safe for issue in self.issues)

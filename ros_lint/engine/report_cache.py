@@ -19,7 +19,7 @@ _MOST_REPORTS = 8
 
 
 class ReportCache:
-    """The last reports of a workspace, as files in ``folder``; nothing is cached if that is "".
+    """The last reports of a workspace, as files in ``folder``; nothing is cached if ``folder`` is "".
 
     A report depends on ``options`` (as text), the state of the files in ``data``, the code of ros-lint and the trees,
     and on nothing else. ``base`` is the folder of the workspace.

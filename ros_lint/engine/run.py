@@ -2,28 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.rule import Rule
+from ros_lint.base.paths import is_below_any
 from ros_lint.engine.report import Crash, Issue
 from ros_lint.engine.suppressions import apply_suppressions
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.model import Package, Workspace
 
+EVERYWHERE = ("",)
+"""The folders of a run that reports all findings."""
 
-def run_rules(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
-    """Return all findings of the rules, sorted by place, and the crashes.
 
-    If a rule crashes for one package, its findings in other packages and those of other rules are still returned.
+def run_rules(
+    workspace: Workspace, rules: Iterable[Rule], folders: Sequence[str] = EVERYWHERE
+) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
+    """Return all findings of the rules about packages and files below ``folders``, sorted by place, and the crashes.
+
+    If a rule crashes for one package, its findings in other packages and the findings of other rules are still returned.
     """
     issues: set[Issue] = set()
     crashes: list[Crash] = []
+    packages = [package for package in workspace.packages if is_below_any(package.path, folders)]
+    names = {package.name for package in (*packages, *workspace.unusable) if is_below_any(package.path, folders)}
     for rule in rules:
-        for package in workspace.packages if rule.package else (None,):
+        for package in packages if rule.package else (None,):
             try:
-                issues.update(_issues(rule, package, workspace))
+                found = _issues(rule, package, workspace)
+                issues.update(issue for issue in found if package or _is_about(issue, names, folders))
             except KnowledgeError:
                 raise  # no rule can run, and the user must act
             except Exception:
@@ -34,13 +43,19 @@ def run_rules(workspace: Workspace, rules: Iterable[Rule]) -> tuple[tuple[Issue,
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
-    """Yield the findings of a rule in a package, or those in the workspace if it is a rule of workspaces."""
+    """Yield the findings of a rule in ``package``; for a rule of workspaces (``package`` is None), in the whole workspace."""
     if rule.package is not None and package is not None:
         for finding in rule.package(package, workspace):
             yield Issue(rule, package.name, finding)
     elif rule.workspace is not None:
         for finding in rule.workspace(workspace):
             yield Issue(rule, finding.package or owning_package(workspace, finding.span.path), finding)
+
+
+def _is_about(issue: Issue, names: Container[str], folders: Sequence[str]) -> bool:
+    """Return whether an issue of a rule of workspaces is about one of the named packages, or in a file below ``folders``."""
+    finding = issue.finding
+    return finding.package in names if finding.package else is_below_any(finding.span.path, folders)
 
 
 class CheckedIssues(NamedTuple):
@@ -53,11 +68,18 @@ class CheckedIssues(NamedTuple):
 
 
 def find_issues(
-    workspace: Workspace, rules: Sequence[Rule], suppressions: Iterable[Suppression], all_rules: Sequence[Rule]
+    workspace: Workspace,
+    rules: Sequence[Rule],
+    suppressions: Iterable[Suppression],
+    all_rules: Sequence[Rule],
+    folders: Sequence[str] = EVERYWHERE,
 ) -> CheckedIssues:
-    """Return the issues of ``rules`` after suppression. ``all_rules`` are the rules that suppression comments may name."""
+    """Return the issues of ``rules`` about packages and files below ``folders``, after suppression.
+
+    ``all_rules`` are the rules that suppression comments may name.
+    """
     comments = tuple(suppressions)
-    issues, crashes = run_rules(workspace, rules)
+    issues, crashes = run_rules(workspace, rules, folders)
     ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
     outcome = apply_suppressions(issues, comments, all_rules, ran)
     about_comments = [
@@ -65,6 +87,7 @@ def find_issues(
         for rule in rules
         if rule.suppressions
         for finding in rule.suppressions(outcome.use)
+        if is_below_any(finding.span.path, folders)
     ]
     about_outcome = apply_suppressions(about_comments, comments, all_rules, ran)  # a comment can suppress findings about itself
     kept = tuple(sorted((*outcome.kept, *about_outcome.kept), key=sort_key))

@@ -40,7 +40,7 @@ class Selection(NamedTuple):
         return self.severities.get(issue.rule.name, issue.severity)
 
     def is_severe(self, issue: Issue) -> bool:
-        """Return whether an issue has the lowest severity to show, or a higher one."""
+        """Return whether the severity of an issue is at least the lowest severity to show."""
         return self.severity(issue) >= self.min_severity
 
     def ignores_path(self, issue: Issue) -> bool:
@@ -126,7 +126,7 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
 
 
 def matches(path: str, pattern: str) -> bool:
-    """Return whether a pattern matches a path. Without a slash, it matches its file name or the name of a folder in it."""
+    """Return whether a pattern matches a path. A pattern without a slash matches the file name, or any folder of the path."""
     pattern = pattern.rstrip("/")
     if "/" in pattern:
         return fnmatch.fnmatchcase(path, pattern) or fnmatch.fnmatchcase(path, f"{pattern}/*")

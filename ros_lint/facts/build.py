@@ -142,7 +142,7 @@ class ExportedTarget(NamedTuple):
     export_set: str
     """Name of the set."""
     reaches_dependents: bool
-    """True if each package that finds this one gets the target: ament_export_targets() names the set."""
+    """True if each package that calls find_package() for this package gets the target: ament_export_targets() names the set."""
 
 
 class BuildProject(NamedTuple):
@@ -159,7 +159,7 @@ class BuildProject(NamedTuple):
 
 
 class BuildProducts(NamedTuple):
-    """What the script builds and installs."""
+    """The products of a build script: targets, installed files, components, entry points, Python packages and interfaces."""
 
     targets: tuple[BuildTarget, ...] = ()
     """Executables and libraries that CMake builds."""
@@ -168,7 +168,7 @@ class BuildProducts(NamedTuple):
     components: tuple[Component, ...] = ()
     """Registered classes (rclcpp_components)."""
     entry_points: tuple[EntryPoint, ...] = ()
-    """Entry points of a setup.py; those of the group "console_scripts" are programs."""
+    """Entry points of a setup.py; entry points of the group "console_scripts" are programs."""
     python_packages: tuple[str, ...] = ()
     """Dotted names of importable modules and packages that the build installs."""
     interfaces: tuple[str, ...] = ()
@@ -200,10 +200,10 @@ class BuildFiles(NamedTuple):
 
 
 class BuildExports(NamedTuple):
-    """What a package passes on by its CMake script to each package that calls find_package() for it."""
+    """The exports of a package: what its CMake script passes on to each package that calls find_package() for it."""
 
     config_extras: tuple[str, ...] = ()
-    """CMake files that run in each package that finds this one (CONFIG_EXTRAS), relative to the package."""
+    """CMake files, relative to the package, that run in each package that calls find_package() for it (CONFIG_EXTRAS)."""
     packages: tuple[tuple[Mention, bool], ...] = ()
     """Packages that the CMake configuration of this package finds for its dependents.
 
@@ -300,7 +300,7 @@ class BuildScript(NamedTuple):
     files: BuildFiles = BuildFiles()
     """Files that are not necessarily installed: scripts, plugin descriptions, resources."""
     exports: BuildExports = BuildExports()
-    """What dependents get."""
+    """Files, packages and targets that dependents get by find_package()."""
     commands: CMakeCommands = CMakeCommands()
     """Commands of CMake as written."""
     cmake: CMakeBuild = CMakeBuild()

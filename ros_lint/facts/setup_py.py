@@ -61,7 +61,7 @@ class EditableList(NamedTuple):
     quote: str = "'"
     """Quote character of most texts in the list."""
     joins: str = ""
-    """How setup.py joins paths: the name of a function, "f" for f-strings, or "" for ``+``."""
+    """The way in which setup.py joins paths: the name of a function, "f" for f-strings, or "" for ``+``."""
 
 
 class WrittenText(NamedTuple):

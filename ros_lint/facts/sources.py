@@ -20,7 +20,7 @@ Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool"]
 
 * "export": to pass the package on to dependents.
 * "interfaces": to generate the code of interfaces.
-* "plugins": the package loads the plugins of this one.
+* "plugins": the used package loads plugins that the package with the script provides.
 * "helper": a command of another package of the workspace calls the package.
 * "tool": to run a program of the package in the build.
 """
@@ -101,6 +101,8 @@ class MachinePath(NamedTuple):
     """True if the reader of the path would resolve a relative path from the folder of the file."""
     parameter_default: bool = False
     """True if the path is the default of a parameter that a program declares."""
+    generated_from: str = ""
+    """The name of the file from which xacro generated the file with the path, "" if its header names none."""
 
     @property
     def distribution(self) -> str:

@@ -53,7 +53,7 @@ class Suppression(NamedTuple):
         return first <= self.lines[1] and self.lines[0] <= last
 
     def without(self, names: Iterable[Name]) -> Edit:
-        """Return the edit that removes ``names``, or the whole suppression if no name remains."""
+        """Return the edit that removes ``names`` from the suppression, or the whole suppression if no name remains."""
         removed = set(names)
         remaining = [name.text for name in self.names if name not in removed]
         return Edit(self.inside, ", ".join(remaining)) if remaining else self.removal
@@ -78,7 +78,7 @@ class UnknownSelector(NamedTuple):
     suggestion: str
     """The nearest name or code, or ""."""
     fate: str = ""
-    """What became of a former rule of this name, or ""."""
+    """End of the message about a former rule of this name, such as "was removed"; "" if no former rule has the name."""
 
 
 def lines_of(span: Span) -> tuple[int, int]:

@@ -40,7 +40,7 @@ def distros(places: Sequence[str] = ()) -> tuple[RosDistribution, ...]:
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:
-    """Return the newest long-term support release with an index. ``places`` are those of :func:`distros`."""
+    """Return the newest long-term support release with an index. ``places`` are folders with data as for :func:`distros`."""
     return [distro.name for distro in distros(places) if distro.long_term][-1]
 
 
@@ -183,7 +183,7 @@ class Knowledge:
     def rosdep_resolves(self, name: str, distro: str) -> bool:
         """Return whether ``rosdep install`` resolves a name in a distribution, as a released package or as a key.
 
-        ``distro`` is an active distribution or the one of this object. If the platforms of the distribution are
+        ``distro`` is an active distribution or the distribution of this object. If the platforms of the distribution are
         unknown, all keys count as resolved.
         """
         if self._index(distro).releases(name):

@@ -56,7 +56,7 @@ class Closure:
 
 
 class Reach:
-    """The graph of the names that packages and rosdep keys provide.
+    """The graph of the names that packages and rosdep keys provide: their run-time and exported dependencies.
 
     ``provided_by`` returns the names that a package or key provides directly, None if unknown.
     """

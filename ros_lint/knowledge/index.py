@@ -199,7 +199,7 @@ class Index(Entries[Released]):
         return providers
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return ``names`` together with all names that these provide transitively."""
+        """Return ``names`` together with all names that they provide transitively, through run-time and exported dependencies."""
         return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:

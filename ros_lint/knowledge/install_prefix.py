@@ -84,7 +84,7 @@ class InstallPrefix:
         return None
 
     def executables(self, package: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the names of executables in lib/<package>, and those of broken links there, each sorted.
+        """Return the names of executables in lib/<package>, and the names of broken links in it, each sorted.
 
         Subfolders are left out, because launch_ros does not search them.
         """

@@ -35,7 +35,7 @@ class Providers(NamedTuple):
     names: tuple[str, ...] = ()
     """Packages and keys, best first: the first name is to be declared."""
     packages: tuple[str, ...] = ()
-    """The members of ``names`` that are packages."""
+    """The members of ``names`` that are packages of the workspace, an underlay or the distribution."""
     keys: tuple[str, ...] = ()
     """The members of ``names`` that are rosdep keys."""
     none_needed: bool = False
@@ -339,7 +339,8 @@ def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str,
 def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
     """Return the existing packages among ``names``, and the rosdep keys that are also in ``keys``.
 
-    Keys without a rule for the distribution come last, because a declared name must resolve.
+    Keys without a rule for the distribution come after them, because a declared name must resolve. Packages that only
+    other distributions have come last: ``fastrtps`` is the former name of ``fastdds``.
     """
     ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
     allowed = set(keys)
@@ -348,4 +349,6 @@ def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> 
     existing = [name for name in ordered if name in packages or name in as_keys]
     if as_keys and len(existing) > 1:
         existing.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
+    if existing:  # what another distribution calls the same package: it counts if it is declared
+        existing += [name for name in ordered if name not in existing and world.knowledge.elsewhere(name)]
     return Providers(tuple(existing), packages, as_keys)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Answer = Literal["exists", "missing", "unknowable"]
 """Answer to the question whether a name exists. "unknowable": there is no data to decide it."""
 ContentKind = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
-"""Kinds of names that a package provides. "programs" are files in bin, "executables" those in lib/<package>."""
+"""Kinds of names that a package provides. "programs" are files in bin, "executables" are files in lib/<package>."""
 
 LETTERS: Mapping[ContentKind, str] = {
     "executables": "X",
@@ -84,7 +84,7 @@ class ReleasedContents(NamedTuple):
 
     name: str
     origin: str
-    """Which sources were read: ``=`` those of the release, ``b`` the branch for the distribution, ``~`` the nearest tag."""
+    """The sources that were read: ``=`` the release, ``b`` the branch for the distribution, ``~`` the nearest tag."""
     fields: Mapping[str, tuple[str, ...]]
     """Names by letter, see LETTERS.
 

@@ -112,7 +112,7 @@ class Rosdep(Entries[RosdepKey]):
 
     @cached_property
     def _text(self) -> tuple[bytes, bytes]:
-        """All lines as bytes, and the same in lower case. Both have the same length, so offsets are valid in both."""
+        """All lines as bytes, and a copy in lower case. Both have the same length, so offsets are valid in both."""
         text = "".join(f"{line}\n" for line in self._table.lines()).encode()
         return text, text.lower()
 

@@ -43,7 +43,7 @@ class Spelling:
     def one_slip(self, name: str) -> tuple[str, ...]:
         """Return the names that differ by one letter, sorted.
 
-        The letter is omitted, added, changed, or swapped with the next one. Digits must be equal, because ``lidar_2`` is
+        The letter is omitted, added, changed, or swapped with the next letter. Digits must be equal, because ``lidar_2`` is
         not a typo of ``lidar_1``.
         """
         if len(name) < _MIN_LETTERS:

@@ -123,7 +123,7 @@ class Underlay:
         self.packages: Mapping[str, Installed] = dict(sorted(packages.items()))
 
     def headers(self, path: str) -> tuple[str, ...]:
-        """Return the packages that install a header, sorted. ``path`` is the text between the brackets."""
+        """Return the packages that install a header, sorted. ``path`` is the path in ``#include <path>``."""
         return tuple(sorted({owner for prefix in self._prefixes for owner in prefix.header_owners(path)}))
 
     def modules(self, module: str) -> tuple[str, ...]:

@@ -61,8 +61,8 @@ class Member(NamedTuple):
 class World:
     """Look-ups of names in all layers.
 
-    Data files and underlays are read at their first use, which may raise KnowledgeError. Of several members with one
-    name the first one counts, and of several underlays with one package the first one.
+    Data files and underlays are read at their first use, which may raise KnowledgeError. If several packages of the workspace
+    have the same name, the first one counts. If several underlays have the same package, the first one counts.
     """
 
     def __init__(
@@ -291,7 +291,7 @@ class World:
         return self._providers[key]
 
     def by_include(self, header: str) -> Providers:
-        """Return the providers of a header. ``header`` is the text between the brackets.
+        """Return the providers of a header. ``header`` is the path in ``#include <header>``.
 
         Headers of the workspace are recognized by the package name only, so callers search its files first.
         """
@@ -327,7 +327,7 @@ class World:
         return self.knowledge.elsewhere(name)
 
     def meant(self, name: str, *, python: bool = False) -> Suggestion | None:
-        """Return the name that an unknown name certainly means, or None. It is certain enough for a fix.
+        """Return the name that an unknown name certainly means, or None. The result is certain enough for a fix.
 
         ``python`` is True if the name is needed to run Python code.
         """

@@ -11,7 +11,7 @@ TAB = 4
 
 
 class Style(NamedTuple):
-    """What the terminal supports and the user wants; the caller determines it."""
+    """The output style: the abilities of the terminal and the wishes of the user, as the caller determines them."""
 
     color: bool = False
     """True if colours are used."""

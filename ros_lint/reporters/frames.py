@@ -19,7 +19,7 @@ _CONTEXT = 20
 _MOST_CHARACTERS = 8_000
 """Number of characters of a line that are considered. No screen shows so many."""
 _FIRST_LINES, _LAST_LINES = 3, 2
-"""How many of its first and last lines to show of a place of many lines."""
+"""Number of first lines, and of last lines, that are shown of a place of many lines."""
 _MIN_WIDTH = 40
 """Minimum number of columns for source text."""
 
@@ -84,7 +84,7 @@ class _MarkRange(NamedTuple):
 
 
 class _File:
-    """The part of a frame that shows one file."""
+    """Formats the source lines of one file in a code frame, in which the places of a finding are underlined."""
 
     def __init__(self, source: Text, marks: Sequence[Mark], digits: int, style: Style) -> None:
         self._source = source
@@ -163,7 +163,10 @@ class _File:
         return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
 
     def _side(self, number: int) -> str:
-        """Return the bar to the left of a source line that is within a place of several lines."""
+        """Return the bar to the left of a source line in a place of several lines; blanks for other lines.
+
+        "" if no place has several lines.
+        """
         for place in self._multi_line:
             if place.line < number <= place.end_line:
                 return self._paint(place, "|") + " "
@@ -215,7 +218,7 @@ def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, wid
 
 
 def _extent(place: _MarkRange, number: int) -> tuple[int, int]:
-    """Return the range of characters to underline in a line that is the first or last one of a place."""
+    """Return the range of characters to underline in line ``number``, which is the first or last line of a place."""
     if place.line == place.end_line:
         return place.start, place.end
     return (place.start, place.start + 1) if number == place.line else (max(place.end - 1, 0), place.end)

@@ -29,6 +29,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "data_date": report.data_date,
         "workspace": report.workspace,
         "packages": report.packages,
+        "context_packages": report.context_packages,
         "findings": [_finding(issue) for issue in report.issues],
         "hidden": [{"reason": hidden.reason, "count": hidden.count, "rules": dict(hidden.rules)} for hidden in report.hidden],
         "not_checked": [

@@ -162,7 +162,7 @@ def _result(group: IssueGroup, codes: dict[str, int], texts: SourceTexts, hashes
 def _message(message: str, related: Sequence[tuple[str, Span]], repeated: int) -> str:
     """Return the message with links to the related places, because GitHub shows only places with a link.
 
-    The first ``repeated`` places are those of further findings.
+    The first ``repeated`` places are places of further findings with this message.
     """
     links = [f"[{_link(text)}]({number})" for number, (text, _) in enumerate(related[:_LINKS], 1)]
     parts = [_escape(sentence(message))]
@@ -232,7 +232,7 @@ def _primary(span: Span, source: Text | None) -> JsonObject:
 
 
 def _context(span: Span, source: Text) -> JsonObject:
-    """Return the region of a line and its neighbours, or a part of the line if these are long."""
+    """Return the region of a line with the lines before and after it; if they are long, a part of the line around the span."""
     first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
     context = Span(span.path, first, 1, last, len(source.line(last)) + 1)
     text = source.slice(context)

@@ -47,7 +47,7 @@ def sentence(text: str) -> str:
 
 
 def capital(text: str) -> str:
-    """Return a text as a sentence with a capital letter. It must not begin with a name."""
+    """Return a text as a sentence with a capital letter. The text must not begin with a name, because a name keeps its case."""
     return sentence(f"{text[:1].upper()}{text[1:]}")
 
 
@@ -108,5 +108,5 @@ TOPICS = [
 
 
 def topic(name: str) -> dict[str, Any]:
-    """Return the reference to a kind of notification. Raises StopIteration for an unknown name."""
+    """Return the SARIF reference, id and index, to the kind of notification ``name``. Raises StopIteration if there is none."""
     return next({"id": entry["id"], "index": index} for index, entry in enumerate(TOPICS) if entry["name"] == name)

@@ -40,14 +40,14 @@ def and_list(words: Sequence[str]) -> str:
 
 
 def name_or_count(packages: Sequence[str]) -> str:
-    """Return the names of a few packages as a list, or the number of many with the first names."""
+    """Return the names of packages as a list; if there are many: "12 packages (talker, listener ...)"."""
     if len(packages) <= _NAMED:
         return and_list(packages)
     return f"{count(len(packages), 'package')} ({', '.join(packages[:_NAMED])} ...)"
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield a sentence, without its full stop, about hidden findings and one about what was not fully analysed."""
+    """Yield sentences without their full stop: about hidden findings, and about packages that were not fully analysed."""
     more: Counter[str] = Counter()
     for hidden in report.hidden:
         more.update(dict(hidden.rules))
@@ -90,6 +90,10 @@ def crashed(crash: Crash) -> str:
 
 def _lines(report: Report, style: Style) -> Iterator[str]:
     yield _verdict(report, style)
+    if report.context_packages:
+        total = report.packages + report.context_packages
+        others = "the other is" if report.context_packages == 1 else "the others are"
+        yield f"Checked {report.packages} of {total} packages; {others} context."
     yield from _by_rule(report, style)
     fixes = {"--fix": report.fixable(safe=True), "--fix --unsafe-fixes": report.fixable(safe=False)}
     if any(fixes.values()):

@@ -45,7 +45,7 @@ def render_issues(issues: Iterable[Issue], texts: SourceTexts, style: Style = _P
 
 
 def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
-    """Return the issues in blocks: infos of one rule and package together, where the first of them is."""
+    """Return the issues in blocks, in order. The infos of one rule and package are one block, at the first of these infos."""
     blocks: dict[object, list[Issue]] = {}
     for issue in issues:
         is_info = issue.severity is Severity.INFO
@@ -54,7 +54,7 @@ def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
 
 
 def _infos(issues: Sequence[Issue], texts: SourceTexts, style: Style) -> Iterator[str]:
-    """Yield the rows of a block of infos: the rule, a line for each of them, and what fixes them."""
+    """Yield the rows of a block of infos: the rule, a line for each info, and the options that apply their fixes."""
     rule = issues[0].rule
     title = f"{len(issues)} findings of the check that {rule.summary}"
     yield f"{_head(issues[0], style)}: {paint(style, 'bold', title)}"
@@ -120,7 +120,7 @@ def _explanation(explained: Sequence[ExplainedFinding]) -> str:
 
 
 def _preview(fixes: Sequence[Fix], texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:
-    """Yield the changes of fixes as a diff below a frame, which has this gutter."""
+    """Yield the changes of fixes as a diff below a frame. ``gutter`` are the blanks at the left of the frame."""
     from ros_lint.base.diff import unified  # noqa: PLC0415
     from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (only for diffs)
 

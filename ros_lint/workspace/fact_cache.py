@@ -57,7 +57,7 @@ class FactCache:
         return {path: stored[path][1] for path, stamp in self._stamps.items() if path in stored and stored[path][0] == stamp}
 
     def store(self, tree: Tree, fresh: Mapping[str, Any]) -> None:
-        """Store the facts of files that were read now, and keep those of other existing files."""
+        """Store the facts of files that were read now (``fresh``), and keep the stored facts of other existing files."""
         if not self._files or not fresh:
             return
         changed = set()

@@ -136,9 +136,10 @@ class _InputFinder:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
     def _module_of_named_package(self, module: str, importer: Text) -> str:
-        """Return the path of a module in a package whose quoted name is in ``importer``, which may add it to ``sys.path``.
+        """Return the path of a module in a package whose quoted name is in ``importer``.
 
-        "" if no such package has the module, or several have it.
+        ``importer`` may add the folder of that package to ``sys.path``. The result is "" if no such package has the module, or
+        if several have it.
         """
         named = [package for package in self._by_path.values() if _is_quoted(package.name, importer.text)]
         paths = [path for package in named if (path := _shortest(package, module))]

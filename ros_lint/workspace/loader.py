@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
-from ros_lint.base.paths import join, strip_folder
+from ros_lint.base.paths import is_below, join, parent, strip_folder
 from ros_lint.base.text import Text, file_start
 from ros_lint.base.tree import OverlayTree, Tree, text_of
 from ros_lint.collectors.file_types import kind_of
@@ -30,7 +30,7 @@ from ros_lint.workspace.build_scripts import evaluate as build_scripts
 from ros_lint.workspace.build_scripts.sources import Parts
 from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.discovery import repository_lists
-from ros_lint.workspace.discovery.discover import DiscoveredPackage, Skipped, discover
+from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
 from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.model import Declared, Package, Workspace
@@ -43,6 +43,9 @@ Progress = Callable[[str, int, int], None]
 """Called with the current step, the number of finished items and the number of all items."""
 
 _NO_ROLE = Role(0)
+
+_MOST_CONTEXT = 20_000
+"""Number of folders outside packages up to which a context is searched for packages."""
 
 
 class _ReadPackage(NamedTuple):
@@ -57,7 +60,7 @@ class _ReadPackage(NamedTuple):
 
 
 class Loader:
-    """Loads the packages below ``roots`` of a tree. Paths are relative to the base of the tree."""
+    """Loads the packages below ``roots`` of a tree, and those below ``context``. Paths are relative to the base of the tree."""
 
     def __init__(
         self,
@@ -65,6 +68,7 @@ class Loader:
         roots: Sequence[str],
         target: TargetDistro,
         *,
+        context: Sequence[str] = (),
         underlays: Sequence[Underlay] = (),
         knowledge: Knowledge | None = None,
         exclude: Callable[[str], bool] = lambda path: False,
@@ -79,6 +83,7 @@ class Loader:
         self.target = target
         self._context = target.context
         self._roots = tuple(roots)
+        self._around = tuple(context)
         self._underlays = tuple(underlays)
         self._knowledge = knowledge or Knowledge(target.distro)
         self._exclude = exclude
@@ -95,10 +100,10 @@ class Loader:
         """
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
-        discovery = discover(tree, self._roots, self.target.context)
+        roots, discovery = self._discover(tree)
         discovered = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
         lists = repository_lists.find_lists(
-            tree, self._roots, (join(package.path, file) for package in discovered for file in package.files)
+            tree, roots, (join(package.path, file) for package in discovered for file in package.files)
         )
         submodules = repository_lists.submodules(tree, lists)
         discovered = _without_submodules(discovered, submodules)
@@ -142,6 +147,22 @@ class Loader:
         collected = self._collected_with(changed or {})
         for path in sorted(collected):
             yield from collected[path].suppressions
+
+    def _discover(self, tree: Tree) -> tuple[tuple[str, ...], Discovery]:
+        """Return the folders that are read and their packages.
+
+        The context is left out if it is huge, or if colcon does not find a requested folder in it, such as an ignored folder.
+        """
+        if self._around:
+            around = discover(tree, self._around, self.target.context, _MOST_CONTEXT)
+            places = [*(package.path for package in around.packages), *(parent(manifest.path) for manifest in around.rejected)]
+            if around.complete and all(any(is_below(place, root) for place in places) for root in self._roots):
+                return self._around, around
+            if not around.complete:
+                why = f"there are more than {_MOST_CONTEXT} folders; the requested packages were checked without context"
+                requested = discover(tree, self._roots, self.target.context)
+                return self._roots, requested._replace(not_checked=(*requested.not_checked, UnreadFile("context", why, None)))
+        return self._roots, discover(tree, self._roots, self.target.context)
 
     def _without_excluded(self, package: DiscoveredPackage) -> DiscoveredPackage:
         return package._replace(files=tuple(file for file in package.files if not self._exclude(join(package.path, file))))

@@ -44,7 +44,7 @@ class Declared(NamedTuple):
     def always(self) -> bool:
         """True if the tag applies in every distribution.
 
-        The tag has no condition, or one that is true in every environment of ROS 2.
+        The tag has no condition, or a condition that is true in every environment of ROS 2.
         """
         return conditions.always(self.depend.condition)
 
@@ -64,11 +64,11 @@ class Package(NamedTuple):
     manifest: Manifest | None
     """The package.xml, with its problems, even if colcon cannot use it."""
     declared: tuple[Declared, ...]
-    """Dependency tags, without those whose condition (REP 149) is false."""
+    """Dependency tags, without tags whose condition (REP 149) is false."""
     groups: tuple[str, ...]
     """Dependency groups that the package is a member of."""
     group_depends: tuple[Declared, ...]
-    """``<group_depend>`` tags, without those whose condition is false."""
+    """``<group_depend>`` tags, without tags whose condition is false."""
     colcon_depends: tuple[ColconDepend, ...]
     """Dependencies from ``colcon.pkg``, ``colcon.meta`` or a build script without a manifest."""
     files: tuple[str, ...]
@@ -80,7 +80,7 @@ class Package(NamedTuple):
     script: BuildScript | None
     """The evaluated CMakeLists.txt or setup.py; None if there is none."""
     launch: tuple[LaunchFile, ...]
-    """Launch files of the package, also those that are not installed."""
+    """Launch files of the package, whether they are installed or not."""
     uses: tuple[Use, ...]
     """Places in the sources, launch files and build script that need another package.
 
@@ -89,7 +89,7 @@ class Package(NamedTuple):
     textual_mentions: Mapping[str, Span]
     """For declared names without a use: a place where a text of the package contains the name."""
     opaque: tuple[Opaque, ...]
-    """Places that could not be evaluated. Ask :meth:`hidden` for those that matter to a rule."""
+    """Places that could not be evaluated. :meth:`hidden` returns the places that matter to a rule."""
     possibly_used: frozenset[str] = frozenset()
     """Names that CMake finds and no code certainly uses, although other evidence suggests a use."""
     registrations: tuple[Registration, ...] = ()
@@ -140,7 +140,7 @@ class Package(NamedTuple):
 
     @property
     def built(self) -> BuildScript:
-        """The build script, or one that builds and installs nothing if there is none."""
+        """The build script; if there is none, a BuildScript that builds and installs nothing."""
         return self.script or NOTHING_BUILT
 
     @property
@@ -240,7 +240,7 @@ class Workspace:
         return packages
 
     def called(self, name: str) -> tuple[Package, ...]:
-        """Return the packages with this name in ``package.xml``; if there are none, those with this name in colcon."""
+        """Return the packages with this name in ``package.xml``; if there are none, the packages with this name in colcon."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 

@@ -30,7 +30,7 @@ class TargetDistro(NamedTuple):
 
     @property
     def context(self) -> Mapping[str, str]:
-        """Known variables of conditions in package.xml (REP 149)."""
+        """Values, by name, of the variables in conditions of package.xml that are known for the distribution (REP 149)."""
         return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 

@@ -9,9 +9,9 @@ from ros_lint.base.tree import Entry, Tree
 
 
 class Writable:
-    """The files that a fix may write: below the requested folders after links are resolved, and with only one path.
+    """The files that a fix may write: files below the requested folders, with links resolved, that have only one path.
 
-    ``roots`` and ``paths`` (the files of all packages) are relative to the base of the tree.
+    ``roots`` and ``paths`` (the files of all packages) are relative to the base of the tree. A link gives a file a second path.
     """
 
     def __init__(self, tree: Tree, roots: Iterable[str], paths: Iterable[str]) -> None:

@@ -40,7 +40,10 @@ _WORDS = {"PLUGIN": 0, "NO_UNDEFINED_SYMBOLS": 0, "EXECUTABLE": 1, "EXECUTOR": 1
 
 
 def _strays(call: Call) -> list[tuple[int, int]]:
-    """Return the ranges of arguments that CMake takes for class names but that belong to rclcpp_components_register_node()."""
+    """Return the first and last index of each group of arguments that belong to rclcpp_components_register_node().
+
+    CMake takes these arguments for names of classes: ``EXECUTABLE talker``.
+    """
     words = ((at, _WORDS[text]) for at, text in enumerate(call.texts) if at and text in _WORDS)
     return [(at, min(at + more, len(call.args) - 1)) for at, more in words]
 

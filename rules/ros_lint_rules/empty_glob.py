@@ -63,7 +63,10 @@ _LAUNCH = re.compile(r"launch\.(?:[pxy][yma]\w*)\Z")
 
 
 def _fix(package: Package, pattern: str) -> Fix | None:
-    """Return the fix that writes a pattern which matches: launch files of any name, or the other suffix of YAML."""
+    """Return the fix that writes a pattern with matches: for launch files of any name, or for the other suffix of YAML files.
+
+    None if no file matches such a pattern, or the pattern is not written in exactly one place.
+    """
     script = package.script
     folder, _, name = pattern.rpartition("/")
     if script is None or not folder or _folder(pattern) != folder:

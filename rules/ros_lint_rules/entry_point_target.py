@@ -87,7 +87,7 @@ def _lacking(
 
 
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the finding for a module that is not in the sources, if it must be one of this package."""
+    """Yield the finding for a module that is not in the sources, if it must be a module of ``package``."""
     script = package.script
     if script is None or name in script.products.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
         return

@@ -50,7 +50,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 def _exports_elsewhere(package: Package) -> bool:
-    """Return whether the top CMakeLists.txt exports something with effect."""
+    """Return whether the CMakeLists.txt in the package folder has an ament_export_*() call that takes effect."""
     lost = {call.span for call in package.built.cmake.lost_exports}
     calls = (call for call in package.built.commands.calls if call.path == package.cmake_lists)
     return any(call.name.startswith("ament_export_") and call.name_span not in lost for call in calls)

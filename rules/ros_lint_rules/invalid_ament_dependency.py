@@ -63,10 +63,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for arguments that are certainly not packages: targets, and typos of found packages.
+    """Yield findings for arguments that are certainly not packages: targets, and misspelt names of packages that CMake finds.
 
-    Exported packages need not be found here; declared ones and those with a find module are accepted. Another rule reports
-    misspelt names in the manifest, and once they are fixed, their packages are found.
+    An exported package is accepted without a find_package() if the manifest declares it or a find module exists. A name that
+    is misspelt in the manifest is left to another rule: once it is corrected there, CMake finds the package.
     """
     script = package.script
     assert script is not None
@@ -107,7 +107,10 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
 
 
 def _is_findable(package: Package, name: str, workspace: Workspace) -> bool:
-    """Return whether ``find_package(name)`` may succeed for unknown reasons, or the name is reported elsewhere."""
+    """Return whether ``find_package(name)`` may succeed, because a declared or known package or a file may provide ``name``.
+
+    The result is True as well for a name with ``::``, because another rule reports it.
+    """
     if "::" in name:
         return True  # reported when the command is evaluated
     world = workspace.world
@@ -123,7 +126,10 @@ def _is_plain(name: str) -> bool:
 
 
 def _suggested(name: str, found: frozenset[str]) -> tuple[str, ...]:
-    """Return the found packages for an unknown name: two names without a blank between them, or one similar name."""
+    """Return the packages that an unknown argument may mean, among the packages that CMake finds (``found``).
+
+    Either two names without a blank between them (``rclcppstd_msgs``), or one similar name.
+    """
     for end in range(1, len(name)):
         if name[:end] in found and name[end:] in found:
             return name[:end], name[end:]

@@ -29,7 +29,7 @@ from ros_lint.api import Finding, LaunchFile, Package, Related, Rule, Severity, 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     resolver = launch.include_resolver(workspace)
-    for launch_file in launch.package_launch_files(package):
+    for launch_file in launch.run_launch_files(package):
         for include in launch.includes(launch_file.file):
             yield from _of_include(include, launch_file.file, resolver)
 

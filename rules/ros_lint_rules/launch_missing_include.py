@@ -123,7 +123,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files that launch files name without the help of arguments."""
+    """Yield findings for missing files that launch files name independently of launch arguments."""
     for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
@@ -237,7 +237,7 @@ def _twin(path: str, all_names: tuple[str, ...]) -> str:
 
 
 def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
-    """Return whether the suffix is that of an existing file with its letters in another order: x.yalm."""
+    """Return whether the suffix has the letters of the suffix of an existing file in another order: ``x.yalm``."""
     stem, _, suffix = path.rpartition(".")
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 
@@ -257,7 +257,10 @@ def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: 
 
 
 def _is_made(owner: str, path: str, workspace: Workspace) -> bool:
-    """Return whether such a file is usually created on the robot: maps, files that git ignores, and output of programs."""
+    """Return whether the file ``path`` of package ``owner`` is probably created later, so that sources do not contain it.
+
+    True in a folder such as ``maps`` or ``generated``, and for a file that git ignores.
+    """
     if not _FILLED_LATER.isdisjoint(path.split("/")[:-1]):
         return True
     return any(workspace.is_made(package, path) for package in workspace.by_name.get(owner, ()))
@@ -304,12 +307,18 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
 
 
 def _hint(path: str, all_names: tuple[str, ...]) -> str:
+    """Return the suggestion: a file of the same name, also before or after xacro, or else a file with a similar path."""
     base = path.rpartition("/")[2]
-    same = [name for name in all_names if name.rpartition("/")[2] == base]
-    near = [
-        name for name in names.near_names(path, all_names, 3, 0.8) if names.near_names(base, [name.rpartition("/")[2]], 1, 0.6)
-    ]
+    meant = names.of_same_kind(path, all_names)
+    same = [name for name in meant if name.rpartition("/")[2] == base]
+    same = same or [name for name in meant if _without_xacro(name) == _without_xacro(path)]
+    near = [name for name in names.near_names(path, meant, 3, 0.8) if names.near_names(base, [name.rpartition("/")[2]], 1, 0.6)]
     return names.did_you_mean(names.similar_names(path, same, 1, 0) or near[:1])
+
+
+def _without_xacro(path: str) -> str:
+    """Return the name of a file as xacro would write it: ``robot.urdf`` for ``urdf/robot.urdf.xacro``."""
+    return path.rpartition("/")[2].removesuffix(".xacro")
 
 
 RULE = Rule(

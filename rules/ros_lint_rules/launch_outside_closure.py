@@ -100,7 +100,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _declares(package: Package, name: str) -> str:
-    """Return how the package declares a name that is not a run-time dependency, or that it does not."""
+    """Return the part of the message that says how the package declares a name: only as other tags, or not at all."""
     tags = dict.fromkeys(f"<{declared.depend.tag}>" for declared in package.tags(name))
     return f"declares it only as {' and '.join(tags)}" if tags else "does not depend on it"
 
@@ -130,13 +130,13 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
 def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return the names that the rule wrong-dependency-kind may report, because the declared tag may not cover their uses.
 
-    They are exported, or code uses them at run time for more than launching.
+    The packages with these names are exported, or code uses them at run time for more than launching.
     """
     names: set[str] = set()
     for need in dependencies.needs(package, workspace):
         uses = [use for use in need.uses if use.certain and use.via in ("import", "package") and use.role & Role.EXEC]
         exported = any(use.certain and use.role & Role.EXPORT for use in need.uses)
-        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, uses))):
+        if need.declared and (exported or (uses and not dependencies.is_part_of_launch(package, workspace, uses))):
             names.update(need.declared)
     return frozenset(names)
 

@@ -50,7 +50,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _undeclared(arguments: launch.ArgumentUse, *, included: bool) -> Iterator[Finding]:
-    """Yield the findings for configurations read without a default; ``included``: another file includes this one."""
+    """Yield the findings for configurations read without a default; ``included``: another file includes the launch file."""
     for name, span in arguments.undeclared.items() if len(arguments.undeclared) <= _MOST_MISSING else ():
         near = names.similar_names(name, sorted(arguments.declared), 1, 0.85)
         yield Finding(

@@ -36,7 +36,7 @@ from ros_lint.api import Confidence, Finding, LaunchFile, Package, Rule, Severit
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for launch_file in launch.package_launch_files(package):
+    for launch_file in launch.run_launch_files(package):
         for include in launch.includes(launch_file.file):
             yield from _of_include(include, launch_file.file, workspace)
 
@@ -61,9 +61,10 @@ def _of_include(include: launch.PlacedInclude, source: LaunchFile, workspace: Wo
 
 
 def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, sure: bool, alone: bool) -> Finding:
-    """Return the finding for an argument that the included ``file`` does not use, with a similar unpassed one as suggestion.
+    """Return the finding for an argument ``name`` that is passed to the included ``file`` but that the file does not use.
 
-    ``alone``: no file includes the passing file and later contains something that may read the argument.
+    ``not_passed``: arguments of the file that are not passed, from which a similar name is suggested. ``alone``: no file
+    includes the passing file and later contains something that may read the argument.
     """
     near = names.similar_names(name, not_passed, 1, 0.85)
     return Finding(

@@ -125,7 +125,7 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
     """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
-    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another one.
+    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another package.
     """
     manifest = package.manifest
     if manifest is None or manifest.problems or package.tags(name):
@@ -146,7 +146,10 @@ class _Verdict(NamedTuple):
 
 
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
-    """Yield unknown package names with their places; those that start executables of this package are grouped separately."""
+    """Yield each unknown package name with the places in launch files that name it.
+
+    A name comes twice if some of its places start executables that this package installs: these places are a group of their own.
+    """
     unknown: dict[tuple[str, bool], list[_Place]] = {}
     own = launch.installed_programs(package)
     hidden = bool(package.hidden(Facet.SHARE))
@@ -213,7 +216,7 @@ def _may_have(
 ) -> bool:
     """Return whether package ``other`` may have the executables and files that the places look up in a missing package.
 
-    ``how_many`` is ``any`` or ``all``: how many of them it must have.
+    ``how_many`` is ``any`` if one of the executables and files suffices, ``all`` if ``other`` must have all.
     """
     named = [place.reference for place in places if place.reference.name]
     return not named or how_many(_may_offer(other, reference, workspace) for reference in named)

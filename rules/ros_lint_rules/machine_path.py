@@ -23,8 +23,10 @@ For a file of a package, look up the package:
 
 - Python: `get_package_share_directory('robot')` or `FindPackageShare`.
 - XML and YAML launch files: `$(find-pkg-share robot)`.
-- Models: `package://robot/` or `$(find robot)/`. For Gazebo: `model://robot/`, or `model://box` for a model in a folder of the
+- Models: `package://robot/` or `$(find robot)/`. For Gazebo: `model://robot/` if the folder above the share directory
+  is in the resource path (`<gazebo_ros gazebo_model_path="${prefix}/.."/>`), or `model://box` for a model in a folder of the
   resource path. For parameters that a plugin opens: `$(find robot)/`, which xacro replaces.
+- A model that xacro generated: generate it in the launch file in place of keeping it.
 - Exports of `package.xml`: `${prefix}/`.
 
 Other files:
@@ -97,7 +99,7 @@ class _Inside(NamedTuple):
     rest: str
     """The path below the folder of the package; "" for the folder itself, or if the package has no such file."""
     whole: bool
-    """Whether the path leads to the folder of the package itself."""
+    """True if the path leads to the folder of the package itself."""
     program: str
     """The name of the file for ``ros2 run``, "" if the package does not install it as a program."""
 
@@ -158,15 +160,17 @@ def _where(path: str) -> str:
 def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Package, workspace: Workspace) -> str:
     if _is_interpreter(machine, file):
         return "all programs of the package would use it: write /usr/bin/env python3, or remove it"
+    if source := _source_of_generated(machine, package):
+        return f"xacro generated this file from '{source}': generate it when it is launched"
     if inside is None:
         return "make it an argument, or move the file to a package"
     if machine.is_written:
-        place = f"it is '{inside.rest}' of" if inside.rest else "it is in the sources of"
+        place = f"it is '{inside.rest}' of" if inside.rest else "it leads into the sources of"
         return f"{place} '{inside.package}' but is written at run time: {_without_file(machine, inside, file, package)}"
     if inside.whole and not file.endswith((*_BUILDING, "package.xml")) and not _scheme(inside, file) and not _is_yaml(file):
         return f"it is the folder of '{inside.package}': look up the share directory of '{inside.package}'"
     if not inside.rest:
-        return f"it is in the sources of '{inside.package}': {_without_file(machine, inside, file, package)}"
+        return f"it leads into the sources of '{inside.package}': {_without_file(machine, inside, file, package)}"
     it_is = f"it is '{inside.rest}' of '{inside.package}'"
     folder, _, name = inside.rest.rpartition("/")
     if inside.package == package.name and file.endswith(_BUILDING):
@@ -188,10 +192,31 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
     it_is += ": install it and " if _is_left_out(inside, workspace) else ": "
     if scheme := _scheme(inside, file):
         needs_xacro = scheme.startswith("$") and not file.endswith(".xacro")
-        return f"{it_is}write {scheme}/{inside.rest}" + (", and process this file with xacro" if needs_xacro else "")
+        condition = ", and process this file with xacro" if needs_xacro else _resource_path(scheme, inside, workspace)
+        return f"{it_is}write {scheme}/{inside.rest}{condition}"
     if _is_yaml(file) and not launch.is_launch_file(package, machine.span.path):
         return f"{it_is}pass it from the launch file, which can look up the share directory of '{inside.package}'"
     return f"{it_is}look it up in the share directory of '{inside.package}'"
+
+
+def _source_of_generated(machine: MachinePath, package: Package) -> str:
+    """Return the file of the package from which xacro generated the file with a path, "" if there is none."""
+    name = machine.generated_from.rpartition("/")[2]
+    return next((file for file in sorted(package.files) if name and file.rpartition("/")[2] == name), "")
+
+
+def _resource_path(scheme: str, inside: _Inside, workspace: Workspace) -> str:
+    """Return the condition under which Gazebo finds a package by ``scheme``, "" if its manifest fulfils it.
+
+    Gazebo searches ``gazebo_model_path`` of each ``package.xml`` for the folder of the package (gazebo_ros, ros_gz_sim).
+    """
+    elements = [
+        element for package in workspace.by_name[inside.package] if package.manifest for element in package.manifest.exports
+    ]
+    is_found = any(element.get("gazebo_model_path").rstrip("/").endswith("..") for element in elements)
+    if is_found or not scheme.startswith("model:"):
+        return ""
+    return f", and add the folder above the share directory of '{inside.package}' to Gazebo's resource path"
 
 
 def _as_modules(inside: _Inside, workspace: Workspace) -> str:

@@ -110,7 +110,7 @@ def _invalid(manifest: Manifest) -> Iterator[Finding]:
 
 
 def _order(manifest: Manifest, children: list[Element | Depend]) -> Finding | None:
-    """Return the finding about the first element that is after one that it must precede."""
+    """Return the finding about the first element that is in the wrong order: an element before it has to come after it."""
     highest = children[0]
     for child in children:
         if edits.manifest.schema_rank(child.tag) < edits.manifest.schema_rank(highest.tag):

@@ -96,7 +96,10 @@ def _doubled(package: Package, headers: build.OwnHeaders) -> Iterator[Finding]:
 
 
 def _is_doubled(provided: InstalledFile) -> bool:
-    """Return whether a file of include/ is installed with its whole path below another folder, in every build."""
+    """Return whether a header is installed with its whole path below another folder, in every build.
+
+    ``include/a/b.hpp`` is installed as ``include/a/include/a/b.hpp``.
+    """
     return provided.path.startswith("include/") and provided.path.endswith(f"/{provided.source}") and not provided.conditional
 
 

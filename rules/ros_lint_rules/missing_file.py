@@ -75,7 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_unseen(package: Package, path: str) -> bool:
-    """Return whether a path is in a folder that was not read, such as a submodule, or contains one."""
+    """Return whether a path is in a folder that was not read, such as a submodule, or is a folder above it."""
     return any(f"{path}/".startswith(f"{folder}/") or folder.startswith(f"{path}/") for folder in package.unvisited_folders)
 
 
@@ -136,7 +136,8 @@ def _hint(package: Package, path: str) -> str:
     same = [file for file in package.files if file.rpartition("/")[2] == name]
     if len(same) == 1:
         return names.ask_if_meant(same)
-    siblings = [file.rpartition("/")[2] for file in package.files if file.rpartition("/")[0] == folder]
+    meant = names.of_same_kind(path, package.files)
+    siblings = [file.rpartition("/")[2] for file in meant if file.rpartition("/")[0] == folder]
     return names.ask_if_meant([f"{folder}/{near}".lstrip("/") for near in names.similar_names(name, siblings, 1, 0.8)])
 
 

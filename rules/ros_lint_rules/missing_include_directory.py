@@ -67,7 +67,10 @@ def _are_uninstalled(package: Package, workspace: Workspace) -> bool:
 
 
 def _destinations(package: Package, call: Call) -> Iterator[str | None]:
-    """Yield the folders to which a command installs files, None for an unknown one. Those of INCLUDES are exported only."""
+    """Yield the folders to which a command installs files, None for an unknown folder.
+
+    INCLUDES DESTINATION is left out, because it exports a folder and installs nothing.
+    """
     texts = call.texts
     for index, word in enumerate(texts[:-1]):
         if word == "DESTINATION" and texts[index - 1] != "INCLUDES":
@@ -81,7 +84,7 @@ def _folder(package: Package, text: str) -> str | None:
 
 
 def _of_targets(package: Package) -> Iterator[tuple[str, Span, Severity]]:
-    """Yield the include directories of exported targets, each with its place."""
+    """Yield the folders that exported targets have as INCLUDES DESTINATION, each with its span and the severity of a finding."""
     exported = {export.export_set for export in package.built.exports.targets if export.reaches_dependents}
     for call in package.calls("install", anywhere=True):
         texts = call.texts
@@ -99,7 +102,7 @@ def _of_ament(package: Package) -> Iterator[tuple[str, Span, Severity]]:
 
 
 def _below_include(package: Package, call: Call, at: int, severity: Severity) -> Iterator[tuple[str, Span, Severity]]:
-    """Yield the folder below include/ that an argument names."""
+    """Yield the folder that the argument at index ``at`` names, with its span and ``severity``, if it is below include/."""
     folder = _folder(package, call.texts[at]) if at < len(call.args) else None
     if folder is not None and folder.startswith("include/"):
         yield folder, call.span(at), severity

@@ -153,7 +153,7 @@ def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[Uni
 
 
 def _remedy(package: Package, folder: str, name: str, slot: EditableList | None) -> str:
-    """Return the end of the message: how the folder becomes a Python package; "" if it is one."""
+    """Return the end of the message: what makes the folder a Python package; "" if the folder has an __init__.py."""
     if f"{folder}/__init__.py" in package.files:
         return ""
     return f"; add {folder}/__init__.py" + (

@@ -105,7 +105,10 @@ def _full_name(passed: launch.NodeParameterFile) -> str:
 
 
 def _may_be_of(passed: launch.NodeParameterFile, rewrites: bool) -> bool:
-    """Return whether a file may have parameters for the node that receives it (``rclcpp::parameter_map_from``)."""
+    """Return whether a file may have parameters for the node that receives it (``rclcpp::parameter_map_from``).
+
+    ``rewrites`` is True if the launch file imports a module that may change the contents of parameter files.
+    """
     words = (text for _, value in passed.action.arguments for text in value.texts)
     if passed.action.children or _is_container(passed) or any(map(launch.is_node_renaming, words)):
         return True

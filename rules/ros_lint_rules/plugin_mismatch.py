@@ -106,7 +106,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
 
 
 def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]) -> Iterator[Finding]:
-    """Yield a finding if every registration of a plugin has a base class other than the described one."""
+    """Yield a finding if every registration of a plugin has a base class other than the class in the description."""
     if all(_differ(entry.base, macro.base) for macro in macros):
         yield Finding(
             f"'{entry.type}' is described as '{entry.base}', but registered as '{macros[0].base}'; "

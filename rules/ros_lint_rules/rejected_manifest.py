@@ -100,7 +100,7 @@ def _equal(first: Depend, second: Depend) -> bool:
 
 
 def _raised(manifest: Manifest, problem: Problem) -> Fix | None:
-    """Return the fix that raises the format to the needed one; None if a <run_depend> needs format 1."""
+    """Return the fix that raises the format of the manifest; None if a <run_depend> needs format 1."""
     form = problem.subject
     if not form or (manifest.format == 1 and any(depend.tag == "run_depend" for depend in manifest.depends)):
         return None

@@ -91,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if any(misnamed.intersection(use.providers) for use in need.uses):
             continue
-        if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, need.uses)):
+        if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, workspace, need.uses)):
             may_be_unused = all(map(_is_in_cmake, need.uses)) and (uses_are_hidden or len(need.uses) == 1)
             certain = need.sure and not may_be_unused
             yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
@@ -109,10 +109,10 @@ def _is_command(need: dependencies.Need) -> bool:
 
 
 def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
-    """Return whether packages rarely declare such a use, because the first package of ``path`` is there to provide it.
+    """Return whether packages rarely declare ``need``, because the first package of ``path`` exists in order to provide it.
 
-    This holds for parts of build tools, tools that run tests, linters, what launch files use of a metapackage, and launch
-    in launch files.
+    True for parts of build tools, tools that run tests, linters, packages that launch files use through a metapackage, and
+    launch itself in launch files.
     """
     carrier, is_direct = path[0], len(path) == 2
     if need.name == _CORE or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):
@@ -127,7 +127,12 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
     if is_direct and all(use.via in ("launch", "package") for use in need.uses):
         return dependencies.only_brings(workspace.world, carrier)
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
-    return dependencies.is_part_of_launch(package, outside_tests or need.uses)
+    return dependencies.is_part_of_launch(package, workspace, outside_tests or need.uses)
+
+
+def _is_part_of_build_tool(path: Sequence[str]) -> bool:
+    """Return whether ``ament_cmake`` itself depends on the last package of ``path``, as it does on ``ament_cmake_python``."""
+    return len(path) == 2 and path[0] == _BUILD_TOOL and path[1].startswith(f"{_BUILD_TOOL}_")
 
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:
@@ -146,12 +151,15 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
-        None if dependencies.is_found_by_cmake(need) else Severity.INFO,
+        None if dependencies.is_found_by_cmake(need) and not _is_part_of_build_tool(path) else Severity.INFO,
     )
 
 
 def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
-    """Return the dependencies that lead to a need, from a declared one that serves the same purpose if possible."""
+    """Return the names on a path of dependencies, from a declared name to the needed package.
+
+    The declared name serves the purpose of the need if possible: to build, to run or to test.
+    """
     best = need.uses[0]
     names = _declared_names(package, workspace)
     for starts in (names[_purpose(best.role)], names[_ANY]):

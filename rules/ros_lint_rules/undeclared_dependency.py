@@ -87,7 +87,10 @@ missing. They are reported as `transitive-dependency` once the other one is decl
 - libraries that only files with headers of the other one include, if it depends on them directly: `orocos_kdl_vendor` beside
   `kdl_parser`. Packages that `find_package()` names and interfaces are shown.
 
-The severity is info for modules of launch that only launch files import, because `ros2 launch` provides them.
+The severity is lower if the package works where it is built and launched today:
+
+- info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
+- warning for `python3-pytest`, because colcon itself depends on it.
 """
 
 from __future__ import annotations
@@ -115,10 +118,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
     undeclared_needs = dependencies.undeclared(package, workspace)
-    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, need.uses)}
+    with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
         problem = "is used here, but package.xml does not declare it"
-        severity = Severity.INFO if need.name in with_launch else None
+        severity = Severity.INFO if need.name in with_launch else Severity.WARNING if need.name == _PYTEST else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
@@ -192,7 +195,10 @@ def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -
 def _brought(
     package: Package, workspace: Workspace, need: dependencies.Need, all_needs: Iterable[tuple[dependencies.Need, bool]]
 ) -> tuple[Consequence, ...]:
-    """Return the undeclared packages that come with another one, ``need``, once it is declared, and need no tag of their own."""
+    """Return the findings for undeclared packages that need no tag of their own once ``need`` is declared.
+
+    These packages are dependencies of ``need``, which provides them.
+    """
     closure = workspace.world.closure((need.name,))
     return tuple(
         [
@@ -208,7 +214,7 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False
-    if dependencies.is_part_of_launch(package, other.uses):
+    if dependencies.is_part_of_launch(package, workspace, other.uses):
         return True
     if other.role is Role.TEST and other.name in dependencies.TEST_MODULES:
         return True
@@ -218,13 +224,18 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
     )
 
 
+_PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
 """Headers of interfaces, which packages declare even if another package brings them."""
 
 
 def _suggestion(name: str, workspace: Workspace) -> str:
-    """Return the package that an unresolved name most likely means: a near match or one with a prefix; "" if ambiguous."""
+    """Return the package that an unresolved name most likely means, "" if ambiguous.
+
+    Either a misspelt name, or the only package of the workspace that has the name after a prefix: ``my_robot_msgs`` for
+    ``robot_msgs``.
+    """
     if workspace.world.resolution(name) != "unknown":
         return ""
     meant = workspace.world.meant(name)

@@ -111,7 +111,7 @@ def _is_certain(lack: Lack) -> bool:
 def _together(lacks: Sequence[Lack], linked: Sequence[Lack]) -> Lack:
     """Return one finding for all packages that a single ament_export_dependencies() has to export.
 
-    ``linked`` are those of the lacks that concern targets.
+    ``linked`` are the members of ``lacks`` whose packages are linked, not included.
     """
     (first_names, first), *others = lacks
     if not others:
@@ -144,9 +144,9 @@ def _exported(script: BuildScript) -> set[str]:
 
 
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
-    """Yield the packages whose targets exported libraries link but which dependents do not find, with the finding.
+    """Yield the finding about packages that dependents do not find, although an exported library links their targets.
 
-    The names are () if it is uncertain that dependents do not find them.
+    Each finding comes with the names of the packages, () if it is uncertain that dependents do not find them.
     """
     script = package.script
     if script is None or not _is_seen(package):
@@ -250,9 +250,9 @@ _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
 
 
 def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
-    """Yield the CMake name of each package that installed headers include but that is not exported, with the finding.
+    """Yield a pair for each package that installed headers include but that is not exported: the CMake name and the finding.
 
-    The names are () if the finding is uncertain.
+    The name is in a tuple, which is () if the finding is uncertain.
     """
     script = package.script
     if script is None or not _is_seen(package):
@@ -332,7 +332,7 @@ def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
 
 
 def _is_written_out(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether the include directories of a package are exported by the variable of that package."""
+    """Return whether a package's include directories are exported or public by their variable, as in ``${x_INCLUDE_DIRS}``."""
     calls = package.calls("target_include_directories", "ament_export_include_directories", anywhere=True)
     words = [word for call in calls if "PRIVATE" not in call.texts for word in call.texts]
     cmake_names = [match[1] for word in words if (match := _DIRECTORIES.fullmatch(word))]

@@ -87,7 +87,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _of_python(package: Package) -> Iterator[Finding]:
-    """Yield one finding for all interfaces of a package, at the tag that declares that it generates interfaces."""
+    """Yield one finding for all interface files of an ament_python package, which cannot generate code for them.
+
+    The span is the tag that declares that the package generates interfaces.
+    """
     depends = package.manifest.depends if package.manifest else ()
     tag = next((depend for depend in depends if depend.name in _DECLARE_INTERFACES), None)
     suffixes = tuple([f".{kind}" for kind in names.interfaces.KINDS])
@@ -153,7 +156,7 @@ def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:
 
 
 def _fix(calls: list[Call], files: list[str]) -> Fix | None:
-    """Return the fix that adds files of one folder below the last listed one; None if no file is listed literally."""
+    """Return the fix that lists files of one folder after the last listed file; None if no file is listed literally."""
     folder = f"{files[0].partition('/')[0]}/"
     for call in calls:
         at = max((index for index, text in enumerate(call.texts) if text.startswith(folder)), default=None)

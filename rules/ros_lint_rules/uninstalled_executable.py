@@ -125,7 +125,10 @@ def _is_outside_packages(folder: str) -> bool:
 
 
 def _only_excluded_start(package: Package, name: str, launched: Sequence[LaunchReference], workspace: Workspace) -> bool:
-    """Return whether only launch files that are not installed start the program, one of them excluded on purpose."""
+    """Return whether an excluded launch file of the package starts the program ``name``, and no installed launch file does.
+
+    A launch file is excluded if the build script deliberately does not install it.
+    """
     if name not in launch.node_references([package], excluded=True).get(package.name, {}):
         return False
     paths = {reference.span.path for reference in launched}

@@ -81,7 +81,7 @@ _RUN_TIME = (
 )  # fmt: skip
 """Suffixes of files that are only used at run time."""
 _OF_MODELS = (".dae", ".obj", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro")
-"""Suffixes of those that only files and programs look up; displays, maps and parameters are also opened by hand."""
+"""Suffixes of resources that only files and programs look up; displays, maps and parameters are also opened by hand."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -240,7 +240,7 @@ _TO_COPY = ("example", "sample", "template")
 
 
 def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
-    """Return pairs of a launch file and the name of a file that it looks up in other packages, but not in this one."""
+    """Return pairs of a launch file and the name of a file that it looks up in other packages, but not in ``package``."""
     file_paths = [file for launch_file in package.launch for file in launch_file.references if file.kind in ("file", "include")]
     own = {(file.span.path, _name(file.name)) for file in file_paths if file.package == package.name}
     return frozenset([(file.span.path, _name(file.name)) for file in file_paths]) - own
@@ -262,7 +262,11 @@ def _only_files(package: Package, script: BuildScript) -> bool:
 
 
 def _node_parameters(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the files with parameters of nodes, if the package installs nodes, or files only."""
+    """Return the files with parameters of nodes, relative to the package.
+
+    Empty unless the package installs components or programs, or installs nothing but files to its share folder. Empty for
+    a package of examples, too.
+    """
     runs = script.products.components or any(
         provided.path.startswith(f"lib/{package.name}/") for provided in script.products.installs
     )

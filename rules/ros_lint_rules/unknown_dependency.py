@@ -98,7 +98,10 @@ def _needless(unresolved: dependencies.UnresolvedDependency, why: str) -> Findin
 
 
 def _own(unresolved: dependencies.UnresolvedDependency) -> str:
-    """Return "program" or "module" if the package has one of that name and refers to no package of that name, else ""."""
+    """Return "program" or "module" if the package itself has a program or module that is called like the unresolved name.
+
+    "" if it has none, or if its build script or launch files refer to a package of this name.
+    """
     package, name = unresolved.package, unresolved.name
     if any(mention.name == name for mention in package.built.mentions):
         return ""
@@ -201,7 +204,7 @@ def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspa
 
 
 def _caller(by: str, key: str) -> str:
-    """Return what the declared name belongs to, such as "pip" or "find_package", for messages; "" if unknown.
+    """Return the tool that uses the declared name, such as "pip" or "find_package", for messages; "" if unknown.
 
     ``by``: how the rosdep key ``key`` was found.
     """

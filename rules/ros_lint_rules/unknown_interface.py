@@ -111,7 +111,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _used(package: Package) -> Iterator[_Used]:
-    """Yield the certain uses of interfaces, including those of the package itself."""
+    """Yield the certain uses of interfaces, including interfaces of the package itself."""
     needed = [use for use in package.uses if use.certain and not use.optional]
     for use in needed:
         if use.via == "interface":

@@ -75,8 +75,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     searched = dependencies.names_searched(package, script)
     certain = not any(_PROVIDES_CODE.search(name) and not _WITHOUT_VARIABLES.match(name) for name in searched)
+    products = script.products
+    has_exports = products.targets or products.interfaces or any(file.path.startswith("include/") for file in products.installs)
     for name, places in references.items():
-        yield _finding(name, places, _similar(package, name), certain)
+        finding = _finding(name, places, _similar(package, name), certain)
+        harmless = not has_exports and all(reference.command.startswith("ament_export_") for reference in places)
+        yield finding._replace(severity=Severity.INFO) if harmless else finding
 
 
 _PROVIDES_CODE = re.compile("build|cmake|common|config|macros|modules|tools")

@@ -174,7 +174,7 @@ def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> boo
 
 
 def _can_test_with(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Return whether the package has tests that can use a name: only Python code can use a package of Python modules."""
+    """Return whether the package has tests that can use the package ``name``. An ament_python package needs Python tests."""
     if not any("test" in file.lower() for file in package.files) and not any(
         "test" in call and call not in _NO_TEST for call in script.commands.names
     ):

@@ -127,7 +127,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
         # A key for building and another one for running complement each other.
         names = dict.fromkeys((*need.declared, *(name for use in need.uses for name in use.providers if name in by_name)))
         tags = [declared for name in names for declared in by_name[name]]
-        if any(map(_is_for_all, tags)) or dependencies.is_part_of_launch(package, need.uses):
+        if any(map(_is_for_all, tags)) or dependencies.is_part_of_launch(package, workspace, need.uses):
             continue
         exported = need._replace(uses=tuple(_exported_uses(package, need, assume_installed=False)))
         lacking = _lacks(package, workspace, exported, tags)
@@ -189,9 +189,9 @@ class _Lack(NamedTuple):
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
-    """Return the lack of an export that headers in include/ cause, with low confidence; None for any other lack.
+    """Return a missing export to report before the headers of the package are installed, with low confidence.
 
-    The headers are not installed yet.
+    The result is None if ``lacking`` is None or is not about an export.
     """
     if lacking is None or lacking.role is not Role.EXPORT:
         return None
@@ -200,7 +200,7 @@ def _once_installed(lacking: _Lack | None) -> _Lack | None:
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
-    """Return the roles that tags cover together: all tags, or those of one name."""
+    """Return the roles that tags cover together: all ``tags``, or with ``name`` only the tags of this name."""
     role = Role(0)
     for declared in tags:
         if name in ("", declared.name):

@@ -55,7 +55,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _for_itself(package: Package, call: Call, bases: Collection[str], workspace: Workspace) -> Iterator[Finding]:
     """Yield the finding for a description that is exported for its own package, for which nothing loads plugins.
 
-    All its base classes belong to one other package.
+    All its base classes (``bases``) belong to one other package.
     """
     owners = {base.partition("::")[0] for base in bases}
     asked = {loader.package for loaders in build.plugin_loaders(workspace).values() for loader in loaders}

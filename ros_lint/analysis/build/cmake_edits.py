@@ -21,7 +21,7 @@ install(TARGETS {}
 def at_end(script: BuildScript, code: str) -> Edit | None:
     """Return the edit that adds commands before ament_package().
 
-    A blank line separates the commands if one separates ament_package() from the command before it.
+    Blank lines surround the added commands if a blank line is before ament_package().
     """
     if script.commands.insertion is None:
         return None
@@ -33,7 +33,7 @@ def at_end(script: BuildScript, code: str) -> Edit | None:
 
 
 def install_library(script: BuildScript, name: str) -> Edit | None:
-    """Return the edit that installs a library target."""
+    """Return the edit that installs a library target, None if the script has no place for further commands."""
     return at_end(script, _LIBRARY.format(name))
 
 
@@ -65,7 +65,7 @@ def install_folder(package: Package, folder: str) -> Edit | None:
 
 
 def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
-    """Return the edit that exports dependencies by ament_export_dependencies(): by the existing call, or else by a new one."""
+    """Return the edit that adds ``names`` to an existing call of ament_export_dependencies(), or else adds a new call."""
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
         return add_argument(call, *names)
@@ -139,7 +139,7 @@ def _beside(package: Package) -> Call | None:
 def keep_permissions(call: Call) -> Edit:
     """Return the edit that adds USE_SOURCE_PERMISSIONS to install(DIRECTORY).
 
-    It comes after the destination, because patterns have to come later.
+    The keyword comes after the destination, because patterns have to come later.
     """
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")

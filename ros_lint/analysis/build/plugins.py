@@ -24,7 +24,7 @@ class Plugins(NamedTuple):
     installed: Sequence[PluginFile]
     """Descriptions that are installed."""
     uninstalled: Sequence[PluginFile]
-    """Other descriptions, without those of tests and examples."""
+    """Descriptions that are not installed, except for descriptions of tests and examples."""
     exports: bool
     """True if the build script exports descriptions."""
 

@@ -16,7 +16,7 @@ from ros_lint.workspace.model import Package
 
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
-    """Yield the executable targets of a build script, without those for tests.
+    """Yield the executable targets of a build script, without targets for tests.
 
     A target is for tests if it is only built for tests, or if its name contains "test".
     """

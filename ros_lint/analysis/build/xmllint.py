@@ -1,4 +1,4 @@
-"""Whether the tests of a package run ament_xmllint, which validates its manifest."""
+"""Determine whether the tests of a package run ament_xmllint, which validates its manifest."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def explain(package: Package, workspace: Workspace, name: str, confidences: Mapp
 
 
 def used_in(uses: Sequence[Use]) -> Iterator[str]:
-    """Yield a line for each of the first five uses: place, what is used, and the purposes. A last line counts further uses."""
+    """Yield a line for each of the first five uses: place, used name and purposes. A last line counts further uses."""
     for use in uses[:_MOST]:
         yield f"{use.span}: {use.what}, {_needed_for(use)}"
     if len(uses) > _MOST:

@@ -95,7 +95,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
             if (
                 not uses
                 or need.name in unguarded
-                or is_part_of_launch(package, uses)
+                or is_part_of_launch(package, workspace, uses)
                 or any(need is other.need for other in result)
             ):
                 continue
@@ -114,7 +114,7 @@ def _outside(closure: Closure, uses: Iterable[Use]) -> list[Use]:
 def _may_provide(closure: Closure, name: str, workspace: Workspace) -> bool:
     """Return whether a package of a closure may provide ``name``, although the closure does not contain it.
 
-    This may be a package with unknown dependencies. If the user chose no distribution, it may also be a package that
+    A package with unknown dependencies may provide ``name``. If the user chose no distribution, so may a package that
     provides ``name`` in another distribution.
     """
     if may_provide(closure.unknown, name, workspace):

@@ -71,7 +71,7 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 def availability_remark(workspace: Workspace, name: str) -> str:
     """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
 
-    The name has to resolve in the distribution that the user chose, or in every active one if the user chose none.
+    The name has to resolve in the distribution that the user chose; without a choice, in every active distribution.
     Packages of the workspace and of underlays resolve in all of them.
     """
     remarks = _remarks(workspace)
@@ -112,7 +112,7 @@ def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[st
 
     Declaring ``name`` would close a cycle then. Between packages of the workspace every dependency tag counts, because colcon
     orders packages by all tags. Of released packages only run-time dependencies count; if the target distribution lacks
-    ``name``, those in any distribution.
+    ``name``, the run-time dependencies in any distribution.
     """
     graph = dependency_graph(workspace) if name in workspace.by_name else None
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):

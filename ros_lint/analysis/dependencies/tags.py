@@ -78,9 +78,9 @@ def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
 
 
 def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that replace all tags of a dependency by one. The package must have a manifest.
+    """Return the edits that replace all tags of a dependency by one ``tag``. The package must have a manifest.
 
-    ``depends`` are the tags of the dependency, ``alike`` those of all dependencies that the fix changes to ``tag``.
+    ``depends`` are the tags of the dependency, ``alike`` the tags of all dependencies that the fix changes to ``tag``.
     """
     assert package.manifest is not None
     changed = next((depend for depend in depends if depend.tag == tag), depends[0])

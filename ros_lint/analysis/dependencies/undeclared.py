@@ -11,6 +11,7 @@ from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.dependencies.unresolved import intended_names, misspelled_names
 from ros_lint.analysis.memo import cached_by_package
 from ros_lint.facts.launch import LAUNCH_RUNTIME
+from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use
 from ros_lint.knowledge.spelling import is_part
 from ros_lint.workspace.model import Package, Workspace
@@ -94,7 +95,7 @@ def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bo
 
 
 def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
-    """Return whether a package exists in the target distribution, or in any if the user did not choose one."""
+    """Return whether a package exists in the target distribution; if the user chose none, in any distribution."""
     world = workspace.world
     return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
@@ -135,9 +136,9 @@ def _comes_with(need: Need, others: Iterable[Need], workspace: Workspace) -> boo
 
 
 def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace: Workspace) -> tuple[Use, ...]:
-    """Return ``uses`` if an unknown dependency cannot satisfy every certain use of them, else ().
+    """Return ``uses`` if the unknown dependencies cannot satisfy every certain use, else ().
 
-    ``unknown`` are the declared names whose dependencies are unknown. The uses that none of them could satisfy come first.
+    ``unknown`` are the declared names whose dependencies are unknown. The uses that no unknown name could satisfy come first.
     Each use counts separately: an unknown package may provide a library, but not the file that find_package() needs.
     """
     uses = tuple(uses)
@@ -159,7 +160,16 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
     return not all(use.span.path in helpers for use in uses)
 
 
-def is_part_of_launch(package: Package, uses: Iterable[Use]) -> bool:
-    """Return whether all uses are imports, in launch files, of packages that are installed together with ``ros2 launch``."""
+def is_part_of_launch(package: Package, workspace: Workspace, uses: Iterable[Use]) -> bool:
+    """Return whether all uses are imports, in launch files, of packages that are installed together with ``ros2 launch``.
+
+    They are the libraries of launch and, outside tests, their dependencies, such as ``python3-yaml`` and ``lifecycle_msgs``.
+    """
     launched = {launch.path for launch in package.launch}
-    return all(use.via == "import" and use.package in LAUNCH_RUNTIME and use.span.path in launched for use in uses)
+    installed = workspace.world.closure(LAUNCH_RUNTIME)
+    return all(
+        use.via == "import"
+        and use.span.path in launched
+        and (use.package in LAUNCH_RUNTIME or (use.role is not Role.TEST and use.package in installed))
+        for use in uses
+    )

@@ -1,4 +1,4 @@
-"""Whether an unknown declared dependency may provide a package. If it may, an undeclared need is not certain."""
+"""Determine whether an unknown declared dependency may provide a package. If so, an undeclared need is not certain."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", 
 
 
 def _words(name: str) -> frozenset[str]:
-    """Return the significant words of a name, without version numbers: mrpt2 resembles mrpt_libobs."""
+    """Return the significant words of a name, without version numbers: ``mrpt2_tools`` -> {"mrpt"}."""
     return frozenset([word.rstrip("0123456789")[:8] or word for word in name.replace("-", "_").split("_")]) - _EVERYDAY
 
 

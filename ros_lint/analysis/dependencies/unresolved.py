@@ -32,7 +32,7 @@ class UnresolvedDependency(NamedTuple):
 
     @property
     def runs_python(self) -> bool:
-        """True if the tags and uses of the name allow that only Python code needs it at run time."""
+        """True if only Python code may need the name at run time, according to its tags and its uses."""
         if self.package.builds_with == "ament_python":
             return True
         vias = {use.via for use in self.matching_uses}

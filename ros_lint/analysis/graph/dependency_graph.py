@@ -49,7 +49,7 @@ class Order(NamedTuple):
     names: tuple[str, ...]
     """Packages in an order in which dependencies come first."""
     stuck: tuple[str, ...]
-    """Packages that lie on a cycle or depend on one, sorted."""
+    """Packages that lie on a cycle, or depend on a package on a cycle, sorted."""
 
 
 class Graph:
@@ -103,7 +103,7 @@ class Graph:
     def order(self) -> Order:
         """A build order: of all packages that can be built next, the first by name comes next.
 
-        It respects uncertain edges, too, unless they close a cycle.
+        The order respects uncertain edges, too, unless they close a cycle.
         """
         names, stuck = sort(self.arcs)
         if stuck and any(self.certain_arcs[name] != self.arcs[name] for name in stuck):

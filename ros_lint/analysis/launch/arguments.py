@@ -39,9 +39,10 @@ class ArgumentUse(NamedTuple):
 
 
 def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
-    """Return how a launch file declares and reads launch arguments.
+    """Return the launch arguments that a launch file declares and reads.
 
-    None if a file that it includes, that includes it or that is unreadable may declare or read further arguments.
+    None if further arguments may be declared or read: by an unreadable file, by a file that the launch file includes, or
+    by a file that includes the launch file.
     """
     tree, resolver = include_tree(workspace), include_resolver(workspace)
     own = tree.names(file)
@@ -58,7 +59,7 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
 
 
 def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, SimilarRead]]:
-    """Yield those of ``names`` that the file reads with a default and that resemble a declared argument.
+    """Yield the elements of ``names`` that the file reads with a default and that resemble a declared argument.
 
     Names with different digits are not similar: ``camera1`` and ``camera2``.
     """

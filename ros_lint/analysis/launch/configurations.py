@@ -29,7 +29,7 @@ class FileConfigurations(NamedTuple):
 
 
 def names_of(file: LaunchFile) -> FileConfigurations:
-    """Return the launch configurations that a file declares, sets, passes and reads, without those of included files."""
+    """Return the launch configurations that a file itself, not its included files, declares, sets, passes and reads."""
     declared: dict[str, Span] = {}
     set_or_passed: set[str] = set()
     read = configurations_read(file)
@@ -46,7 +46,10 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
-    """Return those of ``names`` that the file reads without a default, so that they have to be set; each with the first place."""
+    """Return the elements of ``names`` that the file reads without a default and that callers have to set.
+
+    Each has the place where the file first reads it.
+    """
     return {name: span for (name, has_default), span in read_sites(file, names).items() if not has_default}
 
 
@@ -69,7 +72,7 @@ class IncludeTree:
         self._includers: dict[str, set[str]] = {}
         self._included: dict[str, set[str]] = {}
         self.set_or_passed = frozenset().union(*(names.set_or_passed for names in self._names.values()))
-        """Configurations that any file sets or passes to another one."""
+        """Configurations that any launch file sets, or passes to another launch file."""
         self._filling = {path for path, names in self._names.items() if names.may_read_any}
         self._filled: dict[str, bool] = {}
         for file in files:
@@ -78,7 +81,7 @@ class IncludeTree:
                 self._included.setdefault(file.path, set()).add(inner.path)
 
     def names(self, file: LaunchFile) -> FileConfigurations:
-        """Return the configurations of a launch file, without those of included files."""
+        """Return the configurations of a launch file itself, not of its included files."""
         return self._names[file.path]
 
     def fill(self, file: LaunchFile) -> bool:
@@ -95,7 +98,7 @@ class IncludeTree:
         return self._filled[path]
 
     def above(self, file: LaunchFile) -> list[FileConfigurations]:
-        """Return the configurations of every file that includes this one, directly or indirectly."""
+        """Return the configurations of every file that includes ``file``, directly or indirectly."""
         return [self._names[path] for path in sorted(_reached(self._includers, file.path))]
 
 

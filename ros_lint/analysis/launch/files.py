@@ -56,6 +56,11 @@ def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[P
             yield PackageLaunchFile(file, path, is_installed, not aside or path in tests)
 
 
+def run_launch_files(package: Package) -> Iterator[PackageLaunchFile]:
+    """Yield the launch files of a package that users launch, and those that its tests start."""
+    return (file for file in package_launch_files(package, apart=True) if file.run)
+
+
 def _is_aside(path: str, subdirectories: Container[str]) -> bool:
     """Return whether an installed launch file is a test, an example or discarded, judging by its folders.
 
@@ -92,7 +97,7 @@ def references_by_name(
 ) -> dict[tuple[str, str], list[LaunchReference]]:
     """Return the references in the launch files of a package whose kind is in ``kinds``, such as "node" or "include".
 
-    The keys are the package and the name that a reference contains. ``apart`` is that of :func:`package_launch_files`.
+    The keys are the package and the name that a reference contains. ``apart`` adds the launch files of tests and examples.
     """
     result: dict[tuple[str, str], list[LaunchReference]] = {}
     for launch in package_launch_files(package, apart=apart):

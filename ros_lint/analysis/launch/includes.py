@@ -119,7 +119,7 @@ class IncludeResolver:
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return the launch file of the workspace that is installed at ``path``, or None if there is not exactly one."""
+        """Return the launch file of the workspace that is installed at ``path``; None if no file or several files are."""
         place = installed_place(path)
         candidates = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
         return candidates[0].file if len(candidates) == 1 else None
@@ -153,7 +153,7 @@ class IncludeResolver:
         if done is not None:
             return done
         known = configurations_read(file)
-        complete = not file.problems and not file.opaque and all(map(is_plain, known))
+        complete = _is_read_completely(file) and all(map(is_plain, known))
         includes: list[LaunchFile] = []
         for action in walk_actions(file.actions):
             if action.kind in ("argument", "set") and action.target is not None:
@@ -167,8 +167,19 @@ class IncludeResolver:
         return record
 
 
+_OF_VALUES = frozenset({
+    "forgotten-path", "no-condition", "no-slash", "no-text", "removed-keyword", "substitution-as-text", "substitution-refused",
+    "text-divided",
+})  # fmt: skip
+"""Kinds of problems of single values: all actions and arguments of the file are known in spite of them."""
+
+
+def _is_read_completely(file: LaunchFile) -> bool:
+    return not file.opaque and all(problem.kind in _OF_VALUES for problem in file.problems)
+
+
 def configurations_read(file: LaunchFile) -> set[str]:
-    """Return the configurations that a file reads; with UNKNOWN if there may be others."""
+    """Return the configurations that a launch file reads, and UNKNOWN if the file may read further configurations."""
     names = set(file.configurations_read)
     if file.language == "python":  # in XML and YAML files, the text is complete
         for action in walk_actions(file.actions):

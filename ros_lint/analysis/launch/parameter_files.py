@@ -24,7 +24,7 @@ class NodeParameterFile(NamedTuple):
     file: ParameterFile
     """The parameter file."""
     names: tuple[str, ...]
-    """The possible names of the node; () if the launch file does not set one."""
+    """The possible names of the node; () if the launch file does not set a name."""
     namespaces: tuple[str, ...]
     """The possible namespaces that the action itself sets; ("",) if it sets none."""
 

@@ -69,7 +69,7 @@ def expand_defaults(
 
 
 def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = False) -> Iterator[PassedFile]:
-    """Yield the files that the included launch files refer to when a file is launched without arguments.
+    """Yield the launch and parameter files to which the included files refer if ``file`` is launched without arguments.
 
     ``settled`` limits the result to files that do not depend on the launch arguments.
     """

@@ -24,7 +24,7 @@ class PlacedInclude(NamedTuple):
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
-    """Yield the includes of a launch file, nested ones too, in the order of the file."""
+    """Yield the includes of a launch file in the order of the file, including includes in groups."""
     return _includes(file.actions, (), leaves=True)
 
 

@@ -69,7 +69,10 @@ def _warn(warnings: Iterable[str]) -> None:
 
 
 def _baseline(settings: Settings) -> Baseline | None:
-    """Return the baseline to apply, or None. Raises BaselineError, and UsageError for conflicting options."""
+    """Return the baseline to apply; None if no file is set, or if the file is to be written.
+
+    Raises BaselineError, and UsageError for conflicting options.
+    """
     path, write = settings["baseline"], settings["write-baseline"]
     if write and not path:
         raise UsageError("--write-baseline needs a file: use --baseline FILE, or set baseline in ros-lint.toml")
@@ -104,7 +107,9 @@ def _folders(request: Request, path: str) -> list[str]:
 
 
 def _single_package_warning(request: Request) -> Iterator[str]:
-    """Yield a warning if a single package of a workspace is checked, because its sibling packages are not read."""
+    """Yield a warning if a single package of a workspace is checked and no workspace around it is recognized."""
+    if request.context or not request.settings["context"]:
+        return
     root = os.path.join(request.base, request.roots[0]) if request.roots[0] else request.base
     manifest, repository = (os.path.join(root, name) for name in ("package.xml", ".git"))
     if len(request.roots) > 1 or os.path.exists(repository) or not os.path.isfile(manifest):
@@ -128,7 +133,7 @@ def _report(request: Request, progress: Progress) -> Report:
     from ros_lint.engine import registry  # noqa: PLC0415
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
-    context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.folder, session.warnings)
+    context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.roots, session.warnings)
     workspace = session.loader.load()
     report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
     cache.store(recorded, report)

@@ -29,7 +29,7 @@ def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int
 
 
 def _issues(package: Package, workspace: Workspace) -> list[Issue]:
-    """Return the findings of the explained rules in a package."""
+    """Return the findings in a package of the rules that the command explains (``RULES``)."""
     rules = [rule for rule in registry.load() if rule.name in RULES and rule.package is not None]
     return [Issue(rule, package.name, finding) for rule in rules if rule.package for finding in rule.package(package, workspace)]
 
@@ -44,7 +44,7 @@ def _reported(issues: Iterable[Issue], name: str) -> Mapping[str, Confidence]:
 
 
 def _causes(issues: Sequence[Issue], name: str) -> Iterator[str]:
-    """Yield a line for each finding that is shown in place of one about a dependency."""
+    """Yield a line for each finding about the dependency ``name`` that is hidden, because a shown finding explains it."""
     for issue in without_explained(issues):
         for explained in issue.explained:
             if explained.subject == name:

@@ -28,7 +28,7 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     settings = session.settings
     rules = registry.load(settings["plugins"])
     trials = FixTrials(session.loader, session.roots, selection, rules, unsafe=settings["unsafe-fixes"])
-    context = ReportContext(rules, session.knowledge.date, session.folder, session.warnings)
+    context = ReportContext(rules, session.knowledge.date, session.roots, session.warnings)
 
     def report(changed: Mapping[str, bytes]) -> Report:
         return check(trials.trial(changed).workspace, session.loader.suppressions(changed), selection, context)

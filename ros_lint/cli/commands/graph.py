@@ -33,7 +33,8 @@ SCHEMA_VERSION = 1
 def run(workspace: Workspace, form: Format = "dot", *, metrics: bool = False) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code, which is 0.
 
-    With metrics, JSON has them next to the graph; in the other formats a table replaces the graph.
+    With ``metrics``, the JSON contains the metrics and the graph; in the other formats, a table of the metrics replaces
+    the graph.
     """
     graph = dependency_graph(workspace)
     figures = _measure(graph) if metrics else {}

@@ -27,7 +27,7 @@ _WITH_SOURCES = ("explain-package", "why")
 
 
 def run(command: str, options: Mapping[str, Any]) -> int:
-    """Run one of the commands and print its output. Returns the exit code."""
+    """Run ``command``, one of the commands of this module, print its output and return the exit code."""
 
     def answer(session: Session, workspace: Workspace) -> CommandOutput:
         out, err, code = _COMMANDS[command](workspace, options)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class _LayerEntry(NamedTuple):
-    """A package as one layer has it."""
+    """A package in one layer: its place and its version."""
 
     where: str
     version: str

@@ -7,8 +7,8 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ros_lint.base.paths import upwards
-from ros_lint.base.tree import repository_of
+from ros_lint.base.paths import is_below, upwards
+from ros_lint.cli.context import outermost_package, workspace_around
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import Session, UsageError, open_workspace
 from ros_lint.cli.settings import ConfigError
@@ -20,9 +20,9 @@ CommandOutput = tuple[str, str, int]
 
 
 def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
-    """Load the requested workspace and print what ``answer`` returns for it. Returns the exit code.
+    """Load the requested workspace, print what ``answer`` returns for it, and return the exit code of the answer.
 
-    It is 2 if the workspace cannot be opened. Without ``sources`` only manifests are read.
+    The exit code is 2 if the workspace cannot be opened. Without ``sources`` only manifests are read.
     """
     progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
@@ -50,22 +50,10 @@ def current_workspace() -> str:
 def enclosing_workspace(file: str) -> str:
     """Return the folder of the workspace that contains a file: the first of these that exists.
 
-    - the folder whose ``src`` contains the package of the file, if the folder is in the same repository or colcon has
-      built in it,
-    - the repository,
+    - the workspace or the repository around it,
     - the current folder, if the file is below it,
     - the folder of the package, or else of the file.
     """
-    folders = list(upwards(os.path.dirname(os.path.realpath(file))))
-    repository = repository_of(folders[0])
-    inside = folders[: folders.index(repository) + 1] if repository else folders
-    # The outermost package, because colcon does not look for packages inside of packages.
-    packages = [folder for folder in inside if os.path.isfile(os.path.join(folder, "package.xml"))]
-    start = packages[-1] if packages else folders[0]
-    for folder in folders[folders.index(start) + 1 :]:
-        above = os.path.dirname(folder)
-        built = any(os.path.isdir(os.path.join(above, name)) for name in ("build", "install", "log"))
-        if os.path.basename(folder) == "src" and (built or (repository and above in inside)):
-            return above
+    folder = os.path.dirname(os.path.realpath(file))
     current = os.path.realpath(os.curdir)
-    return repository or (current if current in folders else start)
+    return workspace_around(folder) or (current if is_below(folder, current) else outermost_package(folder))

@@ -34,9 +34,9 @@ class _EdgeReason(NamedTuple):
 def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code.
 
-    For packages of the workspace, each dependency counts that affects the build order; for others, only run-time
-    dependencies. At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is
-    none, 2 if a name is unknown. Raises KnowledgeError.
+    A package of the workspace counts with every dependency that affects the build order, any other package only with its
+    run-time dependencies. At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if
+    there is none, 2 if a name is unknown. Raises KnowledgeError.
     """
     unknown = [name for name in (start, end) if not _is_known(workspace, name)]
     if unknown:
@@ -91,7 +91,7 @@ class _DependencyModel:
             yield from (_EdgeReason(tag, place) for tag in tags)
 
     def uses(self, name: str, dependency: str) -> list[tuple[str, Span]]:
-        """Return what uses the dependency in the sources of the package, each with its place, sorted by place."""
+        """Return the uses of the dependency in the sources of the package, each as quotation and place, sorted by place."""
         places = {use.span: use.what for package in self._packages(name) for use in package.uses if dependency in use.providers}
         return [(places[span], span) for span in sorted(places)]
 

@@ -265,9 +265,9 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 
 
 def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
-    """Return the mentions of other packages, after those in find_package(X) without REQUIRED are classified.
+    """Return the mentions of other packages, in which each find_package(X) without REQUIRED is classified.
 
-    Such a mention becomes optional if a condition tests X_FOUND, unless the script stops when X is not found. It becomes a
+    The mention of X becomes optional if a condition tests X_FOUND, unless the script stops when X is not found. It becomes a
     mention for tests if only tests use the targets, variables or macros of X. ``used`` is the result of
     :func:`_used_packages`.
     """

@@ -30,7 +30,7 @@ CLOSE = 6
 Argument = tuple[str, int, int, int]
 """Text without quotes or brackets, kind, and the offsets of the whole argument.
 
-A plain tuple, because it is created much faster than a named one and a run has very many arguments."""
+A plain tuple, because it is created much faster than a named tuple and a run has very many arguments."""
 
 
 class Command(NamedTuple):

@@ -99,7 +99,7 @@ class IncludeScan(NamedTuple):
 
 
 def scan_includes(source: Text) -> IncludeScan:
-    """Return the includes of a C or C++ source, without standard headers and without those in ``#if 0``.
+    """Return the includes of a C or C++ source, without standard headers and without includes in ``#if 0``.
 
     An include in a conditional is optional, unless each branch includes the same folder. Conditions that hold in every
     build, such as include guards, do not count.
@@ -335,7 +335,7 @@ class _Conditional:
 
 
 def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], Set[int]]:
-    """Return the offsets of the include directives that no build reaches, and of those that only some builds reach."""
+    """Return two sets of offsets of include directives: directives that no build reaches, and that only some builds reach."""
     skipped: set[int] = set()
     optional: set[int] = set()
     stack: list[_Conditional] = []

@@ -38,10 +38,10 @@ _MAX_NAME = 64
 
 
 def symbols(source: Text, excluded: Collection[str], directives: IncludeScan) -> list[Mention]:
-    """Return the packages whose interfaces or namespaces a C++ file names, each at its first place.
+    """Return mentions of the packages whose interfaces or namespaces a C++ file names, each at its first place.
 
-    Packages in ``excluded`` are left out. A mention is optional if all its uses depend on the build. All mentions have
-    ``via="symbol"`` and the name of the package.
+    Packages in ``excluded`` are left out. A mention is optional if all uses of its package depend on the build. All
+    mentions have ``via="symbol"`` and the name of the package.
     """
     text = source.text
     *pieces, _ = _KIND.split(text)  # faster than checking each match

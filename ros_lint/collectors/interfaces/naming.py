@@ -9,7 +9,7 @@ GROUP = "rosidl_interface_packages"
 UNDERLYING = frozenset({"action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs"})
 """Packages that all services and actions use.
 
-Which of them must be declared depends on the distribution."""
+The distribution decides which of these packages must be declared."""
 
 _MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
 _LOWER = re.compile(r"(?!\w*__)[a-z](?:[a-z0-9_]*[a-z0-9])?")

@@ -10,7 +10,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition
 
 
 class DefaultConfigurations(NamedTuple):
-    """The possible values of the launch configurations of one launch file, and the names of those that no caller can set."""
+    """The possible values of the launch configurations of one launch file, and which configurations no caller can set."""
 
     values: Mapping[str, tuple[str, ...]]
     """The alternative values of each configuration, by its name."""
@@ -68,7 +68,7 @@ _UNKNOWN_CONDITION = LaunchCondition((UNKNOWN,), None)
 def _is_exhaustive(condition_sets: list[tuple[LaunchCondition, ...]]) -> bool:
     """Return whether one of the condition sets certainly holds.
 
-    It does if two of the sets consist of a single condition, and the conditions are opposites.
+    True if two of the sets consist of a single condition, and the two conditions are opposites.
     """
     single = {conditions[0] for conditions in condition_sets if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)

@@ -139,7 +139,7 @@ def expand(
     *,
     brief: bool = False,
 ) -> Expansion:
-    """Return what a launch file starts if it is launched with the arguments ``passed``.
+    """Return the actions that a launch file starts if it is launched with the arguments ``passed``.
 
     ``files`` returns an included file by its path, None if there is no such file. A path may begin with the mark of an install
     prefix. ``brief`` omits parameters (except parameter files), remappings and the arguments of included files, because they
@@ -295,8 +295,7 @@ class _Run:
     def _reset(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
         """Clear the launch configurations, set those that the action passes, and return the scope after the action.
 
-        Namespaces, parameters and remappings for later nodes are cleared as well, because launch_ros stores them in launch
-        configurations. If it is uncertain that the action runs, the configurations get further possible values.
+        Namespaces, parameters and remappings are cleared as well, because launch_ros stores them in launch configurations.
         """
         configurations = {name: self._texts(value, scope) for name, value in action.arguments}
         if scope.certain:

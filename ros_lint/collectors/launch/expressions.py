@@ -179,7 +179,7 @@ def _small(value: Any) -> Any:
 
 
 def _size(value: Any) -> int:
-    """Return the number of characters and items in a value; those in nested values count. Counting stops above the limit."""
+    """Return the number of characters and items in a value and its nested values. Counting stops above the limit."""
     size = 0
     pending = [value]
     while pending and size <= _MAX_SIZE:

@@ -23,8 +23,8 @@ def group(
 ) -> LaunchAction:
     """Return a group of actions with its own launch configurations.
 
-    A scoped group without ``forwarding`` starts with ``configurations`` only. Any other group starts with those of the
-    surrounding actions, too.
+    A scoped group without ``forwarding`` starts with ``configurations`` only. Any other group also starts with the
+    configurations of the surrounding actions.
     """
     if scoped and not forwarding:
         resets = (LaunchAction("reset_environment", span), LaunchAction("reset", span, arguments=configurations))

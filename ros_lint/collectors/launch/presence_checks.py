@@ -17,7 +17,7 @@ def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
 DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
 """The maintained distributions.
 
-Conditions on older ones are ignored. The list is constant, because the facts of a file must not depend on data that
+Conditions on older distributions are ignored. The list is constant, because the facts of a file must not depend on data that
 the user can update. A test compares it with the package index.
 """
 _ROS_DISTRO = "$ROS_DISTRO"

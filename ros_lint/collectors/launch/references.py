@@ -279,7 +279,7 @@ class References:
         return tuple(texts), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
-        """Restrict the values of launch configurations to those that conditions such as "configuration equals x" allow."""
+        """Restrict the values of launch configurations to values that conditions such as "configuration equals x" allow."""
         for (text, *further_texts), equals, wanted in conditions:
             name = next((name for name, _, symbolic in configurations(text) if symbolic == text), "")
             if name and equals is not None and not further_texts and is_plain(equals):
@@ -351,7 +351,7 @@ class References:
         self.references[reference] = None
 
     def mark_optional(self, packages: Container[str]) -> None:
-        """Mark the references to these packages as optional, except those to packages of which the file starts a node."""
+        """Mark the references to ``packages`` as optional, except for packages of which the file starts a node."""
         self.references = {
             reference._replace(optional=True)
             if reference.package in packages and reference.package not in self._named

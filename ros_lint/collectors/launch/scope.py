@@ -32,7 +32,7 @@ class LaunchScope(NamedTuple):
     parameters: tuple[tuple[str, Texts], ...] = ()
     remappings: tuple[tuple[Texts, Texts], ...] = ()
     environment: tuple[tuple[str, Texts], ...] = ()
-    """Variables by name; one that is unset has no texts."""
+    """Variables by name; a variable that is unset has no texts."""
     container: Texts = ()
     when: tuple[LaunchCondition, ...] = ()
     later: bool = False

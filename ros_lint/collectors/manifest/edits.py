@@ -237,7 +237,7 @@ class _Layout:
         return self.neighbours(span) == (None, None) and not heading
 
     def insert_after(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
-        """Return the edit that inserts an element after an item and the comments on its line."""
+        """Return the edit that inserts ``element`` after the item at ``span`` and the comments on its line."""
         tail = span
         while (following := self.neighbours(tail).after) is not None and following in self.manifest.other_contents:
             tail = following
@@ -285,11 +285,11 @@ class _Layout:
                 runs[-1][1] = span.end_line
             else:
                 runs.append([span.line, span.end_line])
-        return (self._remove_lines(first, insert_last) for first, insert_last in runs)
+        return (self._remove_lines(first, last) for first, last in runs)
 
-    def _remove_lines(self, first: int, insert_last: int) -> Edit:
-        """Return the edit that removes the lines from ``first`` to ``insert_last``, and blank lines that become superfluous."""
-        end = insert_last + 1
+    def _remove_lines(self, first: int, last: int) -> Edit:
+        """Return the edit that removes the lines from ``first`` to ``last``, and blank lines that become superfluous."""
+        end = last + 1
         while self._is_blank(first - 1) and self._is_blank(end):
             end += 1
         while end == self.manifest.end.line and self._is_blank(first - 1):

@@ -51,10 +51,7 @@ Event = Start | int
 
 
 class XmlNode(NamedTuple):
-    """An XML element, with the offsets of its tags: it begins at ``start`` and ends at ``end``, -1 if it is never closed.
-
-    Its content is from ``inner`` to ``close``, and is empty for ``<a/>``.
-    """
+    """An XML element. ``end`` is -1 if it is never closed. The content is from ``inner`` to ``close``, empty for ``<a/>``."""
 
     tag: str
     attributes: dict[str, str]
@@ -95,7 +92,7 @@ _START = re.compile(r"<[^\s/>]+")
 
 
 def attribute(text: str, node: XmlNode, name: str) -> tuple[int, int, int]:
-    """Return three offsets of an attribute of an element: the start of its name, and the start and end of its value.
+    """Return the offsets of an attribute's name, of its value and of the value's end.
 
     All of them are the start of the element if it has no such attribute.
     """
@@ -243,10 +240,7 @@ def child(document: Document, at: int) -> tuple[XmlNode, int]:
 
 
 def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
-    """Return the start and end tags of a manifest with byte offsets, the error that stopped expat, and where it stopped.
-
-    The error is None if expat read the whole file. Where it stopped is an offset in ``text``.
-    """
+    """Return the tags with byte offsets, the error that stopped expat, None if there is none, and the offset where it stopped."""
     # Namespaces as in xml.dom.minidom, which catkin_pkg uses.
     parser = expat.ParserCreate("utf-8", " ")
     parser.namespace_prefixes = True

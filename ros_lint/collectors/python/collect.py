@@ -128,7 +128,7 @@ def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bo
 
 
 def _remark(item: Import, added: bool) -> str:
-    """Return what a message adds after the name of an imported module, "" if nothing: ", with the error caught"."""
+    """Return the remark that a message adds after the name of an imported module: ", with the error caught"; else ""."""
     return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 _OF_SOME_PYTHONS = ("asynchronous comprehension outside", "cannot assign to __debug__")
-"""What Python 3.10 refuses and 3.11 does not, or in another place."""
+"""Messages of errors that Python 3.10 raises and 3.11 does not, or at another position."""
 _DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _LOOPS = (ast.For, ast.AsyncFor, ast.While)
 

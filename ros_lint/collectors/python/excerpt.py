@@ -23,7 +23,7 @@ class Excerpt(NamedTuple):
 
 
 def excerpt(text: str, words: Collection[str]) -> Excerpt:
-    """Return a Python source without the bodies of those functions whose texts contain none of ``words``.
+    """Return a Python source without the bodies of the functions whose texts contain none of ``words``.
 
     Short functions keep their bodies.
     """
@@ -52,10 +52,10 @@ def _functions(text: str) -> Iterator[tuple[int, int, str]]:
 
 
 def block_end(text: str, width: int, head: int) -> int:
-    """Return the offset of the line after a compound statement such as ``def`` or ``try``, by the indentation of the lines.
+    """Return the offset of the line after a compound statement that is indented by ``width``.
 
-    ``width`` is the indentation of its first line, ``head`` is any offset in that line. The clauses ``except``, ``elif``,
-    ``else`` and ``finally`` belong to the statement.
+    ``head`` is any offset in its first line. The clauses ``except``, ``elif``, ``else`` and ``finally`` belong to the
+    statement.
     """
     behind = text.find("\n", head) + 1
     if not behind:

@@ -172,7 +172,7 @@ class _Rewriter:
         return tuple(names)
 
     def _inside(self, opening: int) -> Iterator[int]:
-        """Yield the indices of the tokens between a bracket and its closing bracket, without those in nested brackets."""
+        """Yield the indices of the tokens between a bracket and its closing bracket, without tokens in nested brackets."""
         index, closing = opening + 1, self._closing.get(opening, len(self._code))
         while index < closing:
             yield index
@@ -198,7 +198,7 @@ class _Rewriter:
             self._edits.append(_Edit(room, room + 1, " "))
 
     def _rest(self, index: int) -> Iterator[int]:
-        """Yield the indices of the tokens from ``index`` to the end of the logical line, without those in brackets."""
+        """Yield the indices of the tokens from ``index`` to the end of the logical line, without tokens in brackets."""
         while index < len(self._code) and self._code[index].kind != "newline":
             yield index
             index = self._closing.get(index, index) + 1
@@ -294,7 +294,7 @@ def _edited(text: str, edits: Sequence[_Edit]) -> str:
 
 
 def brackets(text: str, tokens: Sequence[Token]) -> tuple[str, int] | None:
-    """Return what is wrong with the first unpaired bracket of a source and its offset, None if all brackets are in pairs."""
+    """Return the error of the first unpaired bracket of a source, and its offset; None if all brackets are in pairs."""
     opened: list[Token] = []
     for token in tokens:
         word = text[token.start : token.end] if token.kind == "op" else ""

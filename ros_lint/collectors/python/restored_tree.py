@@ -50,7 +50,7 @@ class _Restorer:
         self._parameters = {place_of(source, start): names for start, names in rewritten.parameters.items()}
 
     def visit(self, node: ast.AST) -> None:
-        """Replace those direct children of a node that belong to rewritten constructs."""
+        """Replace the direct children of a node that belong to rewritten constructs."""
         for name, value in ast.iter_fields(node):
             if isinstance(value, ast.Name):
                 setattr(node, name, self._name(value))

@@ -33,17 +33,17 @@ _TEMPLATE_MARK = re.compile(r"\{\{|\{%|@\{|@\(|@\[|@[A-Za-z_]\w*@|\$\{|<%")
 _Tree = TypeVar("_Tree", bound=ast.AST)
 
 Node = ast.expr | ast.stmt | ast.alias | ast.keyword
-"""What stands in a place of its own."""
+"""A syntax node that has a position."""
 
 
 class Refusal(NamedTuple):
-    """Why a source has no syntax tree: it is not valid Python, or exceeds a limit of ros-lint."""
+    """The reason why a source has no syntax tree: it is not valid Python, or exceeds a limit of ros-lint."""
 
     message: str
     """A clause."""
     span: Span
     known: bool
-    """Whether it is no Python of any version. If not, it counts as not checked."""
+    """True if the text is not Python of any version. Otherwise the file counts as not checked."""
 
     def problem(self) -> Problem:
         return Problem("syntax", f"not valid Python: {self.message}", self.span)
@@ -110,7 +110,7 @@ def read_anew(source: Text) -> Parsed:
 
 
 _MOST_LEVELS = 10_000
-"""How deep the parser of Python 3.10 can go. It overflows the stack at some ten times of that."""
+"""Maximum nesting for the parser of Python 3.10, which overflows the stack at about ten times this depth."""
 
 
 def read_expression(text: str) -> ast.expr:

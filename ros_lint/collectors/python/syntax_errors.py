@@ -1,4 +1,4 @@
-"""Why a source is not valid Python, and where: the same message with every Python that runs ros-lint.
+"""The reason why a source is not valid Python, and its position: equal with every Python that runs ros-lint.
 
 The messages and positions of Python's own parser change from version to version. Here strings, brackets and
 indentation are checked by their tokens. For all other errors the parser of libcst gives the position, because it has
@@ -22,7 +22,7 @@ from ros_lint.collectors.python.source_errors import NotPythonError
 
 
 class SyntaxReason(NamedTuple):
-    """Why a source is not valid Python, and the offset of the error."""
+    """The reason why a source is not valid Python, and the offset of the error."""
 
     offset: int
     message: str
@@ -38,10 +38,10 @@ _OF_PYTHON_2: Final = re.compile(r"^[ \t]*except\b[^,:\r\n]*(,)[ \t]*([a-z_]\w*)
 _CONTINUED: Final = frozenset({"elif", "else", "except", "finally"})
 _COMPOUND: Final = _CONTINUED | frozenset({"async", "class", "def", "for", "if", "try", "while", "with"})
 _LONGEST: Final = 100_000
-"""How many characters libcst is given. It takes more than a second for these."""
+"""Maximum number of characters that libcst parses, which takes it more than a second."""
 _LONGEST_TEXT: Final = 500_000
 _LEVELS: Final = 100
-"""How many levels of indentation Python has."""
+"""Maximum number of levels of indentation in Python."""
 _LONGEST_WORD: Final = 40
 
 
@@ -161,10 +161,7 @@ def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[
 
 
 def _statements(text: str, found: Sequence[Token], lines: Sequence[int]) -> Iterator[int]:
-    """Yield the number of the first line of each top-level statement, where 0 is the first line of the source.
-
-    ``lines`` are the offsets of all lines.
-    """
+    """Yield the number of the first line of each top-level statement, from 0. ``lines`` are the offsets of all lines."""
     yield 0
     line, decorated = 0, False
     for first, _ in _logical_lines(found):

@@ -11,7 +11,7 @@ _ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
 """Functions that can bind names which are not in the source."""
 _MODULE = frozenset({"__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__", "__path__"})
 _KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
-"""Names that Python binds, also those of interactive sessions or of Windows only."""
+"""Names that Python binds, including names that exist only in interactive sessions or on Windows."""
 
 
 def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:

@@ -104,7 +104,7 @@ _TREE_PATH = re.compile(r"""\spath\s*=\s*["'](\w[\w./+-]*\.\w+)["']""")
 def _files(source: Text) -> Iterator[LookUp]:
     """Yield the files of packages to which a resource file refers, such as ``package://robot/meshes/arm.stl``, each once.
 
-    The span is that of the first reference.
+    The span of a look-up is the span of the first reference to the file.
     """
     places: dict[tuple[str, str], tuple[int, int]] = {}
     for match in _FILE.finditer(source.text):

@@ -41,7 +41,10 @@ def roots(text: str) -> list[XmlElement]:
 
 
 def collect(path: str, source: Text) -> PluginFile | None:
-    """Return a plugin description, None for any other text. ``path`` is relative to the package."""
+    """Return the plugin description in a file; None if the text is not a plugin description.
+
+    ``path`` is the path of the file relative to the package.
+    """
     if "<library" not in source.text and "<class" not in source.text:
         return None
     elements = roots(source.text)

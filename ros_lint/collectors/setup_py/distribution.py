@@ -32,7 +32,7 @@ _RESERVED_FOLDERS = frozenset(
 
 
 class SetupContext(NamedTuple):
-    """What is needed, besides the options of setup(), to compute the installed files of a package."""
+    """The inputs, besides the options of setup(), from which the installed files of a package are computed."""
 
     files: Files
     executables: AbstractSet[str]
@@ -139,7 +139,7 @@ class Distribution:
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
         """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
-        These are the packages in the root folder of ``package_dir`` or in src/, else those in the only top-level package. The
+        These are the packages in the root folder of ``package_dir`` or in src/, else in the only top-level package. The
         folders are a value of ``package_dir``.
         """
         files = self._context.files

@@ -19,7 +19,7 @@ def slot(script: BuildScript, option: str) -> EditableList | None:
 def add(to: EditableList, element: str) -> Edit:
     """Return the edit that adds ``element`` after the last element of a list literal.
 
-    The new element begins a new line if the last one does, and ends with a comma if the last one does.
+    The new element begins a new line if the last element does, and ends with a comma if the last element does.
     """
     gap = " " if to.indent is None else f"\n{to.indent}"
     return Edit(to.end, f"{gap}{element}," if to.comma else f",{gap}{element}")

@@ -46,7 +46,7 @@ def evaluate(
     pyproject: Text | None,
     executables: AbstractSet[str] = frozenset(),
 ) -> BuildScript:
-    """Return what building a Python package with setuptools installs, and the problems of the build.
+    """Return the build script of a Python package: the files that setuptools installs, and the problems of the build.
 
     - ``name``: the name in package.xml.
     - ``path_prefix``: the folder of the package.

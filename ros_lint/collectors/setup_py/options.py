@@ -18,7 +18,7 @@ _FINDS = {"find:": False, "find_namespace:": True}
 
 
 def completed(given: Mapping[str, Value], files: Files, setup_cfg: SetupCfg | None, pyproject: Text | None) -> dict[str, Value]:
-    """Return the options of setup() with those of setup.cfg and pyproject.toml added.
+    """Return the options of setup() together with the options in setup.cfg and pyproject.toml.
 
     ``given`` are the options in setup.py. An option in setup.py overrides setup.cfg, and pyproject.toml overrides both.
     """

@@ -1,4 +1,4 @@
-"""Evaluate the build scripts of all packages: packages whose CMake code runs in others come first."""
+"""Evaluate the build scripts of all packages. A package comes before the packages in which its CMake code runs."""
 
 from __future__ import annotations
 

@@ -80,7 +80,11 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
 def _inputs(
     scripts: Mapping[str, ParsedScript], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]
 ) -> Iterator[str]:
-    """Yield resources, their folders and programs that are arguments of CMake commands except install()."""
+    """Yield the files and folders of a package that arguments of its CMake commands name, except those of install().
+
+    ``uninstalled`` has the resource files that are not installed, by folder, ``programs`` the paths of programs. A folder in
+    the result ends with a slash.
+    """
     if not uninstalled and not programs:
         return
     subfolders = [command for parsed in scripts.values() for command in parsed.commands if command.name == "add_subdirectory"]
@@ -176,7 +180,7 @@ def _referenced_resources(
 
 _WORKING_FOLDER = re.compile(rb"\b(?:current_path|getcwd|cwd)\s*\(")
 _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
-"""The quoted path component before another one."""
+"""A quoted path component before another component."""
 
 
 def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> bool:

@@ -23,16 +23,13 @@ _FILES = re.compile(
 
 
 _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
-"""Files for ROS 1 controllers that the SolidWorks exporter writes next to a URDF:
-
-ROS 2 never reads them.
-"""
+"""Files for ROS 1 controllers that the SolidWorks exporter writes next to a URDF; ROS 2 never reads these files."""
 
 
 def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
     """Return the topmost folders of a package of which nothing is installed, with their resources.
 
-    ``files`` are the files of the package, ``sources`` the installed ones; both are relative to it.
+    ``files`` are the files of the package, ``sources`` the installed files; both are relative to the package.
     """
     # Few folders have many files, so each folder is examined once.
     source_folders = {parent(source) for source in sources}

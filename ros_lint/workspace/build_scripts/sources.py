@@ -28,7 +28,7 @@ class Parts(NamedTuple):
     commands: Mapping[str, ParsedScript]
     """CMake files by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
-    """Declared names by kind letter, as in the index."""
+    """Declared names by the letter of their dependency kind, a letter of :data:`ros_lint.knowledge.index.KINDS`."""
 
 
 class Surroundings:
@@ -79,9 +79,9 @@ class Surroundings:
         return self._entries[folder]
 
     def _gathered(self, folder: str) -> list[str]:
-        """Return the files below a folder, without those behind links to folders, which CMake neither copies nor globs.
+        """Return the files below a folder; empty if the folder has too many entries.
 
-        Empty if the folder has too many entries.
+        Files behind links to folders are left out, because CMake neither copies nor globs them.
         """
         files: list[str] = []
         pending = [folder]

@@ -6,6 +6,7 @@ The packages are those of ``colcon list``: the crawl of colcon-recursive-crawl a
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.paths import is_below, join, parent, resolve
@@ -95,22 +96,26 @@ class Discovery(NamedTuple):
     """Manifests that colcon cannot use, unless it identifies the folder as a package by another file."""
     skipped: tuple[Skipped, ...]
     not_checked: tuple[UnreadFile, ...]
+    complete: bool = True
+    """False if the walk ended early because there are too many folders."""
 
 
-def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT) -> Discovery:
+def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT, most: int = sys.maxsize) -> Discovery:
     """Return the packages below ``roots`` as ``colcon list --base-paths ROOTS`` finds them in the base of the tree.
 
     ``roots`` are folders relative to the base; "" is the base. A ``colcon.meta`` is read in the base and in each root.
     ``context`` has the values of variables in conditions of package.xml, which may choose a build type.
+    At most ``most`` folders outside packages are visited.
     Folders and files that cannot be read are added to ``not_checked``; the contents of the tree never cause an exception.
     """
-    return _Walk(tree, context).run(roots)
+    return _Walk(tree, context, most).run(roots)
 
 
 class _Walk:
-    def __init__(self, tree: Tree, context: Mapping[str, str]) -> None:
+    def __init__(self, tree: Tree, context: Mapping[str, str], most: int) -> None:
         self._tree = tree
         self._context = context
+        self._most = most
         self._base = tree.identity("")
         self._packages: list[DiscoveredPackage] = []
         self._rejected: list[Manifest] = []
@@ -128,11 +133,12 @@ class _Walk:
             tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
             tuple(sorted(self._skipped)),
             tuple(sorted(self._not_checked, key=lambda item: (item.span or file_start(""), item.what))),
+            len(visited) <= self._most,
         )
 
     def _crawl(self, root: str, visited: set[str]) -> None:
         todo = [(root, self._tree.identity(root))]
-        while todo:
+        while todo and len(visited) <= self._most:
             path, identity = todo.pop()
             if identity in visited:
                 continue  # already visited on another path; as in colcon, the first path in name order counts

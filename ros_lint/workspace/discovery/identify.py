@@ -71,7 +71,10 @@ SIGNS = frozenset(
 
 
 def ignored_everywhere(names: Mapping[str, Kind]) -> str:
-    """Return the file name that makes colcon skip a folder with its subfolders in any case, or ""."""
+    """Return the file name among ``names``, the entries of a folder, that makes colcon skip the folder and its subfolders, or "".
+
+    colcon does so even if the folder is a package.
+    """
     if "COLCON_IGNORE" in names:  # even a dangling link
         return "COLCON_IGNORE"
     return next((name for name in _IGNORED_EVERYWHERE if _exists(names, name)), "")

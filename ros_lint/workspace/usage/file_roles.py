@@ -73,7 +73,7 @@ class FileRoles:
         self._python_known = has_script and not python_hidden & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def role(self, path: str) -> tuple[Role, bool]:
-        """Return the role of a file, and whether the file is certainly in use."""
+        """Return the role of a file, and whether the build, a launch file or a test of the package certainly uses the file."""
         role, certain = self._role(path)
         return role, certain and not (self._separate_projects and self._is_in_separate_project(path))
 
@@ -335,7 +335,7 @@ class FileRoles:
         return frozenset([_stem(file) for file in self._optional if file.endswith(SOURCES)])
 
     def _compiled(self, *, test: bool) -> set[str]:
-        """Return the sources that every build compiles: those of tests, or (``test`` false) those of all other targets.
+        """Return the sources that every build compiles for tests (``test`` true), or for all other targets.
 
         If a target has alternative definitions, a source in all of them counts. If every source is conditional, all count.
         """
@@ -424,7 +424,7 @@ class FileRoles:
 
 
 def _interface(path: str) -> str:
-    """Return the name of an interface file in a build script, as ``msg/Name``."""
+    """Return the name that a build script uses for the interface file at ``path``: ``a/msg/Pose.msg`` -> ``msg/Pose``."""
     folder, _, name = path.rpartition("/")
     stem, _, suffix = name.rpartition(".")
     return f"{folder.rpartition('/')[2] if suffix == 'idl' else suffix}/{stem}"

@@ -28,7 +28,7 @@ class OwnFiles:
         self._included: dict[str, tuple[set[str], list[str]]] = {}
 
     def included(self, path: str) -> Container[str]:
-        """Return the headers of the package that a file includes, generated ones among them."""
+        """Return the headers of the package that a file includes, as written; generated headers count, too."""
         return self._includes(path)[0]
 
     @cached_property
@@ -176,7 +176,7 @@ class OwnFiles:
 
     @cached_property
     def _python_packages(self) -> frozenset[str]:
-        """Folders that are Python packages. The root of a ROS package is not one, whatever it contains."""
+        """Folders that are Python packages. The root folder of a ROS package is never a Python package, whatever it contains."""
         folders = {file.rpartition("/")[0] for file in self.files if file.endswith("__init__.py")}
         return frozenset(folders - {"", "src"})
 

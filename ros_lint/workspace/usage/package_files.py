@@ -27,7 +27,7 @@ class PackageSource(NamedTuple):
 
     @property
     def built(self) -> BuildScript:
-        """The build script, or one that builds and installs nothing if there is none."""
+        """The build script; if there is none, a BuildScript that builds and installs nothing."""
         return self.script or NOTHING_BUILT
 
 

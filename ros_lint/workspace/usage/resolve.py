@@ -134,7 +134,8 @@ class Resolver:
     def looked_up(self, name: str) -> ProviderMatch:
         """Return the package ``name``, as uncertain, for a mention that certainly looks up a package of that name.
 
-        Without a provider if the name exists anywhere, may belong to something not visible, or cannot be a package name.
+        There is no provider if the name exists anywhere, may belong to something that ros-lint cannot read, or cannot be a
+        package name.
         """
         is_unknown = self.names.resolution(name) == "unknown" and may_be_package(name)
         return ProviderMatch((name,), False, name) if is_unknown else _NO_MATCH
@@ -215,7 +216,7 @@ def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> t
 
 
 def _add_script(source: PackageSource, uses: _Uses) -> None:
-    """Add the names in the build script, and the packages that it finds on behalf of dependents."""
+    """Add the uses that result from the build script: names in its commands, and packages that it exports to dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
     unused_finds = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:

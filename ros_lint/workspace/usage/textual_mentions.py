@@ -261,7 +261,10 @@ def _search_words(words: Sequence[str], data: bytes) -> tuple[int, bytes]:
 
 
 def _search_spellings(name: str, whole_names: bool, data: bytes) -> tuple[int, bytes]:
-    """Return the offset of a package name in ``data`` and its spelling there; -1 if it is not there."""
+    """Return the offset of a package name in ``data`` and its spelling there, -1 and b"" if no spelling of the name occurs.
+
+    ``whole_names`` ignores the name where it is joined to another word by ``-`` or ``_``.
+    """
     joining = _WORD_JOINERS if whole_names else b""
     places = ((_find_word(data, spelling, joining), spelling) for spelling in _present_spellings(name, data))
     return next((place for place in places if place[0] >= 0), (-1, b""))

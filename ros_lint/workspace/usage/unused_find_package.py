@@ -44,7 +44,7 @@ _BY_SCRIPT = ("cmake", "target")
 
 
 def _reads_interfaces(package: Package) -> bool:
-    """Return whether all generated interface files are read, so that the types of their fields are known."""
+    """Return whether ros-lint could read all interface files from which code is generated, so their field types are known."""
     generated = generated_from(package)
     read_files = {package.relative(file.path) for file in package.interface_files if not file.problems}
     return (

@@ -1,4 +1,4 @@
-"""Predicates about how completely the build of a package and its uses are visible."""
+"""Predicates about whether ros-lint can find all uses of a package: nothing in its build or launch files hides a use."""
 
 from __future__ import annotations
 
@@ -50,15 +50,15 @@ _WITHOUT_USES: Final = ("/", ".dae", ".md", ".obj", ".pcd", ".pgm", ".png", ".rs
 
 
 def is_fully_visible(package: Package) -> bool:
-    """Return whether all uses of other packages by a package are visible, in its build and in its launch files."""
+    """Return whether nothing in the build and the launch files of a package hides a use of another package."""
     return is_build_visible(package) and not package.hidden(Facet.USES)
 
 
 def is_build_visible(package: Package) -> bool:
-    """Return whether all uses of libraries by a package are visible.
+    """Return whether nothing in the build of a package hides a use of a library.
 
-    False if the package builds nothing, or not with ament_cmake or ament_python. Launch files use no libraries, so they
-    are ignored.
+    False if the package builds nothing, or not with ament_cmake or ament_python. Launch files use no libraries, so they are
+    ignored.
     """
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None or problems_hide_uses(script):

@@ -33,7 +33,7 @@ class Absent(NamedTuple):
 
 
 class LaunchFileLookup:
-    """Finds launch files. It remembers which includes were read, and which could not be read."""
+    """Finds launch files, and remembers which includes were read, and which could not be read."""
 
     def __init__(self, workspace: Workspace, tree: Tree) -> None:
         self._workspace = workspace

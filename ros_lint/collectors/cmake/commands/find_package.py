@@ -85,7 +85,7 @@ def find_package(run: Run, args: list[str]) -> int | None:
 
 
 def _may_be_package_name(name: str) -> bool:
-    """Return whether a partly known name may be the name of a ROS package. It is not if it has upper case (REP 144)."""
+    """Return whether a partly known name may be the name of a ROS package: False if it has upper case (REP 144)."""
     return not any(letter.isupper() for letter in name)
 
 
@@ -125,7 +125,10 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
 
 
 def _find_all(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_find(build|test)`` of ros_macros.cmake: find all dependencies that package.xml declares."""
+    """Run ``ros_lint_find(build|test)`` of ros_macros.cmake.
+
+    It runs find_package() for each dependency that package.xml declares for the build, or for tests.
+    """
     names = run.paths.sources.test_depends
     if args[:1] == ["build"]:
         names = run.paths.sources.build_depends
@@ -199,7 +202,10 @@ def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> No
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages ``names``."""
+    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages ``names``.
+
+    ``how`` is the beginning of the command for messages, such as ``"ament_target_dependencies ..."``.
+    """
     _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
     record_header_sources(
@@ -286,7 +292,7 @@ _LINK_WORDS: Final = VISIBILITY | {"LINK_PRIVATE", "LINK_PUBLIC", "LINK_INTERFAC
 
 
 def _link_libraries(run: Run, args: list[str]) -> None:
-    """Run ``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``: record what the target is linked with."""
+    """Run ``target_link_libraries(target [PRIVATE|PUBLIC|INTERFACE] names...)``: record the libraries of the target."""
     link(run, args)
     record_header_sources(run, args[0] if args else ALL_TARGETS, [arg for arg in args[1:] if arg not in _LINK_WORDS])
     _note_modified_target(run, "target_link_libraries", args)

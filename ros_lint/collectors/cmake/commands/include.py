@@ -193,11 +193,11 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
 
 _TOP: Final = "CMakeLists.txt"
 _BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
-"""What a subdirectory can hide: ament_package() does not see what the macros of ament export there."""
+"""The facets that a subdirectory can hide: ament_package() ignores exports by the macros of ament in a subdirectory."""
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:
-    """Return the build folder of a subdirectory, which is below that of the current directory.
+    """Return the build folder of a subdirectory, which is below the build folder of the current directory.
 
     Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
     """

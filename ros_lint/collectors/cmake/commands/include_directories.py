@@ -91,9 +91,9 @@ def _packages_of_variables(run: Run) -> list[str]:
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
-    """Return the package that sets a variable, as ``package::``.
+    """Return ``foo::`` for the variable ``${foo_LIBRARIES}`` of a found package ``foo``.
 
-    _ANYTHING if no found package has the prefix of the variable, or if the script sets the variable itself.
+    The result is _ANYTHING if no found package has the prefix of the variable, or if the script itself sets the variable.
     """
     name = run.packages.with_prefix(variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING

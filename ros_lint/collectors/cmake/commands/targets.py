@@ -247,7 +247,7 @@ def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
 
 
 def real_target(run: Run, name: str) -> Properties | None:
-    """Return the properties of the target with a name; for an alias, those of its target. None if no target has the name."""
+    """Return the properties of the target ``name``, or of the target that the alias ``name`` stands for; else None."""
     target = run.targets.get(name)
     if target is not None and target["KIND"] == "alias":
         return run.targets.get(target["ALIASED"])

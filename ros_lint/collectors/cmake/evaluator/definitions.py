@@ -73,7 +73,7 @@ def _substituted(macro_arguments: dict[str, str], args: tuple[Argument, ...]) ->
 
 
 def _run_scope(run: Run, node: ScopeBlock) -> Exit:
-    """Run a block(). Its variables are removed at its end, except those of PROPAGATE."""
+    """Run a block(). Its variables are removed at its end, except for the variables after PROPAGATE."""
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
     if "SCOPE_FOR" in args and "VARIABLES" not in args:

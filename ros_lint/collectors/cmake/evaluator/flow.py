@@ -81,7 +81,7 @@ def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -
 
 
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
-    """Run the command ``name`` (in lower case) with evaluated arguments."""
+    """Run the command ``name`` (in lower case) with evaluated arguments, and return its possible exits."""
     run.command_names.add(name)
     procedure = run.procedures.get(name)
     if procedure is not None:

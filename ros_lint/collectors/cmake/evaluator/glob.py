@@ -70,7 +70,7 @@ def _pieces(pattern: str) -> tuple[str, ...] | None:
 def _end(pattern: str, at: int) -> int:
     """Return the offset of the closing bracket, given the offset after the opening one.
 
-    -1 if it is not closed.
+    -1 if there is no closing bracket.
     """
     at += pattern[at : at + 1] in ("!", "^")
     return pattern.find("]", at + 1)

@@ -11,7 +11,7 @@ from ros_lint.facts.visibility import Opaque, Problem
 
 
 class Results:
-    """What the commands of a package name, build, install and export, in the order of the commands."""
+    """The names, targets, files and exports that result from the commands of a package, in the order of the commands."""
 
     def __init__(self) -> None:
         self.project = BuildProject()
@@ -29,7 +29,7 @@ class Results:
         """Installed files. A file whose source does not exist counts only if the source is generated."""
         self.installed_targets: list[InstalledTarget] = []
         self.exported_sets: dict[str, None] = {}
-        """Export sets whose targets are certainly available to packages that find this one."""
+        """Export sets whose targets certainly reach each package that calls find_package() for this package."""
         self.targets: list[tuple[str, Properties, Span]] = []
         """Executables and libraries in the order of their definition."""
         self.links: dict[str, dict[str, Span]] = {}
@@ -46,7 +46,7 @@ class Results:
         The path of a folder ends with a slash."""
         self.config_extras: list[str] = []
         self.config_templates: dict[str, None] = {}
-        """Templates of the files that packages read when they find this one, relative to the package."""
+        """Templates, relative to this package, of files that packages read when they call find_package() for it."""
         self.subdirectories: dict[str, None] = {}
         """Folders below the package whose CMakeLists.txt certainly runs."""
         self.test_subdirectories: dict[str, None] = {}

@@ -38,7 +38,7 @@ def _inside(path: str, command: Command, argument: Argument) -> Span:
 
 
 class Run(State):
-    """The state of an evaluation: variables, the code that runs, and how certain it is that it runs."""
+    """The state of an evaluation of CMake scripts: variables, the code that runs, and whether the code certainly runs."""
 
     def __init__(
         self,
@@ -323,7 +323,7 @@ class Run(State):
 
     @property
     def conditional(self) -> bool:
-        """Return whether the current command may not run."""
+        """Return whether it is uncertain that the current command runs."""
         return self.uncertain_conditions > 0
 
     def add_mention(

@@ -141,7 +141,7 @@ class State:
             raise BudgetError
 
     def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
-        """Write an entry and log the old value.
+        """Set ``mapping[key]`` to ``value``, and record the old value, so that the effects of a branch can be undone.
 
         A branch writes only with this method. A text that is too long becomes HOLE.
         """

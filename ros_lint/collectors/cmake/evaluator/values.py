@@ -190,7 +190,7 @@ def strip_mark(element: str) -> tuple[str, bool]:
 
 
 def mark_maybe(element: str) -> str:
-    """Return a list element marked as one that may be missing."""
+    """Return a list element with the mark of elements that may be missing."""
     return element if element.startswith(MAYBE) or element in (HOLE, UNPAIRED_HOLE) else MAYBE + element
 
 

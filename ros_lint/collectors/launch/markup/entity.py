@@ -194,7 +194,7 @@ class Entity:
         return value
 
     def entities(self, tag: str) -> list[Entity]:
-        """Return the children with a tag. Raises Rejected if the value of this key of a YAML entity is not a list of mappings."""
+        """Return the children with a tag. Raises Rejected if the value of this key in YAML is not a list of mappings."""
         if self.form == "other":
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
         if self.form == "list":
@@ -367,10 +367,7 @@ _SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
 
 
 def _is_suspicious(value: str) -> bool:
-    """Return whether a text may have another type than text in YAML, such as ``1`` or ``[a]``.
-
-    The text must not be empty, and not be one of the words such as ``yes``.
-    """
+    """Return whether YAML may read a text as another type, such as ``1`` or ``[a]``. It must not be empty or in ``_WORDS``."""
     if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
         return True
     return ": " in value or " #" in value or "\n" in value

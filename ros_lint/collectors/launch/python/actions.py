@@ -227,7 +227,7 @@ def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
 
 
 def _texts_in(value: Value) -> list[Value]:
-    """Return the texts and substitutions in a value: the value itself, or those in a list or dictionary."""
+    """Return the texts and substitutions in a value: the value itself, or the elements of a list or dictionary."""
     text_values: list[Value] = []
     pending = [value]
     for _ in range(_MAX_TEXTS):

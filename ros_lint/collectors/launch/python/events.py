@@ -28,7 +28,7 @@ def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
 
 
 def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return the actions that a RegisterEventHandler starts: the actions of the handler, or those that its function returns."""
+    """Return the actions that a RegisterEventHandler starts: the actions of its handler, or the result of its function."""
     actions: list[LaunchAction] = []
     for alternative in alternatives(launch_object.get(0, "event_handler")):
         handler = alternative.value

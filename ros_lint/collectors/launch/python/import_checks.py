@@ -103,7 +103,7 @@ def _imported(tree: ast.Module) -> frozenset[str]:
 
 
 def is_from_launch(tree: ast.Module, function: ast.expr) -> bool:
-    """Return whether a called function is imported from a launch library, or qualified with one (``launch.actions.Node``)."""
+    """Return whether a called function is imported from a launch library or qualified: ``launch.actions.LogInfo``."""
     root = function
     while isinstance(root, ast.Attribute):
         root = root.value

@@ -292,7 +292,7 @@ def _xacro_output(call: LibraryCall) -> Value:
 def _writes_file(position: int) -> Rule:
     """Return the model of a function that writes the file in its argument at ``position``.
 
-    The file is recorded like a file whose existence the program tests, because it need not exist before.
+    The file is recorded as a file whose existence is tested, because it need not exist before.
     """
 
     def model(call: LibraryCall) -> Value:
@@ -308,8 +308,7 @@ _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 def _runs_command(call: LibraryCall) -> Value:
     """Model of a function that runs a command line: return an unknown value.
 
-    The output file of the command, after ``>`` or ``-o``, is recorded like a file whose existence the program tests,
-    because it need not exist before.
+    The output file, after ``>`` or ``-o``, is recorded as a file whose existence is tested, because it need not exist before.
     """
     words = call.items(0)
     if words is None:

@@ -28,10 +28,7 @@ if TYPE_CHECKING:
 
 
 def undefined_names(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
-    """Yield a problem for each name that certainly raises NameError when the launch file runs.
-
-    ``names`` are all uses of names that had no value when the interpreter evaluated them.
-    """
+    """Yield a problem for each of ``names`` that certainly raises NameError. ``names`` had no value in the interpretation."""
     for node in unbound(tree, [node for node, module in names if module is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 

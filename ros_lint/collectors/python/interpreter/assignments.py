@@ -111,6 +111,9 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
             replace(machine, owner, key, [value])
         elif isinstance(owner, LibraryName) and owner.name == "os.environ":
             _set_variable(machine, target, key, value, frame)
+        elif isinstance(owner, LibraryName) and owner.name == "context.launch_configurations" and isinstance(key, str):
+            call = ast.copy_location(ast.Call(target, [target.slice, target], []), target)
+            machine.set_configuration(key, value, call, frame.source)
         else:
             machine.escape(value)
 

@@ -38,7 +38,7 @@ _MOST_EXITS = 100
 """The number of conditional exits after which an endless loop counts as left."""
 
 NEXT, CONTINUE, BREAK, LEAVE = range(4)
-"""The ways in which a statement ends: with the next one, or by leaving an iteration, loop or function."""
+"""The ways in which a statement ends: the next statement follows, or an iteration, loop or function is left."""
 
 
 class _Side(NamedTuple):
@@ -249,7 +249,7 @@ class _Loop:
     def end(self, orelse: Sequence[ast.stmt]) -> int:
         """Interpret the else block after the last iteration, join the names at all exits, and return how the loop ends.
 
-        The result is NEXT, CONTINUE, BREAK or LEAVE, because the else block may contain statements that end an outer loop.
+        The else block may end an outer loop, so the result is NEXT, CONTINUE, BREAK or LEAVE.
         """
         machine, frame = self._machine, self._frame
         breaks = [way_out for way_out in self.exits if way_out.signal == BREAK]

@@ -237,10 +237,7 @@ def _copied_whole(call: LibraryCall) -> Value:
 
 
 def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
-    """Return a copy of a value, as ``copy.deepcopy()`` does, with new lists and dictionaries at all levels.
-
-    ``done`` has the copies made so far, by the id of the original. A list that occurs twice has one copy.
-    """
+    """Return a copy of a value, as ``copy.deepcopy()`` does. ``done`` has the copies made so far, by the id of the original."""
     if isinstance(value, Guarded):
         return Guarded(_deep(machine, value.value, done), value.conditions)
     if isinstance(value, Union):

@@ -116,10 +116,9 @@ def _any_all(wanted: bool) -> Rule:
 
 
 def _answer(machine: Interpreter, value: Value, wanted: bool) -> bool | None:
-    """Return the truth of an element of any() or all(), None if it is unknown.
+    """Return the truth of an element of any() (``wanted`` is True) or all() (``wanted`` is False), None if it is unknown.
 
-    ``wanted`` is the truth that decides the result: True for any(), False for all(). The truth of an element that may be
-    missing is unknown if it would decide.
+    The truth of an element that may be missing is unknown if it would decide the result.
     """
     answer, _ = truth(machine, value)
     return None if answer is wanted and isinstance(value, Guarded) else answer

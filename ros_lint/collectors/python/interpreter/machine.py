@@ -25,6 +25,7 @@ from ros_lint.collectors.python.interpreter.repeated_calls import UnderWay, begi
 from ros_lint.collectors.python.interpreter.statements import execute
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
+    PLAIN_BASES,
     Bound,
     BudgetExceeded,
     Class,
@@ -39,6 +40,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Modules,
     ProgramRaised,
     Source,
+    Super,
     Unknown,
     Value,
     guarded_text,
@@ -88,7 +90,7 @@ class Machine(Interpreter):
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Return a context manager that adds conditions to the present ones while its ``with`` block runs."""
+        """Return a context manager that adds ``conditions`` to the present conditions while its ``with`` block runs."""
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:
@@ -110,8 +112,7 @@ class Machine(Interpreter):
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
         """Return the interpreted module that the import statement ``at`` names, None if the module cannot be interpreted.
 
-        A module of the workspace is interpreted once. For a released module, the model of its effects is interpreted, if the
-        library has a model.
+        Each module is interpreted once. For a released module, this is the model in the library, if there is one.
         """
         top = name.partition(".")[0]
         known = top in STANDARD_LIBRARY or self.library.describes(top)
@@ -134,10 +135,9 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return a copy of the definition of a function, and the module of the copy.
+        """Return a copy of a function in the model of a released module, with all nodes at ``call``, and the module of the copy.
 
-        The function belongs to the model of a released module. All nodes of the copy have the position of ``call``, so that
-        findings about the function are reported at the call.
+        So findings about the function are reported at the call.
         """
         key = id(function.node), id(call)
         if key not in self._placed:
@@ -191,7 +191,7 @@ class Machine(Interpreter):
         """Return the result of calling ``function``, which may be a function, class or method of the program or of a library."""
         self.spend(1)
         if isinstance(function, LibraryName):
-            return self.library.call(self, function.name, arguments, keywords, node, frame)
+            return self._call_library(function, arguments, keywords, node, frame)
         if isinstance(function, Method):
             if isinstance(function.owner, LaunchObject):
                 return self.library.call(self, function, arguments, keywords, node, frame)
@@ -212,20 +212,37 @@ class Machine(Interpreter):
         self.escape([arguments, keywords])
         return Unknown("the result of a call that cannot be followed")
 
+    def _call_library(
+        self, function: LibraryName, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+    ) -> Value:
+        if function.name == "builtins.super" and (of_object := _super(arguments, frame)) is not None:
+            return of_object
+        cls, _, method = function.name.rpartition(".")
+        if method == "__init__" and arguments and isinstance(arguments[0], Instance):
+            self._initialize(arguments[0], cls, arguments[1:], keywords, node, frame)
+            return None
+        return self.library.call(self, function.name, arguments, keywords, node, frame)
+
+    def _initialize(
+        self, instance: Instance, base: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
+    ) -> None:
+        """Create the library object that an object of the program represents: ``base`` is the class that a library defines."""
+        result = self.library.call(self, base, arguments, keywords, node, frame)
+        instance.made = result if isinstance(result, LaunchObject) else None
+
     def _run_bound(self, bound: Bound, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
         kept = {name: value for name, value in bound.keywords.items() if name}
         return self.call(bound.function, [*bound.arguments, *arguments], {**kept, **keywords}, node, frame)
 
     def _make(self, cls: Class, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
         made = Instance(cls)
-        base = cls.library_base()
-        if base is not None and base.last not in ("ABC", "object", "Enum", "NamedTuple", "Protocol"):
-            result = self.library.call(self, base.name, arguments, keywords, node, frame)
-            made.made = result if isinstance(result, LaunchObject) else None
         init = cls.find("__init__")
         if isinstance(init, Function):
             self._run_function(init, [made, *arguments], keywords, node, frame)
-        else:
+        base = cls.library_base()
+        if made.made is None and base is not None and base.last not in PLAIN_BASES:
+            self._initialize(made, base.name, arguments, keywords, node, frame)
+        if not isinstance(init, Function):
             for name, value in zip(cls.fields, arguments, strict=False):
                 made.attributes[name] = value
             made.attributes.update({name: value for name, value in keywords.items() if name in cls.fields})
@@ -321,3 +338,13 @@ class Machine(Interpreter):
     def record_division(self, node: ast.expr, frame: Frame) -> None:
         if not are_unknown(self.conditions):
             self.divided.append((node, frame.source))
+
+
+def _super(arguments: list[Value], frame: Frame) -> Super | None:
+    """Return the value of ``super()`` or ``super(cls, instance)``, None if class or object is unknown."""
+    cls = plain(arguments[0]) if len(arguments) == 2 else frame.names.get("__class__")
+    if not isinstance(cls, Class):
+        return None
+    objects = (plain(value) for value in (arguments[1:] or frame.names.values()))
+    instance = next((value for value in objects if isinstance(value, Instance) and value.cls.derives_from(cls)), None)
+    return Super(cls, instance) if instance is not None else None

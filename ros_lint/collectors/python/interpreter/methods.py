@@ -35,6 +35,7 @@ from ros_lint.collectors.python.interpreter.values import (
     ProgramRaised,
     SetOf,
     Source,
+    Super,
     Union,
     Unknown,
     Value,
@@ -102,6 +103,9 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
         return machine.library.member(f"{owner.name}.{name}", node, frame.source)
     if isinstance(owner, Instance):
         return of_instance(owner, name)
+    if isinstance(owner, Super):
+        inherited = owner.instance.cls.inherited(owner.cls, name)
+        return Unknown(f"attribute {name} of super()") if inherited is None else _bound(inherited, owner.instance)
     if isinstance(owner, Class):
         member = owner.find(name)
         return member if member is not None else Unknown(f"attribute {name}")
@@ -117,6 +121,10 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
         return Method(owner, name)
     machine.escape(owner)
     return Unknown(f"attribute {name} of what is not known")
+
+
+def _bound(member: Value, instance: Instance) -> Value:
+    return Bound(member, [instance]) if isinstance(member, (Function, LibraryName)) else member
 
 
 def of_instance(owner: Instance, name: str) -> Value:

@@ -78,10 +78,9 @@ def each(value: Value, function: Callable[[Value], Value]) -> Value:
 
 
 def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondition]:
-    """Return whether a value is true, and a condition.
+    """Return whether a value is true, None if that is unknown, and the condition under which it is true.
 
-    If the first item is None, the truth is unknown, and the value is true under the condition. Else the condition is
-    meaningless.
+    The condition has a meaning only if the truth is unknown.
     """
     value = plain(value)
     if isinstance(value, Unknown):

@@ -73,7 +73,7 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
 
 
 def unique(values: Iterable[Value]) -> list[Value]:
-    """Return ``values`` without those that certainly equal an earlier value, as the elements of a set."""
+    """Return the elements of a set of ``values``: without values that certainly equal an earlier value."""
     elements: list[Value] = []
     seen: set[Any] = set()
     for value in values:

@@ -92,7 +92,7 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:
-        """Return a context manager that adds conditions to the present ones while its ``with`` block runs."""
+        """Return a context manager that adds ``conditions`` to the present conditions while its ``with`` block runs."""
 
     @abstractmethod
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:

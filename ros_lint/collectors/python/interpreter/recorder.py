@@ -42,10 +42,7 @@ def are_unknown(conditions: Conditions) -> bool:
 
 
 class Recorder:
-    """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present.
-
-    The program is a launch file or a setup.py with the modules that it imports.
-    """
+    """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present."""
 
     def __init__(self) -> None:
         self._branches = 0
@@ -88,7 +85,7 @@ class Recorder:
         self.named: dict[str, tuple[ast.expr, Source]] = {}
         """The first place of each looked-up package, a literal if possible, by its name or symbolic text."""
         self.variables: list[LaunchObject] = []
-        """Actions that set environment variables of the launch process, in order."""
+        """Actions that set environment variables of the launch process or launch configurations, in order."""
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
@@ -127,7 +124,7 @@ class Recorder:
         )
 
     def present(self, values: Sequence[Value]) -> list[Value]:
-        """Return those of the elements ``values`` that may exist under the present conditions."""
+        """Return the elements of ``values`` that may exist under the present conditions."""
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
 
     def any_perhaps(self, values: Iterable[Value]) -> bool:
@@ -188,7 +185,7 @@ class Recorder:
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
         """Record that the program looks up a package.
 
-        ``eager`` is True if the program, not launch, looks it up. ``conditions`` are those under which the name is ``package``.
+        ``eager`` is True if the program, not launch, looks it up. The name is ``package`` under ``conditions``.
         """
         if UNKNOWN not in package and not source.lent:
             known = self.named.get(package)
@@ -205,6 +202,12 @@ class Recorder:
         made.conditions = self.conditions
         self.variables.append(made)
         self._variables[name] = union([self.variable(name), self.guard(value)]) if self.conditions else value
+
+    def set_configuration(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
+        """Record that a function, which launch calls with the context, sets a launch configuration by the assignment ``at``."""
+        made = LaunchObject("SetLaunchConfiguration", [name, value], {}, at, source)
+        made.conditions = self.conditions
+        self.variables.append(made)
 
     def variable(self, name: str, default: str | None = None) -> Value:
         """Return the value of an environment variable: the value that the program set, else a symbolic text."""

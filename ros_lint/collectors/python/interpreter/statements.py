@@ -125,10 +125,7 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
 
 
 def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditions) -> int:
-    """Interpret the finally block of a try statement, and return how it ends: NEXT, CONTINUE, BREAK or LEAVE.
-
-    The block runs under the conditions ``before`` the statement, because it runs however the statement ends.
-    """
+    """Interpret the finally block of a try statement under the conditions ``before`` the statement, and return how it ends."""
     after, machine.conditions = machine.conditions, before
     signal = execute(machine, node.finalbody, frame)
     machine.conditions = (*after, *machine.conditions[len(before) :])

@@ -45,7 +45,7 @@ class Source:
         self.text = text
         self.ascii = text.text.isascii()
         self.lent = lent
-        """True for a model of a helper of a released package. Its places are those of the call."""
+        """True for a model of a helper of a released package. Findings in the model have the place of the call."""
         self.yields = "yield" in text.text
         self.assigns_inside = ":=" in text.text
         self.names: dict[str, Value] = {}
@@ -173,7 +173,7 @@ class LaunchObject:
         self.entities: list[Value] = []
         """The entities of a launch description. The list may grow while it is visited."""
         self.seen = False
-        """True if it is part of what is launched."""
+        """True if the object is part of the launch description."""
         self.escaped = False
         """True if it escaped to code that is not interpreted."""
 
@@ -258,6 +258,10 @@ class Method:
         self.name = name
 
 
+PLAIN_BASES = frozenset({"ABC", "Enum", "NamedTuple", "Protocol", "object"})
+"""Library classes whose subclasses are no objects of the library."""
+
+
 class Class:
     """A class that the program defines."""
 
@@ -276,8 +280,22 @@ class Class:
                 return cls.names[name]
         return None
 
+    def derives_from(self, base: Class) -> bool:
+        """Return whether ``base`` is this class or one of its base classes."""
+        return any(cls is base for cls in self._line())
+
+    def inherited(self, derived: Class, name: str) -> Value | None:
+        """Return the attribute that ``super()`` finds in an object of this class if a method of ``derived`` calls it."""
+        line = list(self._line())
+        for cls in line[line.index(derived) + 1 :] if derived in line else ():
+            if isinstance(cls, Class) and name in cls.names:
+                return cls.names[name]
+            if isinstance(cls, LibraryName) and cls.last not in PLAIN_BASES:
+                return LibraryName(f"{cls.name}.{name}")
+        return None
+
     def every_field(self) -> dict[str, None]:
-        """Return the names of the fields of the class and its base classes; those of base classes come first."""
+        """Return the names of the fields of the base classes, followed by the fields of the class itself."""
         line = [cls for cls in self._line() if isinstance(cls, Class)]
         return dict.fromkeys(name for cls in reversed(line) for name in cls.fields)
 
@@ -310,6 +328,16 @@ class Instance:
         self.cls = cls
         self.attributes: dict[str, Value] = {}
         self.made: LaunchObject | None = None
+
+
+class Super:
+    """The result of ``super()`` in a method of the class ``cls``, for one object."""
+
+    __slots__ = ("cls", "instance")
+
+    def __init__(self, cls: Class, instance: Instance) -> None:
+        self.cls = cls
+        self.instance = instance
 
 
 class Context:
@@ -386,7 +414,7 @@ def union(values: Iterable[Value]) -> Value:
 def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
     """Yield every alternative of a value with its conditions; a value without alternatives is yielded itself.
 
-    ``conditions`` are added to those of each alternative.
+    ``conditions`` are added to the conditions of each alternative.
     """
     if isinstance(value, Union):
         for alternative in value.values:
@@ -417,10 +445,7 @@ def plain(value: Value) -> Value:
 
 
 def cause(value: Value, reason: str) -> Unknown:
-    """Return the value that is reported as the cause if an unknown ``value`` makes the result of an operation unknown.
-
-    This is ``value`` itself, if the interpreter recorded its origin, else a new unknown value with ``reason``.
-    """
+    """Return ``value`` if it is an unknown value whose origin is recorded, else a new unknown value with ``reason``."""
     return value if isinstance(value, Unknown) and value.node is not None else Unknown(reason)
 
 

@@ -44,7 +44,7 @@ class Word(str):
 
 
 LARGEST: Final = 1 << 25
-"""Characters of a value that is followed. A list that contains another one twice, and so on, is larger than the memory."""
+"""Characters of a value that is followed. A list that contains another list twice, and so on, is larger than the memory."""
 _DEEPEST: Final = 50
 """The maximum nesting depth of containers in a value that is followed."""
 _ELEMENT: Final = 128
