@@ -7,7 +7,7 @@ from ros_lint.analysis.rule import Rule
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text, read
 from ros_lint.engine.report import OFF, UNSURE, BlindSpot, Crash, HiddenCount, Issue, Report
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 DOC = """
 ## What it finds
@@ -173,6 +173,7 @@ EVERYTHING = Report(
     rules=RULES,
     packages=3,
     target=TargetDistro("jazzy", "newest LTS"),
+    named_distros=(NamedDistro("humble", ".github/workflows/ci.yaml", 12),),
     data_date="2026-11-01",
     version="0.1.0",
     hidden=(

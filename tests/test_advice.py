@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from ros_lint.analysis.dependencies.remedy import availability_remark, naming_fix
+from ros_lint.analysis.dependencies.remedy import availability_remark, naming_fix, remedy
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import file_start
 from ros_lint.base.tree import MemoryTree
+from ros_lint.facts.manifest import Role
 from ros_lint.knowledge.underlays import in_tree
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
@@ -55,6 +56,18 @@ def test_a_name_resolves_where_it_is_stated_or_everywhere(name: str, stated: str
         fix = naming_fix(found, name, "declare it", EDIT)
         assert fix is not None
         assert fix.safe is (not remark)
+
+
+def test_a_tag_for_other_distributions_has_a_condition_and_no_fix() -> None:
+    for told in (True, False):
+        found = workspace("jazzy", told=told)
+        newer, older = (remedy(found.packages[0], found, name, Role.EXEC) for name in ("turtlesim_msgs", "gazebo_ros"))
+        assert newer.written.startswith('<exec_depend condition="$ROS_DISTRO != humble and $ROS_DISTRO != jazzy">turtlesim_msgs')
+        condition = '<exec_depend condition="$ROS_DISTRO == humble">'
+        assert older.written == f"{condition}gazebo_ros</exec_depend>, because jazzy has no 'gazebo_ros'"
+        assert [newer.fix, older.fix] == [None, None]
+        assert newer.conditional
+        assert older.conditional
 
 
 def test_what_is_unsafe_anyway_stays_so() -> None:

@@ -138,3 +138,34 @@ def test_a_path_in_a_package_means_the_package(tmp_path: Path) -> None:
     assert requested_folder(str(package / "test" / "workspace")) == str(package / "test" / "workspace")
     (tmp_path / "notes.txt").touch()
     assert requested_folder(str(tmp_path / "notes.txt")) == ""
+
+
+def test_paths_of_text_are_relative_to_the_current_folder(
+    repository: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def paths(form: str, *arguments: str | Path) -> set[str]:
+        main([*map(str, arguments), "--format", form, "--no-cache", "--distro", "jazzy", "--quiet"])
+        lines = capsys.readouterr().out.splitlines()
+        if form == "text":
+            return {line.strip().removeprefix("--> ").partition(":")[0] for line in lines if line.strip().startswith("--> ")}
+        return {line.partition(":")[0] for line in lines}
+
+    files = {f"{package}/CMakeLists.txt" for package in ("gripper", "wrist")}
+    for folder, expected in (
+        (repository, files),
+        (repository / "gripper", {"CMakeLists.txt", "../wrist/CMakeLists.txt"}),
+        (repository.parent, {f"repository/{file}" for file in files}),
+        (Path("/"), {f"{str(repository)[1:]}/{file}" for file in files}),
+    ):
+        monkeypatch.chdir(folder)
+        for form in ("text", "concise"):
+            shown = paths(form, repository)
+            assert expected <= shown
+            assert all((folder / path).is_file() for path in shown)
+    main([str(repository / "gripper" / "CMakeLists.txt"), "--format", "text", "--no-cache", "--distro", "jazzy"])
+    assert "find_package(arm_core REQUIRED)" in capsys.readouterr().out
+    (repository.parent / "elsewhere").mkdir()
+    monkeypatch.chdir(repository.parent / "elsewhere")
+    assert files <= paths("concise", repository)
+    monkeypatch.chdir(repository / "gripper")
+    assert {finding["path"] for finding in report(capsys, repository)["findings"]} >= files

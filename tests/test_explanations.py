@@ -12,8 +12,9 @@ from ros_lint.base.text import Span
 from ros_lint.engine import registry
 from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.report import EXPLAINED, HiddenCount, Issue
+from ros_lint.engine.run import run_rules
 from ros_lint.engine.selection import select, show
-from tests.one_package import load
+from tests.one_package import load, loaded
 
 CAUSE, OTHER = (Rule(name, f"T{name}", "s", Severity.WARNING, "1", "") for name in ("cause", "other"))
 
@@ -81,3 +82,46 @@ def test_lost_exports_explain_missing_ones_if_nothing_else_is_exported(top: str,
     assert rule.package is not None
     (finding,) = rule.package(package, load("", {}))
     assert bool(finding.explains) is explained
+
+
+def manifest(*depends: str) -> str:
+    tags = "".join(f"<exec_depend>{name}</exec_depend>" for name in depends)
+    return (
+        '<package format="3"><name>arm</name><version>1.0.0</version><description>An arm.</description>'
+        '<maintainer email="jay@robots.example">Jay</maintainer><license>MIT</license>'
+        f"<buildtool_depend>ament_cmake</buildtool_depend>{tags}<export><build_type>ament_cmake</build_type></export></package>"
+    )
+
+
+@pytest.mark.parametrize(
+    ("declared", "cause"),
+    [("join_state_publisher", "unknown-dependency"), ("tf2_rso", "unknown-dependency"), ("tf", "end-of-life-dependency")],
+)
+def test_a_wrong_name_explains_that_the_intended_package_is_missing(declared: str, cause: str) -> None:
+    used = {"join_state_publisher": "joint_state_publisher"}.get(declared, "tf2_ros")
+    files = {
+        "arm/package.xml": manifest("launch_ros", declared),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\n"
+        "install(DIRECTORY launch DESTINATION share/arm)\nament_package()\n",
+        "arm/launch/arm.launch.xml": f'<launch><node pkg="{used}" exec="node"/></launch>',
+    }
+    rules = tuple(rule for rule in registry.load() if rule.name in (cause, "launch-outside-closure"))
+    issues, _ = run_rules(loaded(files), rules)
+    (issue,) = without_explained(issues)
+    assert (issue.rule.name, issue.finding.subject) == (cause, declared)
+    assert [(explained.rule, explained.subject) for explained in issue.explained] == [("launch-outside-closure", used)]
+
+
+@pytest.mark.parametrize(("declared", "cause"), [("std_msg", "unknown-dependency"), ("actionlib", "end-of-life-dependency")])
+def test_a_wrong_name_explains_that_it_is_unused(declared: str, cause: str) -> None:
+    files = {
+        "arm/package.xml": manifest().replace("<export>", f"<build_depend>{declared}</build_depend><export>"),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\nadd_executable(arm arm.cpp)\n"
+        "install(TARGETS arm DESTINATION lib/arm)\nament_package()\n",
+        "arm/arm.cpp": "int main() {}\n",
+    }
+    rules = tuple(rule for rule in registry.load() if rule.name in (cause, "unused-dependency"))
+    issues, _ = run_rules(loaded(files), rules)
+    (issue,) = without_explained(issues)
+    assert issue.rule.name == cause
+    assert [explained.rule for explained in issue.explained] == ["unused-dependency"]

@@ -49,6 +49,7 @@ from ros_lint.analysis.dependencies.unresolved import (
     resembles_ament_package,
     undeclared_match,
     unresolved,
+    wrong_name_explains,
 )
 from ros_lint.collectors.manifest import conditions
 from ros_lint.workspace.usage.resolve import satisfying, used_names
@@ -113,4 +114,5 @@ __all__ = [
     "unused_find_packages",
     "usage_is_visible",
     "used_names",
+    "wrong_name_explains",
 ]

@@ -2,6 +2,7 @@
 
 from ros_lint.analysis.graph.cycles import Cycle, cycles
 from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason, dependency_graph
+from ros_lint.workspace.side_by_side import workspace_of
 
 __all__ = [
     "Cycle",
@@ -10,4 +11,5 @@ __all__ = [
     "Reason",
     "cycles",
     "dependency_graph",
+    "workspace_of",
 ]

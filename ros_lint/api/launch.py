@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.launch.arguments import ArgumentUse, SimilarRead, argument_use
+from ros_lint.analysis.launch.branches import packages_of_every_branch
 from ros_lint.analysis.launch.configurations import IncludeTree, include_tree
 from ros_lint.analysis.launch.files import (
     InstalledPrograms,
@@ -65,6 +66,7 @@ __all__ = [
     "node_references",
     "nodes_started",
     "package_launch_files",
+    "packages_of_every_branch",
     "passed_files",
     "references_by_name",
     "rename_fix",

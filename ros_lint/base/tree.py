@@ -65,6 +65,9 @@ class Tree(Protocol):
         The identity of an entry that is not a link is the identity of its directory joined with its name.
         """
 
+    def is_untracked(self, path: str) -> bool:
+        """Return whether a path exists on the disk, but is left out because git does not track it."""
+
 
 def text_of(tree: Tree, path: str) -> Text | None:
     """Return the text of a file, None if it cannot be read."""
@@ -166,6 +169,9 @@ class DiskTree:
     def identity(self, path: str) -> str:
         return os.path.realpath(os.path.join(self._base, path))
 
+    def is_untracked(self, path: str) -> bool:  # noqa: ARG002  (of a Tree)
+        return False
+
 
 _IS_LINK = (errno.ELOOP, errno.EMLINK)
 """Errors of O_NOFOLLOW for a link: ELOOP on Linux and macOS, EMLINK on FreeBSD."""
@@ -236,6 +242,9 @@ class RecordedTree:
         assert isinstance(answer, str)
         return answer
 
+    def is_untracked(self, path: str) -> bool:
+        return bool(self._answer("untracked", path))
+
     def _answer(self, query: str, path: str) -> TreeAnswer:
         answer = self._known.pop((query, path), None)
         if answer is None:
@@ -254,6 +263,8 @@ class RecordedTree:
                 return disk.stamp(path)
             if query == "identity":
                 return disk.identity(path)
+            if query == "untracked":
+                return "untracked" if disk.is_untracked(path) else ""
             disk.read(path)
         except OSError as error:
             return error.errno or 0
@@ -303,6 +314,9 @@ class MemoryTree:
     def identity(self, path: str) -> str:
         return path
 
+    def is_untracked(self, path: str) -> bool:  # noqa: ARG002  (of a Tree)
+        return False
+
 
 class OverlayTree:
     """A tree with changed contents of some files. New files must be in existing directories."""
@@ -337,6 +351,9 @@ class OverlayTree:
 
     def identity(self, path: str) -> str:
         return self._below.identity(path)
+
+    def is_untracked(self, path: str) -> bool:
+        return path not in self._changed and self._below.is_untracked(path)
 
 
 def _bytes(content: str | bytes) -> bytes:

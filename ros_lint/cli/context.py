@@ -1,4 +1,4 @@
-"""Find what was requested and what it is checked with: the package of a path, and the workspace around a package."""
+"""Find the package that a path belongs to, and the folder whose packages are the context in which the package is checked."""
 
 from __future__ import annotations
 
@@ -29,10 +29,11 @@ def requested_folder(path: str) -> str:
 
 
 def context_of(folder: str) -> str:
-    """Return the absolute folder whose packages are read to check an absolute ``folder``, at least the folder itself.
+    """Return the absolute folder whose packages are read in order to check an absolute ``folder``.
 
-    A repository and a colcon workspace are checked without what surrounds them. The home folder and the folders above it are
-    no context, because they contain unrelated repositories.
+    It is the workspace that contains the folder, else the folder itself. A repository and a colcon workspace are checked
+    without the packages around them. The home folder and the folders above it are no context, because they contain
+    unrelated repositories.
     """
     around = "" if _is_workspace(folder) else workspace_around(folder)
     home = os.path.realpath(os.path.expanduser("~"))
@@ -40,9 +41,11 @@ def context_of(folder: str) -> str:
 
 
 def workspace_around(folder: str) -> str:
-    """Return the workspace that contains an absolute folder, "" if there is none: the first of these that exists.
+    """Return the workspace that contains an absolute folder, "" if there is none.
 
-    - the folder whose ``src`` contains the package of ``folder``, if it is in the same repository or colcon has built in it,
+    It is the first of these folders that exists:
+
+    - the folder whose ``src`` contains the package of ``folder``, if both are in one repository or colcon has built there,
     - the repository.
     """
     folders = list(upwards(folder))

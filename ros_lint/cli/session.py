@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.base.tracked_tree import TrackedTree
 from ros_lint.base.tree import DiskTree, repository_of
 from ros_lint.cli.context import context_of, requested_folder
 from ros_lint.cli.options import COMMANDS, OPTIONS
@@ -20,6 +21,7 @@ from ros_lint.workspace import fact_cache
 from ros_lint.workspace.target import TargetDistro
 
 if TYPE_CHECKING:
+    from ros_lint.base.git_index import Tracked
     from ros_lint.base.tree import Tree
     from ros_lint.knowledge.underlays import Underlay
     from ros_lint.workspace.loader import Loader, Progress
@@ -41,6 +43,8 @@ class Request(NamedTuple):
     """Folders, relative to the base, whose other packages are read as well; () without context."""
     inside: tuple[str, ...]
     """Absolute folders that links in the workspace may lead into: the repository, or the requested paths."""
+    tracked: Tracked | None
+    """What git tracks, if other files are left out; None if all files are read."""
     target: TargetDistro
     places: tuple[str, ...]
     """Folders with data about released packages that override the shipped data."""
@@ -52,7 +56,7 @@ class Request(NamedTuple):
     @property
     def disk(self) -> DiskTree:
         """Return the files of the workspace."""
-        return DiskTree(self.base, self.inside)
+        return TrackedTree(self.base, self.inside, self.tracked) if self.tracked else DiskTree(self.base, self.inside)
 
 
 class Session(NamedTuple):
@@ -96,11 +100,21 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
         _relative(paths, base),
         _relative(around, base) if around != paths else (),
         inside,
+        _tracked(base, environment),
         target,
         places,
         fact_cache.folder(environment) if settings["cache"] else "",
         warnings,
     )
+
+
+def _tracked(base: str, environment: Mapping[str, str]) -> Tracked | None:
+    """Return what git tracks in the repository at ``base`` if pre-commit runs, because a commit has no other files; else None."""
+    if environment.get("PRE_COMMIT") != "1" or repository_of(base) != base:
+        return None
+    from ros_lint.base.git_index import read_index  # noqa: PLC0415  (for pre-commit only)
+
+    return read_index(base, environment)
 
 
 def _requested_folder(written: str) -> str:
@@ -180,6 +194,8 @@ def report_cache(request: Request) -> ReportCache:
     request_key = repr(
         (request.roots, request.context, request.inside, request.target, values, prefixes, settings.origin("underlay"))
     )
+    if request.tracked:
+        request_key += repr([sorted(paths) for paths in request.tracked])
     return ReportCache(request.cache, request.base, request_key, data)
 
 

@@ -55,6 +55,7 @@ _NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue01
 BRACKETS = re.compile("([\ue010\ue012\ue014])|[\ue011\ue013\ue015]")
 """Begins (in group 1) or ends a part of a text that is known only at launch."""
 _EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
+_NEGATION = re.compile("\ue012(?:not (\ue010[^\ue010-\ue013]*\ue011)|_not(_equals\\(.*\\)))\ue013")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
 _ENDS = re.compile("\ue010\\$|[\ue010-\ue015]")
 _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014": "$(command "}
@@ -302,6 +303,12 @@ def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
 def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
     """Return the conditions of a text made by :func:`conditional`; () for any other text."""
     return text.conditions if isinstance(text, Conditional) else ()
+
+
+def negated(text: str) -> str:
+    """Return the launch configuration or comparison that an expression negates, "" for other texts."""
+    match = _NEGATION.fullmatch(text)
+    return "" if match is None else match[1] or expression(match[2])
 
 
 def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:

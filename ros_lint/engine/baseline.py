@@ -72,7 +72,7 @@ class Baseline(NamedTuple):
 
 
 def read(path: str) -> Baseline:
-    """Return the baseline in a JSON file. Raises BaselineError."""
+    """Return the baseline in a JSON file. Raises BaselineError if the file cannot be read or is not a baseline."""
     import json  # noqa: PLC0415
 
     try:
@@ -90,7 +90,7 @@ _REMEDY = "--write-baseline rewrites it"
 
 
 def write(path: str, report: Report, folders: Sequence[str]) -> None:
-    """Write the findings of a report to a file, atomically. Raises BaselineError."""
+    """Write the findings of a report to a file, atomically. Raises BaselineError if the file cannot be written."""
     try:
         edits.write(path, text(report, folders).encode("utf-8"))
     except edits.EditError as error:

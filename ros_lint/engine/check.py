@@ -9,9 +9,11 @@ from ros_lint.base.paths import is_below_any
 from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
+from ros_lint.facts.repositories import UnclonedRepositories
+from ros_lint.knowledge.spelling import package_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from ros_lint.analysis.rule import Rule
     from ros_lint.facts.suppressions import Suppression
@@ -50,16 +52,26 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
         packages=checked_packages,
         context_packages=len(workspace.packages) + len(workspace.unusable) - checked_packages,
         target=workspace.target,
+        named_distros=workspace.named_distros,
         data_date=context.data_date,
         version=__version__,
         hidden=hidden,
         not_checked=workspace.not_checked,
+        not_cloned=tuple(_not_cloned(workspace)),
         blind_spots=_blind_spots(packages),
         ros1=tuple([_name(package) for package in packages if package.is_ros1]),
         crashes=checked.crashes,
         workspace=context.folders[0] if len(context.folders) == 1 else "",
         warnings=context.warnings,
     )
+
+
+def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
+    """Yield the listed repositories that are not cloned, without released packages, which need not be cloned."""
+    world = workspace.world
+    for path, names in world.awaited.lists:
+        if unknown := [name for name in names if not world.is_package(package_name(name))]:
+            yield UnclonedRepositories(path, tuple(unknown))
 
 
 def _blind_spots(packages: Sequence[Package]) -> tuple[BlindSpot, ...]:

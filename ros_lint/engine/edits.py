@@ -56,7 +56,7 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
 def text_of(tree: Tree, path: str) -> Text:
     """Return the text of a file to edit; an empty text if the file does not exist yet.
 
-    Raises EditError.
+    Raises EditError if the file cannot be read.
     """
     try:
         return read(path, tree.read(path))
@@ -67,7 +67,10 @@ def text_of(tree: Tree, path: str) -> Text:
 
 
 def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:
-    """Return the changed texts as bytes in the encoding of each file. Raises EditError."""
+    """Return the changed texts as bytes in the encoding of each file.
+
+    Raises EditError if an encoding lacks a character.
+    """
     result = {}
     for path, text in changed.items():
         try:
@@ -80,7 +83,7 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
 def write(path: str, data: bytes) -> None:
     """Replace or create one file atomically; write to it directly if it is a FIFO or a device.
 
-    Raises EditError.
+    Raises EditError if the file cannot be written.
     """
     try:
         if os.path.exists(path) and not os.path.isfile(path):

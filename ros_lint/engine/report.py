@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ros_lint.analysis.finding import Finding, Severity
     from ros_lint.analysis.rule import Rule
     from ros_lint.base.text import Span
+    from ros_lint.facts.repositories import UnclonedRepositories
 
 
 class ExplainedFinding(NamedTuple):
@@ -107,9 +108,13 @@ class Report(NamedTuple):
     hidden: tuple[HiddenCount, ...] = ()
     not_checked: tuple[UnreadFile, ...] = ()
     blind_spots: tuple[BlindSpot, ...] = ()
+    not_cloned: tuple[UnclonedRepositories, ...] = ()
+    """Repositories that a list of the workspace names and that are not in it: their packages are unknown, not missing."""
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    named_distros: tuple[NamedDistro, ...] = ()
+    """The distributions that the repository builds for; () if the user chose the distribution of the run."""
     context_packages: int = 0
     """Number of packages that were read to check the others, and whose findings are not reported."""
     ros1: tuple[str, ...] = ()

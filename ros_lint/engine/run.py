@@ -45,7 +45,7 @@ def run_rules(
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
     """Yield the findings of a rule in ``package``; for a rule of workspaces (``package`` is None), in the whole workspace."""
     if rule.package is not None and package is not None:
-        for finding in rule.package(package, workspace):
+        for finding in rule.package(package, workspace.seen_from(package)):
             yield Issue(rule, package.name, finding)
     elif rule.workspace is not None:
         for finding in rule.workspace(workspace):

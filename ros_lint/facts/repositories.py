@@ -5,13 +5,27 @@ from __future__ import annotations
 from typing import NamedTuple
 
 
+class UnclonedRepositories(NamedTuple):
+    """Repositories of one list that are not in the workspace."""
+
+    path: str
+    """Path of the list, such as ``deps.repos`` or ``.gitmodules``."""
+    names: tuple[str, ...]
+    """Their folder names, sorted."""
+
+
 class ExpectedRepositories(NamedTuple):
     """Repositories that may be added to a workspace, by folder name, which is mostly also a package name."""
 
     uncloned: frozenset[str] = frozenset()
-    """Submodules whose folders are empty: packages, modules and libraries in them count as not missing."""
+    """Submodules and listed repositories that are not in the workspace: what they may contain counts as not missing.
+
+    The names of their folders, and those at the end of their URLs.
+    """
     listed: frozenset[str] = frozenset()
     """Repositories in ``*.repos`` and ``*.rosinstall`` files, which may or may not have been fetched."""
+    lists: tuple[UnclonedRepositories, ...] = ()
+    """The uncloned repositories of each list."""
 
 
 NOTHING_AWAITED = ExpectedRepositories()

@@ -17,7 +17,7 @@ from ros_lint.knowledge.rosdep import PLATFORMS, Rosdep
 from ros_lint.knowledge.store import Store
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     from ros_lint.knowledge.provides import ContentKind, Known
 
@@ -71,6 +71,12 @@ class Knowledge:
     def covered(self) -> bool:
         """True if the distribution has an index."""
         return len(self.index) > 0
+
+    @property
+    def distributions(self) -> Mapping[str, bool]:
+        """Return all distributions by name, with whether each has an index: those at their end of life mostly have none."""
+        ended = dict.fromkeys([name.rpartition(" ")[2].lower() for name in names.END_OF_LIFE.values()], False)
+        return {**ended, **dict.fromkeys(self._order, True)}
 
     @property
     def date(self) -> str:

@@ -136,6 +136,11 @@ def may_be_package(name: str) -> bool:
     return _PACKAGE_NAME.fullmatch(name) is not None
 
 
+def package_name(repository: str) -> str:
+    """Return the name that a package of a repository most likely has: "BehaviorTree.CPP" -> "behaviortree_cpp"."""
+    return re.sub("[-.]", "_", repository.lower())
+
+
 def plain(name: str) -> str:
     """Return a name without dashes, underscores and capitals, which are its most frequent variations."""
     return name.replace("-", "").replace("_", "").lower()

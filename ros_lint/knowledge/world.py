@@ -17,7 +17,7 @@ from ros_lint.knowledge.closure import Closure, Reach
 from ros_lint.knowledge.index import RUNTIME
 from ros_lint.knowledge.providers import Layer, Providers, Suggestion
 from ros_lint.knowledge.provides import NOTHING_KNOWN
-from ros_lint.knowledge.spelling import Spelling
+from ros_lint.knowledge.spelling import Spelling, package_name
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
@@ -37,7 +37,7 @@ Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable
 * "elsewhere": a package of other active distributions only.
 * "end-of-life": a package of distributions at their end of life only.
 * "unknown": none of these.
-* "unknowable": cannot be decided, because the distribution has no index or a submodule is not cloned.
+* "unknowable": cannot be decided, because the distribution has no index or a repository is not cloned.
 """
 
 
@@ -125,9 +125,21 @@ class World:
             return "unknowable"
         if self.knowledge.elsewhere(name):
             return "elsewhere"
-        if name in self.awaited.uncloned:
+        if self._may_be_uncloned(name):
             return "unknowable"
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
+
+    def _may_be_uncloned(self, name: str) -> bool:
+        """Return whether a package may be in a repository that is not cloned: it has its name, or begins with it.
+
+        ``arm_msgs`` may be in the repository ``arm`` or ``Arm-Msgs``.
+        """
+        return name in self.awaited.uncloned or f"{name}_".startswith(self._uncloned)
+
+    @cached_property
+    def _uncloned(self) -> tuple[str, ...]:
+        """Beginnings of the names of packages in repositories that are not cloned."""
+        return tuple([f"{package_name(name)}_" for name in self.awaited.uncloned])
 
     def successor(self, name: str) -> str:
         """Return the ROS 2 successor of a ROS 1 package, or ""."""

@@ -26,6 +26,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "version": report.version,
         "distro": report.target.distro,
         "distro_source": report.target.source,
+        "named_distros": [{"distro": named.distro, "path": named.path, "line": named.line} for named in report.named_distros],
         "data_date": report.data_date,
         "workspace": report.workspace,
         "packages": report.packages,
@@ -36,6 +37,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
             {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NO_PLACE)}
             for entry in report.not_checked
         ],
+        "not_cloned": [{"list": path, "repositories": list(names)} for path, names in report.not_cloned],
         "not_seen_through": [
             {"what": spot.what, "packages": len(spot.packages), "names": list(spot.packages)} for spot in report.blind_spots
         ],

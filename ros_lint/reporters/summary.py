@@ -39,15 +39,17 @@ def and_list(words: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
-def name_or_count(packages: Sequence[str]) -> str:
-    """Return the names of packages as a list; if there are many: "12 packages (talker, listener ...)"."""
-    if len(packages) <= _NAMED:
-        return and_list(packages)
-    return f"{count(len(packages), 'package')} ({', '.join(packages[:_NAMED])} ...)"
+def name_or_count(names: Sequence[str], noun: str = "packages") -> str:
+    """Return names as a list; if there are many, the number and the first of them: "12 packages (talker, listener ...)"."""
+    if len(names) <= _NAMED:
+        return and_list(names)
+    return f"{len(names)} {noun} ({', '.join(names[:_NAMED])} ...)"
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield sentences without their full stop: about hidden findings, and about packages that were not fully analysed."""
+    """Yield sentences, without full stop, about the distribution, hidden findings and what was not fully analysed."""
+    if proposed := _proposed_distros(report):
+        yield proposed
     more: Counter[str] = Counter()
     for hidden in report.hidden:
         more.update(dict(hidden.rules))
@@ -58,6 +60,11 @@ def limits(report: Report) -> Iterator[str]:
         yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
     if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
         yield f"Hidden: {'; '.join(kinds)}"
+    if report.not_cloned:
+        names = sorted({name for uncloned in report.not_cloned for name in uncloned.names})
+        more_lists = f" and {count(len(report.not_cloned) - 1, 'other file')}" if len(report.not_cloned) > 1 else ""
+        why = "Their packages are unknown, not missing"
+        yield f"Not cloned here: {name_or_count(names, 'repositories')} ({report.not_cloned[0].path}{more_lists}). {why}"
     if report.ros1:
         verb = "is a package" if len(report.ros1) == 1 else "are packages"
         yield f"Not analysed, because only ROS 2 is supported: {name_or_count(report.ros1)} {verb} of ROS 1 (build type catkin)"
@@ -68,6 +75,19 @@ def limits(report: Report) -> Iterator[str]:
         list_of_spots = "; ".join(f"{and_list(what)} of {name_or_count(packages)}" for packages, what in facets.items())
         why = "Checks for missing things were skipped there; 'ros-lint explain-package NAME' lists the places"
         yield f"Not fully analysed: {list_of_spots}. {why}"
+
+
+def _proposed_distros(report: Report) -> str:
+    """Return a sentence about the distributions that the repository builds for, "" if the run was for one of them."""
+    distro = report.target.distro
+    if distro in [named.distro for named in report.named_distros]:
+        return ""
+    named = [named for named in report.named_distros if named.indexed]
+    options = " or ".join(f"--distro {known.distro}" for known in named)
+    places = and_list([f"{known.distro} ({known.path}:{known.line})" for known in named or report.named_distros])
+    if named:
+        return f"This repository builds for {places}: pass {options}"
+    return f"This repository builds for {places}, which has no package index here" if places else ""
 
 
 def hidden_findings(hidden: HiddenCount) -> str:

@@ -17,6 +17,7 @@ from ros_lint.collectors.launch.python.released_helpers import HELPERS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, walk_actions
+from ros_lint.workspace.side_by_side import own_first
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Module
@@ -123,7 +124,7 @@ class _InputFinder:
             for _ in range(dots - 1):
                 folder = parent(folder)
             return self._existing(join(folder, module_path) if module_path else folder, package)
-        owners = self._modules.get(module_path.partition("/")[0], [])
+        owners = own_first(self._modules.get(module_path.partition("/")[0], []), package.path)
         if package in owners:
             return self._module_of_package(module_path, importer, package)
         if "sys.path" in importer.text or importer.path in self._on_path:
@@ -165,7 +166,7 @@ class _InputFinder:
         place = installed_place(path)
         if place is None:
             return ""
-        owners = self._by_name.get(place.package, [])
+        owners = own_first(self._by_name.get(place.package, []), package.path)
         return self._installed_sources(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
     def _neighbour(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:

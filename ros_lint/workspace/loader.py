@@ -6,11 +6,13 @@ Only this module knows all steps. A loader keeps the facts of files, so that a w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from types import MappingProxyType
 from typing import NamedTuple
 
-from ros_lint.base.paths import is_below, join, parent, strip_folder
+from ros_lint.base.paths import is_below, is_outside, join, parent, strip_folder
+from ros_lint.base.paths import resolve as resolve_path
 from ros_lint.base.text import Text, file_start
 from ros_lint.base.tree import OverlayTree, Tree, text_of
 from ros_lint.collectors.file_types import kind_of
@@ -18,6 +20,7 @@ from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import DEPENDENCY_KINDS, ROLES, Manifest, Role
+from ros_lint.facts.repositories import ExpectedRepositories
 from ros_lint.facts.sources import FileFacts, MachinePath
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
@@ -32,9 +35,11 @@ from ros_lint.workspace.collect import Collected, collect_all
 from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
+from ros_lint.workspace.discovery.named_distros import named_distros
 from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.model import Declared, Package, Workspace
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.side_by_side import hidden_namesakes, workspace_of
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
 from ros_lint.workspace.usage.resolve import Resolver, resolve
@@ -45,7 +50,7 @@ Progress = Callable[[str, int, int], None]
 _NO_ROLE = Role(0)
 
 _MOST_CONTEXT = 20_000
-"""Number of folders outside packages up to which a context is searched for packages."""
+"""Maximum number of folders outside packages that are searched for the packages of the context."""
 
 
 class _ReadPackage(NamedTuple):
@@ -58,9 +63,19 @@ class _ReadPackage(NamedTuple):
     launch: tuple[LaunchFile, ...]
     machine_paths: tuple[MachinePath, ...] = ()
 
+    @property
+    def source(self) -> PackageSource:
+        """The package as the resolution of names needs it."""
+        package = self.discovered
+        builds_with = package.type.removeprefix("ros.")
+        return PackageSource(package.name, package.path, package.files, self.script, self.facts, self.launch, builds_with)
+
 
 class Loader:
-    """Loads the packages below ``roots`` of a tree, and those below ``context``. Paths are relative to the base of the tree."""
+    """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
+
+    Paths are relative to the base of the tree.
+    """
 
     def __init__(
         self,
@@ -91,6 +106,7 @@ class Loader:
         self._cache = cache or FactCache("", "")
         self._progress = progress
         self._collected: dict[str, Collected] = {}
+        self._named_distros: tuple[NamedDistro, ...] | None = None
 
     def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
         """Return the workspace, with the contents of some files replaced.
@@ -102,9 +118,8 @@ class Loader:
         self._progress("looking for packages", 0, 0)
         roots, discovery = self._discover(tree)
         discovered = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
-        lists = repository_lists.find_lists(
-            tree, roots, (join(package.path, file) for package in discovered for file in package.files)
-        )
+        files = [join(package.path, file) for package in discovered for file in package.files]
+        lists = repository_lists.find_lists(tree, roots, (*files, *discovery.repository_lists))
         submodules = repository_lists.submodules(tree, lists)
         discovered = _without_submodules(discovered, submodules)
         collected = self._collect(discovered, changed or {}) if sources else {}
@@ -113,9 +128,26 @@ class Loader:
             if sources
             else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
         )
-        expected = repository_lists.expected_repositories(tree, lists, submodules)
-        world = World(tuple(self._members(read_packages, discovery.rejected)), self._underlays, self._knowledge, expected)
-        packages = tuple(self._join(tree, read_packages, world, sources))
+        expected = repository_lists.expected_repositories(
+            tree, lists, submodules, [(package.name, package.path) for package in discovered]
+        )
+        world = self._world(read_packages, discovery.rejected, expected)
+        hidden = hidden_namesakes(
+            [
+                *((package.name, package.path) for package in discovered),
+                *((manifest.name, parent(manifest.path)) for manifest in discovery.rejected),
+            ]
+        )
+        shared = [read for read in read_packages if not hidden or workspace_of(read.discovered.path) not in hidden]
+        packages = tuple(self._join(tree, read_packages, shared, world, sources))
+        worlds: dict[str, World] = {}
+        for folder, paths in hidden.items():
+            visible = [read for read in read_packages if read.discovered.path not in paths]
+            own = [read for read in visible if workspace_of(read.discovered.path) == folder]
+            rejected = [manifest for manifest in discovery.rejected if parent(manifest.path) not in paths]
+            worlds[folder] = self._world(visible, rejected, expected)
+            packages += tuple(self._join(tree, visible, own, worlds[folder], sources))
+        packages = tuple(sorted(packages, key=lambda package: package.path)) if hidden else packages
         unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
         ignores = find_ignores(tree, ((package.path, package.files) for package in discovered))
         unread_files = (
@@ -125,7 +157,15 @@ class Loader:
             *_unreadable(collected),
         )
         not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
-        return Workspace(packages, unusable, world, self.target, not_checked, lists, ignores.patterns)
+
+        named = self._distros_named_in(tree, roots)
+        untracked = frozenset(_untracked(tree, packages))
+
+        def seen(world: World, without: Container[str] = (), views: Mapping[str, Workspace] = MappingProxyType({})) -> Workspace:
+            kept = [tuple([package for package in group if package.path not in without]) for group in (packages, unusable)]
+            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views, named, untracked)
+
+        return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
 
     def pin(self, paths: Iterable[str]) -> None:
         """Read some files again and fix their contents for all further loads, even if they change on disk.
@@ -149,9 +189,10 @@ class Loader:
             yield from collected[path].suppressions
 
     def _discover(self, tree: Tree) -> tuple[tuple[str, ...], Discovery]:
-        """Return the folders that are read and their packages.
+        """Return the folders that are read (the context, or else the requested folders), and their packages.
 
-        The context is left out if it is huge, or if colcon does not find a requested folder in it, such as an ignored folder.
+        The context is left out if it has too many folders, or if colcon finds nothing in a requested folder from there, for
+        example because an outer folder is ignored.
         """
         if self._around:
             around = discover(tree, self._around, self.target.context, _MOST_CONTEXT)
@@ -163,6 +204,13 @@ class Loader:
                 requested = discover(tree, self._roots, self.target.context)
                 return self._roots, requested._replace(not_checked=(*requested.not_checked, UnreadFile("context", why, None)))
         return self._roots, discover(tree, self._roots, self.target.context)
+
+    def _distros_named_in(self, tree: Tree, roots: Sequence[str]) -> tuple[NamedDistro, ...]:
+        """Return the distributions that the repository builds for, () if the user chose the distribution."""
+        if self._named_distros is None:
+            known = {} if self.target.explicit else self._knowledge.distributions
+            self._named_distros = named_distros(tree, roots, known) if known else ()
+        return self._named_distros
 
     def _without_excluded(self, package: DiscoveredPackage) -> DiscoveredPackage:
         return package._replace(files=tuple(file for file in package.files if not self._exclude(join(package.path, file))))
@@ -225,6 +273,11 @@ class Loader:
             for package, declared, script, files, resolved in zip(discovered, declared_by, built, of_package, launch, strict=True)
         ]
 
+    def _world(
+        self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest], expected: ExpectedRepositories
+    ) -> World:
+        return World(tuple(self._members(read_packages, rejected)), self._underlays, self._knowledge, expected)
+
     def _members(self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest]) -> Iterator[Member]:
         for package, declared, script, *_ in read_packages:
             modules = importable_modules(script, package.files) if script else None
@@ -233,24 +286,18 @@ class Loader:
             if manifest.name:
                 yield _member(manifest.name, manifest, self._declared(manifest))
 
-    def _join(self, tree: Tree, read_packages: Sequence[_ReadPackage], world: World, search: bool) -> Iterator[Package]:
-        sources = [
-            PackageSource(
-                read_package.discovered.name,
-                read_package.discovered.path,
-                read_package.discovered.files,
-                read_package.script,
-                read_package.facts,
-                read_package.launch,
-                read_package.discovered.type.removeprefix("ros."),
-            )
-            for read_package in read_packages
-        ]
+    def _join(
+        self, tree: Tree, visible: Sequence[_ReadPackage], read_packages: Sequence[_ReadPackage], world: World, search: bool
+    ) -> Iterator[Package]:
+        """Yield ``read_packages`` with their uses of the visible packages."""
+        if not read_packages:
+            return
+        sources = [read_package.source for read_package in visible]
         resolver = Resolver(sources, world)
         types = unqualified_types.Types(sources, tree, lambda name: world.closure((name,)))
-        for number, (read_package, source) in enumerate(zip(read_packages, sources, strict=True)):
+        for number, read_package in enumerate(read_packages):
             self._progress("analysing", number, len(read_packages))
-            discovered = read_package.discovered
+            discovered, source = read_package.discovered, read_package.source
             files = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
             uses = resolve(source, resolver, files)
             declared = read_package.declared
@@ -357,6 +404,15 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
             yield UnreadFile(path, c.unreadable, file_start(path))
         for fact in (c.facts, c.launch):
             yield from _unchecked(fact.opaque if fact is not None else ())
+
+
+def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
+    """Yield the paths that build scripts name and that exist on the disk, but are not in the tree."""
+    for package in packages:
+        for problem in package.built.problems:
+            path = resolve_path(package.path, problem.subject.rstrip("/"))
+            if problem.kind.startswith("missing-") and not is_outside(path) and tree.is_untracked(path):
+                yield path
 
 
 def _unchecked_scripts(read_packages: Sequence[_ReadPackage]) -> Iterator[UnreadFile]:

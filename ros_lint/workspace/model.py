@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base import gitignore
-from ros_lint.base.paths import join, strip_folder
+from ros_lint.base.paths import join, resolve, strip_folder
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import NOTHING_BUILT, BuildScript, UninstalledImport
@@ -18,7 +18,8 @@ from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
 from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
-from ros_lint.workspace.target import TargetDistro, UnreadFile
+from ros_lint.workspace.side_by_side import workspace_of
+from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from ros_lint.knowledge.provides import ContentKind
@@ -211,6 +212,9 @@ class Workspace:
         not_checked: tuple[UnreadFile, ...],
         source_lists: tuple[str, ...] = (),
         ignores: tuple[gitignore.Pattern, ...] = (),
+        views: Mapping[str, Workspace] = MappingProxyType({}),
+        named_distros: tuple[NamedDistro, ...] = (),
+        untracked: frozenset[str] = frozenset(),
     ) -> None:
         self.packages = packages
         """The packages that colcon finds, sorted by path; two may have the same name."""
@@ -228,8 +232,19 @@ class Workspace:
         The repositories need not be cloned.
         """
         self._ignores = ignores
+        self._views = views
+        self._untracked = untracked
+        self.named_distros = named_distros
+        """The distributions that the repository builds for; () if the user chose the distribution of the run."""
         self.memo: dict[object, Any] = {}
         """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
+
+    def seen_from(self, package: Package) -> Workspace:
+        """Return the workspace for look-ups of a package: without namesakes of packages that its own workspace contains.
+
+        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. Not for plugins.
+        """
+        return self._views.get(workspace_of(package.path), self) if self._views else self
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
@@ -263,6 +278,13 @@ class Workspace:
     def is_made(self, package: Package, path: str) -> bool:
         """Return whether git ignores a path in a package: such a path is generated or downloaded."""
         return bool(self._ignores) and gitignore.is_ignored(self._ignores, join(package.path, path))
+
+    def is_untracked(self, package: Package, path: str) -> bool:
+        """Return whether a path that a build script names exists, but is not part of the commit because git does not track it.
+
+        ``path`` is relative to the package. Always False outside of pre-commit hooks.
+        """
+        return resolve(package.path, path) in self._untracked
 
     @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:

@@ -34,6 +34,19 @@ class TargetDistro(NamedTuple):
         return {**ROS_2, "ROS_DISTRO": self.distro, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
+class NamedDistro(NamedTuple):
+    """A distribution that a repository builds for, with the first place that names it."""
+
+    distro: str
+    """Name of the distribution, such as "jazzy"."""
+    path: str
+    """Path of the file, relative to the base."""
+    line: int
+    """Line of the file, from 1."""
+    indexed: bool = True
+    """False if the distribution is at its end of life and has no package index."""
+
+
 class UnreadFile(NamedTuple):
     """An input that could not be checked. ``what`` is the path of a file, or another description."""
 

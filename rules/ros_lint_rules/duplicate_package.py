@@ -30,7 +30,6 @@ Reported with medium confidence, because such packages are built separately: eac
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 
 from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, graph
@@ -55,23 +54,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 def _are_built_separately(packages: Iterable[Package]) -> bool:
     """Return whether each package is in a workspace or course step of its own: these are built separately."""
-    places = [_workspace(package.path) for package in packages]
+    places = [graph.workspace_of(package.path) for package in packages]
     return "" not in places and len(set(places)) == len(places)
-
-
-_STEP = r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d"
-_BUILT_SEPARATELY = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
-"""Beginnings of the names of folders that are built separately. micro-ROS builds ``extra_packages`` for a microcontroller."""
-
-
-def _workspace(path: str) -> str:
-    """Return the workspace of a package by its path: the folder above ``src``, else a course step, else "" (the root)."""
-    top, inside, _ = f"/{path}/".partition("/src/")
-    if inside:
-        return top.removeprefix("/")
-    parts = path.split("/")
-    alone = next((at for at, part in enumerate(parts) if _BUILT_SEPARATELY.match(part.lower())), len(parts))
-    return "/".join(parts[: alone + 1]) if alone < len(parts) else ""
 
 
 RULE = Rule(

@@ -10,7 +10,7 @@ The package is not completely ported. `rosdep install` fails at the name, for ev
 
 ## How to fix it
 
-- Depend on the successor in ROS 2. The message names it if one is known.
+- Depend on the successor in ROS 2. The message names it if one is known. The fix writes it if the package uses it already.
 - Remove the dependency if the message says so: its successor is declared already, nothing uses either of them, or no interfaces
   are generated.
 - If a Python module of that name is imported, such as `serial`, declare the rosdep key of the module, which the message names.
@@ -31,7 +31,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Facet, Finding, Package, Role, Rule, Severity, Workspace, dependencies
+from ros_lint.api import Confidence, Edit, Facet, Finding, Fix, Package, Role, Rule, Severity, Workspace, dependencies
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -49,9 +49,20 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 f"'{name}' was last released for {last} (as of {world.knowledge.date}); {remedy}",
                 unresolved_dependency.declared.depend.name_span,
                 name,
+                fix=_fix(unresolved_dependency, successor, workspace),
                 confidence=Confidence.HIGH if successor else Confidence.MEDIUM,
                 package=unresolved_dependency.package.name,
+                explains=dependencies.wrong_name_explains(name, successor),
             )
+
+
+def _fix(dependency: dependencies.UnresolvedDependency, successor: str, workspace: Workspace) -> Fix | None:
+    """Return the fix that declares the successor in place of a dependency, None unless the package uses only the successor."""
+    package = dependency.package
+    if package.declares(successor) or not any(successor in use.providers for use in package.uses):
+        return None
+    edits = [Edit(tag.name_span, successor) for tag in dependency.tags]
+    return dependencies.naming_fix(workspace, successor, f"write '{successor}' instead of '{dependency.name}'", *edits)
 
 
 def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspace: Workspace) -> str:
@@ -104,5 +115,6 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
+    fixable=True,
     workspace=check,
 )

@@ -15,7 +15,7 @@ This rule reports all of them because each is a name of a file that is neither i
 ## Why it matters
 
 The launch file stops, or the node starts without its parameters. xacro stops at a missing include. RViz and Gazebo show nothing
-for a missing mesh.
+for a missing mesh. RViz starts with its default display if its own is missing, so this is a warning.
 
 ## How to fix it
 
@@ -48,13 +48,14 @@ Reported with medium confidence:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from ros_lint.api import (
     Confidence,
     Facet,
     Finding,
     LaunchFile,
+    LaunchReference,
     Package,
     Related,
     Rule,
@@ -124,7 +125,12 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield findings for missing files that launch files name independently of launch arguments."""
-    for (owner, path), named in launch.references_by_name(package, ("include", "file")).items():
+    by_name = launch.references_by_name(package, ("include", "file"))
+    names_at: dict[Span, set[str]] = {}
+    for (_, path), named in by_name.items():
+        for reference in named:
+            names_at.setdefault(reference.package_span, set()).add(path)
+    for (owner, path), named in by_name.items():
         references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
         if not references:
             continue
@@ -145,11 +151,19 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace)}",
             best.span,
             path,
-            first_related(Related("also named here", other.span) for other in others),
+            first_related([*_look_up(best, names_at), *(Related("also named here", other.span) for other in others)]),
             confidence=Confidence.HIGH
             if sure and not best.from_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
+            severity=_severity(path),
         )
+
+
+def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
+    """Yield the look-up of the package before the line of a reference, unless the launch file uses it for several files."""
+    place, named = reference.span, reference.package_span
+    if place.path == named.path and named.line < place.line and len(names_at[named]) == 1:
+        yield Related("the package is looked up here", named)
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
@@ -177,6 +191,7 @@ def _passed(workspace: Workspace) -> Iterator[Finding]:
             passed.path,
             (Related("named here", passed.span),),
             confidence=Confidence.HIGH if sure and not _is_made(passed.package, passed.path, workspace) else Confidence.MEDIUM,
+            severity=_severity(passed.path),
             package=package.name,
         )
 
@@ -226,6 +241,11 @@ def _message(owner: str, path: str, more: int = 0) -> str:
     if not more:
         return f"'{path}' does not exist in '{owner}'"
     return f"'{path}' and {more} other file{'s' if more > 1 else ''} of its folder that this file names do not exist in '{owner}'"
+
+
+def _severity(path: str) -> Severity:
+    """Return the severity of a missing file: without a display, RViz starts with its default display."""
+    return Severity.WARNING if path.endswith(".rviz") else Severity.ERROR
 
 
 def _twin(path: str, all_names: tuple[str, ...]) -> str:

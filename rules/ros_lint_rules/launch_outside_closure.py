@@ -84,19 +84,32 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for name, references in lacking:
         best, *others = sorted(references, key=lambda r: (r.package_from_default, r.conditional, _ORDER.index(r.kind), r.span))
         what = f"'{name}'" if best.name in ("", name) else f"'{best.name}' of '{name}'"
-        how = " under a condition" if best.conditional else ""
+        how = " under a condition" if best.conditional and not _is_in_every_branch(name, best, package) else ""
         how = " by the default of an argument" if best.package_from_default else how
+        place = _place(best, others)
         proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
         needed = best.kind != "program" or not best.conditional
         certain = readable and needed and proposal.certain and not dependencies.may_provide(unknown, name, workspace)
         yield Finding(
             f"{what} is {_DONE[best.kind]} here{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
-            best.package_span,
+            place,
             name,
-            first_related(Related("also needed here", span) for span in _elsewhere(best.package_span, others)),
+            first_related(Related("also needed here", span) for span in _elsewhere(place, others)),
             proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
+
+
+def _is_in_every_branch(name: str, reference: LaunchReference, package: Package) -> bool:
+    """Return whether the launch file with a reference starts nodes of the package ``name`` whatever its conditions are."""
+    file = next((file for file in package.launch if file.path == reference.package_span.path), None)
+    return file is not None and name in launch.packages_of_every_branch(file)
+
+
+def _place(best: LaunchReference, others: Sequence[LaunchReference]) -> Span:
+    """Return the place of the package name, or that of the file if the package is looked up there for several files."""
+    is_shared = any(other.package_span == best.package_span and other.name != best.name for other in others)
+    return best.span if is_shared and best.kind in ("include", "file") else best.package_span
 
 
 def _declares(package: Package, name: str) -> str:

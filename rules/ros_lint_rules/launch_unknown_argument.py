@@ -9,7 +9,8 @@ The argument has no effect, without a message. It was renamed or removed in the 
 
 ## How to fix it
 
-Correct the name, or remove the argument.
+Correct the name, or remove the argument. The message names a similar argument of the included file, an argument with the name of
+the configuration that is passed, or a variant of the included file that declares the argument.
 
 ## Limitations
 
@@ -32,7 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, LaunchFile, Package, Rule, Severity, Span, Workspace, launch, names
+from ros_lint.api import Confidence, Finding, LaunchFile, LaunchValue, Package, Rule, Severity, Span, Workspace, launch, names
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -45,34 +46,65 @@ def _of_include(include: launch.PlacedInclude, source: LaunchFile, workspace: Wo
     action, resolver, leaks = include.action, launch.include_resolver(workspace), launch.scope_leaks(workspace)
     target = resolver.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
-    passed = {name: place for (name, _), place in zip(action.arguments, places, strict=True) if name}
+    passed = {name: (value, place) for (name, value), place in zip(action.arguments, places, strict=True) if name}
     if target is None or not all(launch.is_plain(name) for name in passed):
         return
     takes = resolver.takes(target.file)
     file = f"{target.package.name}/{target.path}"
     filled = {name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read}
     sure = not launch.include_tree(workspace).fill(target.file)
-    for name, place in passed.items() if takes.complete else ():
+    for name, (value, place) in passed.items() if takes.complete else ():
         if name in takes.known or name in action.conditional_arguments or (name in filled and not sure):
             continue
         if not leaks.is_taken_later(name, include, source):
             alone = not leaks.is_taken_above(name, include, source)
-            yield _useless(file, name, place, takes.known - passed.keys(), sure=sure, alone=alone)
+            not_passed = takes.known - passed.keys()
+            near = names.similar_names(name, not_passed, 1, 0.85)
+            hint = names.did_you_mean(near or sorted(not_passed.intersection(_configurations(value))))
+            hint = hint or _in_sibling(name, target.file, target.package, source, workspace) or "; remove it"
+            yield _useless(file, name, place, hint, sure=sure and (bool(near) or alone), is_similar=bool(near))
 
 
-def _useless(file: str, name: str, place: Span, not_passed: frozenset[str], *, sure: bool, alone: bool) -> Finding:
+def _configurations(value: LaunchValue) -> Iterator[str]:
+    """Yield the launch configuration that a value consists of: a file often passes on an argument under the same name."""
+    for text in value.texts:
+        yield from (name for name, _, whole in launch.configurations(text) if whole == text)
+
+
+def _in_sibling(name: str, target: LaunchFile, package: Package, source: LaunchFile, workspace: Workspace) -> str:
+    """Return the hint that a variant of the included file declares the argument, "" unless exactly one in ``package`` does.
+
+    A variant is in or below the folder of the included file and has a longer name: ``base_imu`` for ``base``. ``source`` is the
+    including file, which may declare what it passes on.
+    """
+    folder, tree = target.path.rpartition("/")[0], launch.include_tree(workspace)
+    declaring = [
+        path
+        for file, path, _, _ in launch.package_launch_files(package)
+        if file not in (source, target)
+        and file.path.startswith(f"{folder}/")
+        and _stem(file).startswith(_stem(target))
+        and name in tree.names(file).declared
+    ]
+    return f"; '{declaring[0]}' declares it: include that file, or remove the argument" if len(declaring) == 1 else ""
+
+
+def _stem(file: LaunchFile) -> str:
+    """Return the name of a launch file without its suffix: ``base`` for ``launch/base.launch.py``."""
+    return file.path.rpartition("/")[2].removesuffix(launch.launch_suffix(file.path))
+
+
+def _useless(file: str, name: str, place: Span, hint: str, *, sure: bool, is_similar: bool) -> Finding:
     """Return the finding for an argument ``name`` that is passed to the included ``file`` but that the file does not use.
 
-    ``not_passed``: arguments of the file that are not passed, from which a similar name is suggested. ``alone``: no file
-    includes the passing file and later contains something that may read the argument.
+    ``is_similar``: the file uses an argument of a similar name that is not passed.
     """
-    near = names.similar_names(name, not_passed, 1, 0.85)
     return Finding(
-        f"'{file}' does not use the argument '{name}', so it has no effect{names.did_you_mean(near) or '; remove it'}",
+        f"'{file}' does not use the argument '{name}', so it has no effect{hint}",
         place,
         f"{file}:{name}",
-        confidence=Confidence.HIGH if sure and (near or alone) else Confidence.MEDIUM,
-        severity=None if near else Severity.INFO,
+        confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+        severity=None if is_similar else Severity.INFO,
     )
 
 

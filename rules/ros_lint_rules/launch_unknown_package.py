@@ -29,7 +29,8 @@ Not reported:
 - The distribution was not chosen, and another one has the package.
 - The launch file checks first whether the package exists.
 - The name contains a `$`, because the file is a template.
-- A git submodule that is not cloned has a folder of that name.
+- The package may be in a repository that a `.repos` file, a `.rosinstall` file or `.gitmodules` lists and that is not cloned: the
+  name of the package is that of the repository, or begins with it.
 - `package.xml` declares the name as well, and no package has a similar name: `unknown-dependency` or `end-of-life-dependency`
   reports it.
 

@@ -10,6 +10,9 @@ Files and folders that a build script names but that do not exist:
 
 Also folders where `install(FILES)` expects a file.
 
+In a hook of pre-commit (`PRE_COMMIT=1`), files that git does not track do not exist: "'src/extra.cpp' exists, but git does not
+track it".
+
 This rule reports all of them because each is a path in a build script at which there is no such file.
 
 ## Why it matters
@@ -67,11 +70,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         path = problem.subject.rstrip("/")
         if problem.kind in _KINDS and path not in seen and not _is_unseen(package, path):
             seen.add(path)
-            hint = _hint(package, path) if problem.kind != "file-is-directory" else ""
-            message = f"'{path}' does not exist" if path in _KINDS_OF_INSTALL else problem.message
-            yield Finding(f"{message}{hint}", problem.span, path, confidence=_confidence(package, workspace, problem))
+            message = _message(package, workspace, problem, path)
+            yield Finding(message, problem.span, path, confidence=_confidence(package, workspace, problem))
     if package.builds_with == "ament_cmake":
         yield from _python_packages(package)
+
+
+def _message(package: Package, workspace: Workspace, problem: Problem, path: str) -> str:
+    if workspace.is_untracked(package, path):
+        return f"'{path}' exists, but git does not track it, so a clone lacks it; run git add"
+    hint = _hint(package, path) if problem.kind != "file-is-directory" else ""
+    message = f"'{path}' does not exist" if path in _KINDS_OF_INSTALL else problem.message
+    return f"{message}{hint}"
 
 
 def _is_unseen(package: Package, path: str) -> bool:

@@ -131,7 +131,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             finding = finding._replace(message=message, fix=None)
         if finding.fix:
             finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
-        yield finding._replace(severity=severity)
+        yield finding._replace(severity=severity or finding.severity)
     for lack in dependencies.misplaced(package, workspace):
         tag = lack.depend.tag
         problem = f"is used here, but comes only with <{tag}>{lack.depend.name}</{tag}>, which is not installed {lack.purpose}"
@@ -177,6 +177,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
+        Severity.WARNING if proposal.conditional and not workspace.target.explicit else None,
     )
 
 

@@ -110,7 +110,7 @@ _READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})
 
 
 def _reads_manifest(package: Package) -> bool:
-    """Return whether the manifest exports a description for rqt, which reads it there."""
+    """Return whether the manifest exports a plugin description for rqt, because rqt reads the ``<export>`` of the manifest."""
     exports = package.manifest.exports if package.manifest else ()
     return any(element.tag in _READ_BY_RQT and element.get("plugin") for element in exports)
 

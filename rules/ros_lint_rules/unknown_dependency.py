@@ -31,6 +31,8 @@ Not reported:
 - Tags under a condition that is false or cannot be evaluated.
 - Packages of ROS 1 (build type catkin).
 - Any name, if there is no index of the distribution.
+- Packages that may be in a repository that is not cloned: `laser_tools` and `laser_tools_msgs`, if a `.repos` file, a
+  `.rosinstall` file or `.gitmodules` lists a repository `laser_tools`.
 
 Reported with medium confidence, so shown with `--pedantic` only:
 
@@ -49,7 +51,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Edit, Finding, Fix, Package, Rule, Severity, Workspace, dependencies, launch, names
+from ros_lint.api import (
+    Confidence,
+    Edit,
+    Finding,
+    Fix,
+    Package,
+    Rule,
+    Severity,
+    Workspace,
+    dependencies,
+    launch,
+    names,
+)
 
 _CALLED_SO_BY = {"cmake": "find_package", "header": "#include", "python": "Python", "system": "the system's package manager"}
 _PYTHON_BUILD = "ament_python"
@@ -94,7 +108,14 @@ def _needless(unresolved: dependencies.UnresolvedDependency, why: str) -> Findin
     package, depend = unresolved.package, unresolved.declared.depend
     title = f"remove the dependency on '{unresolved.name}'" if unresolved.name else "remove the empty tag"
     fix = Fix(title, _removal(unresolved))
-    return Finding(f"{why}; remove the tag", depend.span, unresolved.name or depend.tag, fix=fix, package=package.name)
+    return Finding(
+        f"{why}; remove the tag",
+        depend.span,
+        unresolved.name or depend.tag,
+        fix=fix,
+        package=package.name,
+        explains=dependencies.wrong_name_explains(unresolved.name),
+    )
 
 
 def _own(unresolved: dependencies.UnresolvedDependency) -> str:
@@ -133,6 +154,7 @@ def _unknown(
     if (meant is None or meant.by == "slip") and (inside := _in_folder(name, workspace)):
         return _of_folder(unresolved, workspace, f"{what}, only the name of the folder of '{inside}'", inside)
     fix = None
+    intended = meant.name if meant else ""
     of_cmake = not unresolved.runs_python and bool(world.knowledge.names.cmake(name))
     installing = () if of_cmake else world.knowledge.rosdep.installing(name)
     sure = _confidence(unresolved, meant.by if meant else "system" if installing else "", workspace)
@@ -144,7 +166,7 @@ def _unknown(
         hint = names.did_you_mean(near, "") or "correct it, or add the package to the workspace"
         if lacking := dependencies.undeclared_match(unresolved, workspace):
             hint = f"write '{lacking}', which is used but not declared{dependencies.availability_remark(workspace, lacking)}"
-            sure = Confidence.HIGH
+            sure, intended = Confidence.HIGH, lacking
             fix = dependencies.naming_fix(
                 workspace, lacking, f"write '{lacking}' instead of '{name}'", *_rename(unresolved, lacking)
             )
@@ -176,6 +198,7 @@ def _unknown(
         fix=fix,
         confidence=sure,
         package=unresolved.package.name,
+        explains=dependencies.wrong_name_explains(name, intended) if fix else (),
     )
 
 
@@ -200,6 +223,7 @@ def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspa
         unresolved.name,
         fix=dependencies.naming_fix(workspace, meant, title, *edits),
         package=package.name,
+        explains=dependencies.wrong_name_explains(unresolved.name, meant),
     )
 
 

@@ -10,6 +10,8 @@ from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.analysis.memo import cached_by_workspace
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ros_lint.base.edit import Edit
     from ros_lint.facts.manifest import Role
     from ros_lint.workspace.model import Package, Workspace
@@ -19,15 +21,20 @@ class Remedy(NamedTuple):
     """The remedy for an undeclared dependency, if one exists."""
 
     written: str
-    """The element to add, followed by remarks in parentheses."""
+    """The element to add, followed by remarks."""
     fix: Fix | None
-    """None if the name cannot be declared, or if colcon rejects the manifest, which has to be fixed first."""
+    """None if the name cannot be declared, if the tag needs a condition, or if colcon rejects the manifest.
+
+    Such a manifest has to be fixed first.
+    """
     obstacle: str
     """The reason why it cannot be declared, which completes "cannot be declared: ", or ""."""
     circular: bool
     """True if the obstacle is that it depends on the package itself."""
     certain: bool = True
     """False if the remedy is circular or colcon rejects the manifest, whatever the evidence is."""
+    conditional: bool = False
+    """True if the tag needs a condition, because the distribution to check for lacks the package. Then there is no fix."""
 
     @property
     def ending(self) -> str:
@@ -38,7 +45,9 @@ class Remedy(NamedTuple):
 def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
     """Return the remedy for a needed package or key that is not declared. The package must have a manifest."""
     tag = tag_for(package, workspace, name, role)
-    written = " and ".join(f"<{needed_tag}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
+    only_in = _availability(workspace, name).only_in
+    condition = f' condition="{_condition(only_in, workspace.world.knowledge.active)}"' if only_in else ""
+    written = " and ".join(f"<{needed_tag}{condition}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
         between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
         return Remedy(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
@@ -51,12 +60,20 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
         return Remedy(written, None, obstacle, circular=False, certain=usable)
     if is_of_pip(workspace, name):
         written += " (installed by pip: a released package cannot depend on it)"
-    written += availability_remark(workspace, name)
+    written += f", because {workspace.target.distro} has no '{name}'" if only_in else availability_remark(workspace, name)
     if _is_exported(package, name):
         written += " (the tag in <export> declares nothing)"
-    edits = add_dependency(package, tag, name) if usable else ()
+    edits = add_dependency(package, tag, name) if usable and not only_in else ()
     fix = naming_fix(workspace, name, f"declare '{name}' as <{tag}>", *edits)
-    return Remedy(written, fix, "", circular=False, certain=usable)
+    return Remedy(written, fix, "", circular=False, certain=usable, conditional=bool(only_in))
+
+
+def _condition(distros: Sequence[str], active: Sequence[str]) -> str:
+    """Return the condition of a tag (REP 149) that is true for ``distros`` and false for all other active distributions."""
+    others = [distro for distro in active if distro not in distros]
+    if len(others) < len(distros):
+        return " and ".join(f"$ROS_DISTRO != {distro}" for distro in others)
+    return " or ".join(f"$ROS_DISTRO == {distro}" for distro in distros)
 
 
 def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
@@ -71,40 +88,52 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 def availability_remark(workspace: Workspace, name: str) -> str:
     """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
 
-    The name has to resolve in the distribution that the user chose; without a choice, in every active distribution.
+    The name has to resolve in the distribution that the user chose, or in every active one if the user chose none.
     Packages of the workspace and of underlays resolve in all of them.
     """
-    remarks = _remarks(workspace)
-    if name not in remarks:
-        remarks[name] = _availability(workspace, name)
-    return remarks[name]
+    return _availability(workspace, name).remark
+
+
+class _Availability(NamedTuple):
+    remark: str = ""
+    only_in: tuple[str, ...] = ()
+    """The active distributions with the name, if the distribution to check for needs it and lacks it; else empty."""
+
+
+def _availability(workspace: Workspace, name: str) -> _Availability:
+    known = _availabilities(workspace)
+    if name not in known:
+        known[name] = _find_availability(workspace, name)
+    return known[name]
 
 
 @cached_by_workspace
-def _remarks(workspace: Workspace) -> dict[str, str]:  # noqa: ARG001  (the key of the cache)
-    """Return the cache of :func:`availability_remark`: the remark of each name for which it was computed."""
+def _availabilities(workspace: Workspace) -> dict[str, _Availability]:  # noqa: ARG001  (the key of the cache)
+    """Return the cache of :func:`_availability`, by name."""
     return {}
 
 
-def _availability(workspace: Workspace, name: str) -> str:
+def _find_availability(workspace: Workspace, name: str) -> _Availability:
     world, target = workspace.world, workspace.target
     if world.layer(name) in ("workspace", "underlay"):
-        return ""
+        return _Availability()
     knowledge = world.knowledge
     resolves = knowledge.rosdep_resolves(name, target.distro)
     if resolves and target.explicit:
-        return ""
+        return _Availability()
     if not knowledge.covered:
-        return f" (there are no data about {target.distro})"
-    distros = [distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)]
-    without = [distro for distro in knowledge.active if distro not in distros]
+        return _Availability(f" (there are no data about {target.distro})")
+    distros = tuple([distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)])
     if not distros:
-        return " (no distribution has it)"
-    if not resolves:
-        return f" (not in {target.distro}, only in {', '.join(distros)})"
-    if len(without) < len(distros):
-        return f" (not in {', '.join(without)})" if without else ""
-    return f" (only in {', '.join(distros)})"
+        return _Availability(" (no distribution has it)")
+    needed = (target.distro,) if target.explicit else knowledge.active
+    without = [distro for distro in needed if distro not in distros]
+    if not without:
+        return _Availability()
+    if target.distro in without:
+        return _Availability(f" (not in {target.distro}, only in {', '.join(distros)})", distros)
+    few = len(without) < len(distros)
+    return _Availability(f" (not in {', '.join(without)})" if few else f" (only in {', '.join(distros)})")
 
 
 def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from ros_lint.analysis.finding import Consequence
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.facts.manifest import Depend, Role
 from ros_lint.facts.sources import Use
@@ -128,6 +129,15 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
     if len(same) == 1 and name not in _mentioned(package):
         return same[0]
     return undeclared[0] if len(undeclared) == 1 and not is_used_in_sources(dependency) else ""
+
+
+def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...]:
+    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or is removed if that is "".
+
+    Until then nothing uses the wrong name, and ``intended`` is used but not declared.
+    """
+    lacking = ("undeclared-dependency", "launch-outside-closure") if intended else ()
+    return (Consequence("unused-dependency", name), *(Consequence(rule, intended) for rule in lacking))
 
 
 def is_used_in_sources(dependency: UnresolvedDependency) -> bool:

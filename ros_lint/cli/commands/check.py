@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
     from ros_lint.engine.selection import Selection
-    from ros_lint.reporters import Reporter
+    from ros_lint.reporters import Reporter, SourceTexts
     from ros_lint.reporters.ansi import Style
 
 
@@ -173,7 +173,11 @@ def _print(report: Report, request: Request) -> int:
     """Print a report or write it to a file. Returns the exit code."""
     settings = request.settings
     render = _reporter(settings)
-    data = render(report, partial(text_of, request.disk), _style(settings)).encode("utf-8", "backslashreplace")
+    texts: SourceTexts = partial(text_of, request.disk)
+    shown = report
+    if settings["format"] in ("text", "concise"):
+        shown, texts = _relative_to_current_folder(request.base, report, texts)
+    data = render(shown, texts, _style(settings)).encode("utf-8", "backslashreplace")
     if settings["output"]:
         from ros_lint.engine import edits  # noqa: PLC0415  (few runs write a file)
 
@@ -188,6 +192,23 @@ def _print(report: Report, request: Request) -> int:
     if not report.packages:
         print(no_packages(request), file=sys.stderr)
     return exit_code(report, settings["fail-on"])
+
+
+def _relative_to_current_folder(base: str, report: Report, texts: SourceTexts) -> tuple[Report, SourceTexts]:
+    """Return the report and the texts of its files with paths relative to the current folder, for terminals and editors.
+
+    If neither the base nor the current folder contains the other, paths stay relative to the base.
+    """
+    current = os.path.realpath(os.curdir)
+    if current == base or os.path.commonpath((base, current)) not in (base, current):
+        return report, texts
+    from ros_lint.reporters.moved_paths import with_paths  # noqa: PLC0415  (mostly the current folder is the base)
+
+    def relative(path: str, old: str, new: str) -> str:
+        return os.path.relpath(os.path.join(old, path), new).replace(os.sep, "/")
+
+    moved = with_paths(report, lambda path: relative(path, base, current))
+    return moved, lambda path: texts(relative(path, current, base))
 
 
 def _reporter(settings: Settings) -> Reporter:

@@ -22,8 +22,9 @@ def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int
         return "", f"ros-lint: the workspace has no package '{name}'\n", 2
     lines: list[str] = []
     for package in packages:
-        issues = _issues(package, workspace)
-        lines += explain(package, workspace, dependency, _reported(issues, dependency))
+        seen = workspace.seen_from(package)
+        issues = _issues(package, seen)
+        lines += explain(package, seen, dependency, _reported(issues, dependency))
         lines += _causes(issues, dependency)
     return "".join(f"{line}\n" for line in lines), "", 0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -20,6 +21,7 @@ from ros_lint.workspace.build_scripts.files import Executables, text_in, with_fi
 from ros_lint.workspace.build_scripts.sources import Parts, Surroundings, sources
 from ros_lint.workspace.collect import FAILED
 from ros_lint.workspace.discovery.discover import DiscoveredPackage
+from ros_lint.workspace.side_by_side import workspace_of
 
 if TYPE_CHECKING:
     from ros_lint.collectors.cmake.evaluator.sources import Helper
@@ -30,7 +32,7 @@ _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildScript | None]:
     """Return the evaluated script of each package in the given order, None if it has no script."""
     result: list[BuildScript | None] = [None] * len(packages)
-    helpers: dict[str, Helper] = {}
+    helpers: dict[str, dict[str, Helper]] = {}
     surroundings = Surroundings(tree)
     in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
     for number in in_order:
@@ -47,15 +49,23 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
     return result
 
 
-def _cmake(tree: Tree, parts: Parts, distro: str, helpers: dict[str, Helper], surroundings: Surroundings) -> BuildScript:
+def _cmake(
+    tree: Tree, parts: Parts, distro: str, helpers: dict[str, dict[str, Helper]], surroundings: Surroundings
+) -> BuildScript:
+    """Return the evaluated CMakeLists.txt of a package.
+
+    If its code runs in other packages, it is added to ``helpers``, by workspace and name.
+    """
     from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
     from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
 
     inputs = sources(tree, parts, surroundings)
-    script = cmake.evaluate(inputs, distro, helpers)
+    own_helpers = helpers.setdefault(workspace_of(parts.package.path), {})
+    visible = ChainMap(own_helpers, *[of_workspace for of_workspace in helpers.values() if of_workspace is not own_helpers])
+    script = cmake.evaluate(inputs, distro, visible)
     if script.exports.config_extras and parts.package.name not in opaque_packages():
-        helpers[parts.package.name] = Helper(inputs, script)
+        own_helpers[parts.package.name] = Helper(inputs, script)
     folder = parts.package.path
     calls = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
     return script._replace(commands=script.commands._replace(calls=tuple(chain.from_iterable(calls))))
@@ -115,11 +125,13 @@ def _helps(parts: Parts) -> bool:
 
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
     """Yield the indices of packages whose code runs in others, each after its own dependencies."""
-    remaining = {parts.package.name: number for number, parts in enumerate(packages) if _helps(parts)}
+    remaining = {number: parts.package.name for number, parts in enumerate(packages) if _helps(parts)}
     while remaining:
-        ready = [name for name, number in remaining.items() if not _needed(packages[number]) & (remaining.keys() - {name})]
-        for name in ready or list(remaining):  # a cycle has no correct order
-            yield remaining.pop(name)
+        names = frozenset(remaining.values())
+        ready = [number for number, name in remaining.items() if not _needed(packages[number]) & (names - {name})]
+        for number in ready or list(remaining):  # a cycle has no correct order
+            del remaining[number]
+            yield number
 
 
 def _needed(parts: Parts) -> set[str]:

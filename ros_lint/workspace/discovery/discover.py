@@ -24,6 +24,7 @@ from ros_lint.workspace.discovery.identify import (
     ignored_by_ros,
     ignored_everywhere,
 )
+from ros_lint.workspace.discovery.repository_lists import ENDINGS
 from ros_lint.workspace.target import UnreadFile
 
 if TYPE_CHECKING:
@@ -96,6 +97,8 @@ class Discovery(NamedTuple):
     """Manifests that colcon cannot use, unless it identifies the folder as a package by another file."""
     skipped: tuple[Skipped, ...]
     not_checked: tuple[UnreadFile, ...]
+    repository_lists: tuple[str, ...] = ()
+    """Files outside of packages that list repositories of the workspace."""
     complete: bool = True
     """False if the walk ended early because there are too many folders."""
 
@@ -119,6 +122,7 @@ class _Walk:
         self._base = tree.identity("")
         self._packages: list[DiscoveredPackage] = []
         self._rejected: list[Manifest] = []
+        self._repository_lists: list[str] = []
         self._skipped: list[Skipped] = []
         self._not_checked: list[UnreadFile] = []
         self._settings = MetaSettings({}, {})
@@ -133,6 +137,7 @@ class _Walk:
             tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
             tuple(sorted(self._skipped)),
             tuple(sorted(self._not_checked, key=lambda item: (item.span or file_start(""), item.what))),
+            tuple(sorted(self._repository_lists)),
             len(visited) <= self._most,
         )
 
@@ -147,7 +152,9 @@ class _Walk:
             if entries is None or self._is_package(path, identity, entries):
                 continue
             for name, kind, link in reversed(entries):
-                if kind == "directory" and not name.startswith(".") and name not in SKIPPED_FOLDERS:
+                if kind == "file" and name.endswith(ENDINGS):
+                    self._repository_lists.append(join(path, name))
+                elif kind == "directory" and not name.startswith(".") and name not in SKIPPED_FOLDERS:
                     child = join(path, name)
                     target = self._tree.identity(child) if link else join(identity, name)
                     if link and target != self._base and is_below(self._base, target):

@@ -21,7 +21,7 @@ class Ignores(NamedTuple):
 
 
 def find_ignores(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
-    """Return the patterns for ``packages``, which are pairs of a folder and its files."""
+    """Return the patterns of the ``.gitignore`` files that apply to ``packages``, which are pairs of a folder and its files."""
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])

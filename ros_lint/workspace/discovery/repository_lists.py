@@ -7,19 +7,20 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from ros_lint.base.paths import join, parent
 from ros_lint.base.tree import Tree, text_of
-from ros_lint.facts.repositories import ExpectedRepositories
+from ros_lint.facts.repositories import ExpectedRepositories, UnclonedRepositories
 from ros_lint.workspace.target import UnreadFile
 
-_ENDINGS = (".repos", ".rosinstall", ".gitmodules")
+ENDINGS = (".repos", ".rosinstall", ".gitmodules")
+"""Ends of the names of these files."""
 
 
 def find_lists(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:
     """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` files, sorted.
 
-    Searched are the base of the tree, the roots, the direct subfolders of both, and ``files``, the files of
-    packages. Folders that cannot be read count as empty.
+    Searched are the base of the tree, the roots, the direct subfolders of both, and ``files``, all other files that
+    discovery has seen. Folders that cannot be read count as empty.
     """
-    result = {path for path in files if path.endswith(_ENDINGS)}
+    result = {path for path in files if path.endswith(ENDINGS)}
     for top in {"", *roots}:
         folders = [top]
         for number, folder in enumerate(folders):
@@ -27,7 +28,7 @@ def find_lists(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[
                 entries = tree.list(folder)
             except OSError:
                 continue
-            lists = [entry.name for entry in entries if entry.name.endswith(_ENDINGS) and entry.kind != "directory"]
+            lists = [entry.name for entry in entries if entry.name.endswith(ENDINGS) and entry.kind != "directory"]
             result.update(join(folder, name) for name in lists)
             if number == 0:
                 inner = [entry.name for entry in entries if entry.kind == "directory" and not entry.name.startswith(".")]
@@ -51,28 +52,75 @@ _SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)
 
 def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
     """Return the folders of submodules that are not cloned: empty or missing."""
-    result = []
+    of_git = [path for path in lists if path.rpartition("/")[2] == ".gitmodules"]
+    return tuple(sorted(folder for path in of_git for folder in _submodules_of(tree, path) if not _has_entries(tree, folder)))
+
+
+def _submodules_of(tree: Tree, path: str) -> list[str]:
+    """Return the folders of all submodules that a ``.gitmodules`` lists."""
+    text = text_of(tree, path)
+    return [join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text.text if text else "")]
+
+
+_KEY = re.compile(r"[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t]*\Z")
+"""The folder of a repository in a file of vcstool."""
+_NAME = re.compile(r"\b(?:local-name|ur[il]):[ \t]*['\"]?([^\s'\",}]+)")
+"""The folder or the URL of a repository in a file of wstool, or the URL in a file of vcstool."""
+
+
+def expected_repositories(
+    tree: Tree, lists: Iterable[str], submodules: Iterable[str], packages: Iterable[tuple[str, str]]
+) -> ExpectedRepositories:
+    """Return the repositories in the lists of a workspace, and those that are not cloned.
+
+    ``submodules`` are the folders of submodules that are not cloned; ``packages`` are the names and paths of the packages.
+    """
+    present = {part for name, path in packages for part in (name, *path.split("/"))}
+    empty = frozenset(submodules)
+    listed: set[str] = set()
+    uncloned = set(map(_last, empty))
+    missing: list[UnclonedRepositories] = []
     for path in lists:
-        if path.rpartition("/")[2] != ".gitmodules":
-            continue
-        text = text_of(tree, path)
-        folders = (join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text.text if text else ""))
-        result += [folder for folder in folders if not _has_entries(tree, folder)]
-    return tuple(sorted(result))
+        if path.endswith(".gitmodules"):
+            names = sorted(_last(folder) for folder in _submodules_of(tree, path) if folder in empty)
+        else:
+            names = []
+            for folder, *url in _repositories(tree, path):
+                aliases = {_last(folder), *map(_last, url)}
+                listed.update(aliases)
+                if present.isdisjoint(aliases) and not _is_cloned(tree, path, folder):
+                    uncloned.update(aliases)
+                    names.append(_last(folder))
+        if names:
+            missing.append(UnclonedRepositories(path, tuple(sorted(set(names)))))
+    return ExpectedRepositories(frozenset(uncloned), frozenset(listed), tuple(missing))
 
 
-_REPOSITORY = re.compile(r"^[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t\r]*$|\blocal-name:[ \t]*['\"]?([\w./+-]+)", re.MULTILINE)
+def _repositories(tree: Tree, path: str) -> Iterator[list[str]]:
+    """Yield the folder of each repository in a list, and its URL if that is given."""
+    text = text_of(tree, path)
+    values: list[str] = []
+    for line in text.text.splitlines() if text else ():
+        key = _KEY.match(line)
+        if (key or line.lstrip().startswith("- ")) and values:
+            yield values
+            values = []
+        if key:
+            values.append(key[1])
+        values += _NAME.findall(line)
+    if values:
+        yield values
 
 
-def expected_repositories(tree: Tree, lists: Iterable[str], submodules: Iterable[str]) -> ExpectedRepositories:
-    """Return the repositories in the lists of a workspace, and the submodules that are not cloned."""
-    texts = [text.text for path in lists if not path.endswith(".gitmodules") and (text := text_of(tree, path))]
-    folders = (match[1] or match[2] for text in texts for match in _REPOSITORY.finditer(text))
-    return ExpectedRepositories(_names(submodules), _names(folder.rstrip("/") for folder in folders))
+def _is_cloned(tree: Tree, path: str, folder: str) -> bool:
+    """Return whether a listed repository is in a folder into which its list is usually imported."""
+    tops = dict.fromkeys((parent(path), join(parent(path), "src"), "", "src"))
+    return any(_has_entries(tree, join(top, folder)) for top in tops)
 
 
-def _names(folders: Iterable[str]) -> frozenset[str]:
-    return frozenset([folder.rpartition("/")[2] for folder in folders])
+def _last(place: str) -> str:
+    """Return the name of a repository by its folder or URL."""
+    return re.split(r"[/:]", place.rstrip("/").removesuffix(".git"))[-1]
 
 
 def _has_entries(tree: Tree, folder: str) -> bool:

@@ -244,7 +244,10 @@ class _Uses:
         self.resolver = resolver
         self._own_files = own_files
         self._roles = roles
-        self._uncloned = resolver.names.awaited.uncloned
+        names, awaited = resolver.names, resolver.names.awaited
+        # A released package need not be cloned, and a declared name is that of a package.
+        packages = [name for name in awaited.listed if names.is_package(name) or names.is_declared(name)]
+        self._uncloned = awaited.uncloned.difference(packages)
         self._optional_modules = frozenset(
             [name for path in _files_with_optional_imports(source, roles) for name in source.facts[path].optional_modules]
         )

@@ -111,7 +111,7 @@ class Types:
 
     @cached_property
     def _headers_by_package(self) -> Mapping[str, Sequence[tuple[str, str]]]:
-        """The public headers that mention a package, by its name: each is a pair of the package with the header and its path."""
+        """The public headers that mention each package, by package name: pairs of the package with the header, and its path."""
         headers: dict[str, dict[tuple[str, str], None]] = {}
         for source in self._by_name.values():
             for file in filter(_is_public, source.files):

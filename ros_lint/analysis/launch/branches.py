@@ -1,0 +1,49 @@
+"""Packages that a launch file starts in every branch of its conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ros_lint.collectors.symbolic_text import negated
+from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile
+
+Branch = frozenset[LaunchCondition]
+
+
+def packages_of_every_branch(file: LaunchFile) -> frozenset[str]:
+    """Return the packages of which the file certainly starts or loads a node, whatever its conditions are.
+
+    Such a node has no condition, or further nodes of the package start under the negated condition.
+    """
+    branches: dict[str, set[Branch]] = {}
+    for package, conditions in _started(file.actions, frozenset()):
+        branches.setdefault(package, set()).add(conditions)
+    return frozenset([package for package, conditions in branches.items() if _are_exhaustive(conditions)])
+
+
+def _started(actions: Iterable[LaunchAction], outer: Branch) -> Iterator[tuple[str, Branch]]:
+    for action in actions:
+        inner = outer.union(map(_normalized, action.conditions))
+        if action.kind in ("node", "component") and action.package is not None and len(action.package.texts) == 1:
+            yield action.package.texts[0], inner
+        yield from _started(action.children, inner)
+
+
+def _normalized(condition: LaunchCondition) -> LaunchCondition:
+    """Return a condition without the negation in its expression: ``unless x`` for ``if not x``."""
+    text = negated(condition.texts[0]) if len(condition.texts) == 1 and condition.equals is None else ""
+    return condition._replace(texts=(text,), wanted=not condition.wanted) if text else condition
+
+
+def _are_exhaustive(given: Iterable[Branch]) -> bool:
+    """Return whether one of the branches always holds: two that differ only in the negation of a condition are one without it."""
+    branches = set(given)
+    pending = list(branches)
+    while pending:
+        branch = pending.pop()
+        for condition in branch:
+            rest = branch - {condition}
+            if rest not in branches and rest | {condition._replace(wanted=not condition.wanted)} in branches:
+                branches.add(rest)
+                pending.append(rest)
+    return frozenset() in branches

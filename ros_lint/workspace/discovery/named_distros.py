@@ -1,0 +1,95 @@
+"""The distributions that a repository builds for, as its CI configuration, container files or README name them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Final
+
+from ros_lint.base.paths import join
+from ros_lint.base.tree import Tree
+from ros_lint.workspace.target import NamedDistro
+
+_FOLDERS: Final = (".github/workflows", "", ".devcontainer", ".docker", "docker")
+_MOST_FILES: Final = 30
+"""Number of files to read of each folder."""
+_MOST_BYTES: Final = 1 << 16
+"""Size limit of these files in bytes: larger ones are not written by hand."""
+
+_BUILD_FILE = re.compile(
+    r"(?i)Dockerfile[^/]*|[^/]*\.Dockerfile|Containerfile|(?:docker-)?compose[^/]*\.ya?ml|devcontainer\.json|\.gitlab-ci\.yml"
+)
+_WORKFLOW = re.compile(r"[^/]*\.ya?ml")
+_README = re.compile(r"(?i)README(?:\.md|\.rst|\.txt)?")
+
+_PLACE = re.compile(r"\bros[:-]([a-z]+)\b|/opt/ros/([a-z]+)")
+"""An image, a Debian package or a folder: ``osrf/ros:humble-desktop``, ``ros-humble-rviz2``, ``/opt/ros/humble``."""
+_KEY = re.compile(r"""(?i)\bros2?[-_]?(?:distro|distribution)s?["']?\s*[:=]?\s*(.*)""")
+"""A variable or a key of YAML or JSON: ``ROS_DISTRO=humble``, ``ros_distro: [humble, jazzy]``."""
+_ITEM = re.compile(r"\s*-\s+(.*)")
+_BADGE = re.compile(r"(?i)\bbadge\b|img\.shields\.io")
+_WORD = re.compile(r"[A-Za-z]+")
+
+
+def named_distros(tree: Tree, roots: Sequence[str], known: Mapping[str, bool]) -> tuple[NamedDistro, ...]:
+    """Return each distribution of ``known`` that the repository names, with the first place, in the order of the files.
+
+    The value of a name in ``known`` is whether the distribution has an index. Searched are a few folders of the base and of
+    the roots. A README counts only if no other file names a distribution.
+    """
+    tops = dict.fromkeys(("", *roots))
+    files = [path for top in tops for folder in _FOLDERS for path in _files(tree, join(top, folder) if folder else top)]
+    places = [named for path in files for named in _in_build_file(path, _lines(tree, path), known)]
+    if not places:
+        readmes = [path for top in tops for path in _matching(tree, top, _README)]
+        places = [named for path in readmes for named in _in_readme(path, _lines(tree, path), known)]
+    first: dict[str, NamedDistro] = {}
+    for place in places:
+        first.setdefault(place.distro, place)
+    return tuple(first.values())
+
+
+def _files(tree: Tree, folder: str) -> list[str]:
+    return _matching(tree, folder, _WORKFLOW if folder.endswith(".github/workflows") else _BUILD_FILE)
+
+
+def _matching(tree: Tree, folder: str, pattern: re.Pattern[str]) -> list[str]:
+    try:
+        entries = tree.list(folder)
+    except OSError:
+        return []
+    names = [entry.name for entry in entries if entry.kind == "file" and pattern.fullmatch(entry.name)]
+    return [join(folder, name) for name in names[:_MOST_FILES]]
+
+
+def _lines(tree: Tree, path: str) -> list[str]:
+    """Return the lines of a file, [] if it is unreadable or large."""
+    try:
+        data = tree.read(path) if tree.stamp(path).size <= _MOST_BYTES else b""
+    except OSError:
+        return []
+    return data.decode("utf-8", "replace").splitlines()
+
+
+def _in_build_file(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
+    """Yield the distributions in images, in values of variables and keys, and in block lists of YAML below a key."""
+    in_list = False
+    for number, line in enumerate(lines, 1):
+        code = line.partition(" #")[0]
+        if code.lstrip().startswith(("#", "//")):
+            continue
+        item = _ITEM.match(code) if in_list else None
+        key = _KEY.search(code)
+        in_list = item is not None or (key is not None and not key[1].strip())
+        text = item[1] if item else key[1] if key else ""
+        names = [match[1] or match[2] for match in _PLACE.finditer(code)]
+        names += [word.lower() for word in _WORD.findall(text)]
+        yield from (NamedDistro(name, path, number, known[name]) for name in names if name in known)
+
+
+def _in_readme(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
+    """Yield the distributions in lines with a badge."""
+    for number, line in enumerate(lines, 1):
+        if _BADGE.search(line):
+            names = [word.lower() for word in _WORD.findall(line)]
+            yield from (NamedDistro(name, path, number, known[name]) for name in names if name in known)

@@ -1,0 +1,56 @@
+"""Workspaces side by side in one repository, such as ``arm_ws/src`` and ``car_ws/src``: colcon builds each of them separately."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Protocol, TypeVar
+
+_STEP = r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d"
+_BUILT_SEPARATELY = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
+"""Beginnings of the names of folders that are built separately. micro-ROS builds ``extra_packages`` for a microcontroller."""
+
+
+class _Located(Protocol):
+    @property
+    def path(self) -> str: ...
+
+
+L = TypeVar("L", bound=_Located)
+
+
+def workspace_of(path: str) -> str:
+    """Return the folder of the workspace that contains a package, by the package's path relative to the base.
+
+    It is the folder above the first ``src``, else a course step, else "", the workspace in the base.
+    """
+    top, inside, _ = f"/{path}/".partition("/src/")
+    if inside:
+        return top.removeprefix("/")
+    parts = path.split("/")
+    alone = next((at for at, part in enumerate(parts) if _BUILT_SEPARATELY.match(part.lower())), len(parts))
+    return "/".join(parts[: alone + 1]) if alone < len(parts) else ""
+
+
+def hidden_namesakes(packages: Iterable[tuple[str, str]]) -> Mapping[str, frozenset[str]]:
+    """Return what packages of a workspace do not see: by workspace, the paths of namesakes in other workspaces.
+
+    ``packages`` are names and paths. A workspace in which each name is unique in the repository is left out.
+    """
+    places: dict[str, dict[str, list[str]]] = {}
+    for name, path in packages:
+        places.setdefault(name, {}).setdefault(workspace_of(path), []).append(path)
+    hidden: dict[str, set[str]] = {}
+    for by_workspace in places.values():
+        for workspace in by_workspace if len(by_workspace) > 1 else ():
+            others = [path for other, paths in by_workspace.items() if other != workspace for path in paths]
+            hidden.setdefault(workspace, set()).update(others)
+    return {workspace: frozenset(paths) for workspace, paths in hidden.items()}
+
+
+def own_first(candidates: Sequence[L], path: str) -> Sequence[L]:
+    """Return the candidates in the workspace of the package at ``path``, or all candidates if there are none in it."""
+    if len(candidates) < 2:
+        return candidates
+    workspace = workspace_of(path)
+    return [candidate for candidate in candidates if workspace_of(candidate.path) == workspace] or candidates
