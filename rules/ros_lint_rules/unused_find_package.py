@@ -69,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for mention in unused:
         name, tags = mention.name, declared[mention.name]
         others = _also_named(package, mention)
-        places = [f"find_package({name})"] + ([f"the other uses of '{name}' in the build script"] if others else [])
+        places = [_call(package, mention)] + ([f"the other uses of '{name}' in the build script"] if others else [])
         places += [f"<{tag.depend.tag}>{name}</{tag.depend.tag}>" for tag in tags if name not in needed]
         *first, last = places
         by_alias = bool(others) and name in reached and not _is_of_interfaces(name, workspace)
@@ -81,6 +81,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
         )
+
+
+def _call(package: Package, find: Mention) -> str:
+    """Return what to remove: a call of find_package(), or a name from the list of a loop that calls it with each name."""
+    finds = [mention for mention in package.built.mentions if mention.via == "cmake" and mention.span == find.span]
+    in_loop = any(mention.name != find.name for mention in finds)
+    return f"'{find.name}' from the names that this find_package() gets" if in_loop else f"find_package({find.name})"
 
 
 def _is_of_interfaces(name: str, workspace: Workspace) -> bool:
