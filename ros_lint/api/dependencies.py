@@ -28,7 +28,7 @@ from ros_lint.analysis.dependencies.traceless import (
     is_library,
     is_mostly_runtime,
     may_be_used_without_trace,
-    only_brings,
+    is_metapackage,
     usage_is_visible,
 )
 from ros_lint.analysis.dependencies.undeclared import (
@@ -98,7 +98,7 @@ __all__ = [
     "naming_fix",
     "needed_transitively",
     "needs",
-    "only_brings",
+    "is_metapackage",
     "optional_needs",
     "partial_closure",
     "provided_in_other_distros",

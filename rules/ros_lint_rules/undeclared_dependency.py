@@ -92,6 +92,7 @@ The severity is lower if the package works where it is built, launched and teste
 
 - info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
 - warning for `python3-pytest`, because colcon itself depends on it;
+- warning for public headers of a package that compiles nothing, because dependents that declare the package build;
 - warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs.
 """
 
@@ -103,6 +104,7 @@ from collections.abc import Iterable, Iterator
 from ros_lint.api import (
     Confidence,
     Consequence,
+    Facet,
     Finding,
     Package,
     Related,
@@ -124,7 +126,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
         problem = "is used here, but package.xml does not declare it"
-        is_mild = need.name == _PYTEST or _is_unreached(package, need)
+        is_mild = need.name == _PYTEST or _is_unreached(package, need) or _is_only_in_uncompiled_headers(package, need)
         severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
@@ -195,6 +197,18 @@ def _is_unreached(package: Package, need: dependencies.Need) -> bool:
 
 def _is_in_unreached_module(package: Package, use: Use) -> bool:
     return use.via == "import" and package.relative(use.span.path) in package.unreached_modules
+
+
+def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
+    """Return whether only public headers need the package, and this package compiles nothing.
+
+    Then this package builds without it, and only dependents that do not declare it fail.
+    """
+    if package.hidden(Facet.LIBRARIES | Facet.EXECUTABLES) or any(
+        target.sources or not target.sources_known for target in package.built.products.targets
+    ):
+        return False
+    return all(use.via in _CODE and use.role & Role.EXPORT for use in need.uses)
 
 
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
