@@ -128,8 +128,8 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
         return True
     if is_direct and in_tests and carrier == _LINTERS:
         return True
-    if is_direct and all(use.via in ("launch", "package") for use in need.uses):
-        return dependencies.is_metapackage(package, workspace, carrier)
+    if all(use.via in ("launch", "package") for use in need.uses):
+        return len(path) > 1 and all(dependencies.is_metapackage(package, workspace, between) for between in path[:-1])
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
     return dependencies.is_part_of_launch(package, workspace, outside_tests or need.uses)
 
