@@ -129,9 +129,10 @@ class Loader:
             if sources
             else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
         )
+        unread_lists = tuple(repository_lists.unreadable_lists(tree, lists))
         expected = repository_lists.expected_repositories(
             tree, lists, submodules, [(package.name, package.path) for package in discovered]
-        )
+        )._replace(complete=not unread_lists)
         world = self._world(read_packages, discovery.rejected, expected)
         hidden = hidden_namesakes(
             [
@@ -153,7 +154,7 @@ class Loader:
         ignores = find_ignores(tree, ((package.path, package.files) for package in discovered))
         unread_files = (
             *discovery.not_checked,
-            *repository_lists.unreadable_lists(tree, lists),
+            *unread_lists,
             *ignores.not_checked,
             *_unreadable(collected),
         )
