@@ -21,7 +21,9 @@ Not reported:
 - Packages whose CMakeLists.txt is in a subfolder with its own `package.xml`: CMake reads that one.
 
 If another declared dependency provides the run-time package, may do so, or provides all its dependencies, nothing fails: the
-severity is info and the confidence medium. The severity is warning if the name of the package shows that it serves tests. The confidence is also medium for interfaces that are generated under a condition.
+severity is info and the confidence medium. The severity is warning if the name of the package shows that it serves tests.
+
+The confidence is also medium for interfaces that are generated under a condition.
 """
 
 from __future__ import annotations
