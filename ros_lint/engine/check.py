@@ -67,7 +67,7 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
 
 
 def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
-    """Yield the listed repositories that are not cloned, without released packages, which need not be cloned."""
+    """Yield the listed repositories that are not cloned and have no existing package of their name, by list."""
     world = workspace.world
     for path, names in world.awaited.lists:
         if unknown := [name for name in names if not world.is_package(package_name(name))]:

@@ -1,8 +1,8 @@
 """Discovery of rules: built-in ones and plugins, by the entry point group ``ros_lint.rules``.
 
 An entry names a module or a package; every ``RULE`` in it and in its direct submodules is loaded. The built-in entry is
-known without a search, because ``importlib.metadata`` takes longer than most runs. It is only searched if the settings
-enable plugins.
+known without a search. Entries of plugins are only searched if the settings enable plugins, because the search by
+``importlib.metadata`` takes longer than most runs.
 """
 
 from __future__ import annotations

@@ -245,9 +245,10 @@ class Workspace:
         """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
     def seen_from(self, package: Package) -> Workspace:
-        """Return the workspace for look-ups of a package: without namesakes of packages that its own workspace contains.
+        """Return the workspace in which names of ``package`` are looked up. The engine calls this, so rules need not.
 
-        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. Not for plugins.
+        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. If the workspace of ``package``
+        contains a name, packages of this name in the other workspaces are left out.
         """
         return self._views.get(workspace_of(package.path), self) if self._views else self
 

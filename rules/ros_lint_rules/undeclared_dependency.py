@@ -228,7 +228,7 @@ def _brought(
 ) -> tuple[Consequence, ...]:
     """Return the findings for undeclared packages that need no tag of their own once ``need`` is declared.
 
-    These packages are dependencies of ``need``, which provides them.
+    These packages are dependencies of ``need``.
     """
     closure = workspace.world.closure((need.name,))
     return tuple(
@@ -241,7 +241,7 @@ def _brought(
 
 
 def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Need, need: dependencies.Need) -> bool:
-    """Return whether packages rarely declare ``other`` if they declare ``need``, which brings it for the same purposes."""
+    """Return whether packages that declare ``need`` rarely declare ``other``, because ``need`` provides it for its purposes."""
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False

@@ -65,8 +65,8 @@ def only_brings(world: World, name: str) -> bool:
 def _stands_for_others(package: Package, world: World, name: str) -> bool:
     """Return whether a released metapackage provides a package that this package uses.
 
-    A metapackage that counts has the name of its repository, and most of its run dependencies are from that repository.
-    It declares its members by ``<depend>``.
+    Only a metapackage with the name of its repository counts, and only if most of its run-time dependencies are packages
+    of that repository.
     """
     released = world.released(name)
     if released is None or released.repository != name or not _offers_nothing(world, released):

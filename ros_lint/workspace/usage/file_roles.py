@@ -152,9 +152,9 @@ class FileRoles:
         return PRODUCTION, not (self._compiled_known or in_unbuilt_folder or self._siblings_are_used(path))
 
     def _may_be_launched(self, path: str) -> bool:
-        """Return whether a file among the tests is a launch file that may be run.
+        """Return whether a file in a folder of tests is a launch file that a test or a user may launch.
 
-        If all tests that are run are known, only an installed file may be run.
+        If the build script shows all tests that are run, the file must be installed, because then only users launch it.
         """
         sees_all = self._script.cmake.interpreted_tests is not None or self._has_no_tests
         return path in self._launched and (not sees_all or path in self._installed)
