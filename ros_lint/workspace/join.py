@@ -10,13 +10,14 @@ from ros_lint.base.tree import Tree
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ROLES, Manifest
-from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.sources import FileFacts, MachinePath, Use
 from ros_lint.knowledge.world import World
 from ros_lint.workspace.discovery.discover import DiscoveredPackage
 from ros_lint.workspace.model import Declared, Package
 from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
 from ros_lint.workspace.usage.resolve import Resolver, resolve
+from ros_lint.workspace.usage.unreached_modules import unreached_modules
 
 Progress = Callable[[str, int, int], None]
 """Called with the current step, the number of finished items and the number of all items."""
@@ -96,8 +97,17 @@ def join_packages(
             package = package._replace(
                 textual_mentions=textual_mentions.find_textual_mentions(tree, package, source, world, types),
                 possibly_used=textual_mentions.possibly_used(tree, package, source, world, types),
+                unreached_modules=unreached_modules(
+                    tree, source, _undeclared(package), [other for other in sources if other is not source]
+                ),
             )
         yield package
+
+
+def _undeclared(package: Package) -> list[Use]:
+    """Return the uses that no dependency tag of the package names."""
+    names = {declared.name for declared in package.declared}
+    return [use for use in package.uses if names.isdisjoint(use.providers)]
 
 
 def unusable_package(manifest: Manifest) -> Package:

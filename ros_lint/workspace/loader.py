@@ -64,6 +64,7 @@ class _Found(NamedTuple):
     """The packages of the discovery without excluded files and submodules that are not cloned."""
     lists: tuple[str, ...]
     """Files that list repositories."""
+    unread_lists: tuple[UnreadFile, ...]
     expected: ExpectedRepositories
 
     @property
@@ -156,8 +157,9 @@ class Loader:
         submodules = repository_lists.submodules(tree, lists)
         packages = _without_submodules(packages, submodules)
         places = [(package.name, package.path) for package in packages]
-        expected = repository_lists.expected_repositories(tree, lists, submodules, places)
-        return _Found(roots, discovery, packages, lists, expected)
+        unread_lists = tuple(repository_lists.unreadable_lists(tree, lists))
+        expected = repository_lists.expected_repositories(tree, lists, submodules, places)._replace(complete=not unread_lists)
+        return _Found(roots, discovery, packages, lists, unread_lists, expected)
 
     def _join(
         self,
@@ -191,7 +193,7 @@ class Loader:
         ignores = find_ignores(tree, ((package.path, package.files) for package in found.packages))
         unread_files = (
             *found.discovery.not_checked,
-            *repository_lists.unreadable_lists(tree, found.lists),
+            *found.unread_lists,
             *ignores.not_checked,
             *_unreadable(collected),
         )
