@@ -53,7 +53,9 @@ def test_a_message_that_differs_is_kept_beside_the_first() -> None:
 
 
 @pytest.mark.parametrize(
-    "other", [issue(subject="t"), issue(confidence=Confidence.MEDIUM), issue(severity=Severity.INFO)], ids=str
+    "other",
+    [issue(subject="t"), issue(confidence=Confidence.MEDIUM), issue(severity=Severity.INFO)],
+    ids=["subject", "confidence", "severity"],
 )
 def test_findings_that_differ_are_not_merged(other: Issue) -> None:
     assert [i.distros for i in merged([issue()], [other])] == [("humble",), ("jazzy",)]
@@ -72,7 +74,7 @@ def test_the_number_of_equal_findings_is_the_largest_of_the_distributions() -> N
         ([FIRST, None], None),
         ([None, FIRST], None),
     ],
-    ids=str,
+    ids=["equal", "different", "unsafe in one", "none in the second", "none in the first"],
 )
 def test_a_fix_is_safe_if_all_distributions_have_it(fixes: list[Fix | None], result: Fix | None) -> None:
     ((both,),) = [merged(*([issue(fix=fix)] for fix in fixes))]
