@@ -88,7 +88,9 @@ def found_only_through(package: Package, workspace: Workspace, unused: Iterable[
         return frozenset()
     world = workspace.world
     names = frozenset(unused)
-    searched = [name for name in names_searched(package, package.built) - names if world.is_package(name) or not world.is_key(name)]
+    searched = [
+        name for name in names_searched(package, package.built) - names if world.is_package(name) or not world.is_key(name)
+    ]
     rest = partial_closure(workspace, sorted(searched)).names
     needed = [use.providers for use in package.uses if use.via == "include" and not use.optional and use.role & _BUILT]
     needed = [providers for providers in dict.fromkeys(needed) if rest.isdisjoint(providers)]

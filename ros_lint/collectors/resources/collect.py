@@ -142,9 +142,7 @@ def _is_optional(text: str, at: int) -> bool:
 _OPTIONAL = re.compile(r"""<xacro:include\s[^<>]*\boptional\s*=""")
 
 
-def _search(
-    pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, int]], inactive: tuple[range, ...] = ()
-) -> None:
+def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, int]], inactive: tuple[range, ...] = ()) -> None:
     """Add the first place of each name outside of the offsets ``inactive`` to ``places``."""
     for match in pattern.finditer(text):
         if any(match.start() in block for block in inactive):
