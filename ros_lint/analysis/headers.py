@@ -11,7 +11,7 @@ from ros_lint.analysis.dependencies.find_package import names_searched
 from ros_lint.analysis.finding import Related
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.wording import first_related
-from ros_lint.base.auxiliary_files import is_auxiliary
+from ros_lint.base.auxiliary_files import THIRD_PARTY_FOLDERS, is_auxiliary
 from ros_lint.base.text import Span
 from ros_lint.collectors.suffixes import HEADERS
 from ros_lint.facts.build import BuildScript
@@ -30,7 +30,7 @@ class OwnHeaders(NamedTuple):
     files: Sequence[str]
     """Paths relative to the package, at least one."""
     installed: bool
-    """True if some of them are installed."""
+    """True if headers of the package are installed, in ``include/`` or elsewhere. Those of third-party code do not count."""
     included: Includes
     """The includes of these headers in other packages of the workspace."""
     exports: Sequence[Call]
@@ -58,7 +58,7 @@ def own_headers(package: Package, workspace: Workspace) -> OwnHeaders | None:
     if not headers or script.commands.insertion is None:
         return None
     names = {_name(file) for file in headers}
-    installed = [file for file in script.products.installs if file.path.endswith(HEADERS)]
+    installed = [file for file in script.products.installs if file.path.endswith(HEADERS) and not _is_third_party(file.source)]
     includes = _includes(workspace).get(package.name, ())
     return OwnHeaders(
         headers,
@@ -85,6 +85,10 @@ def _is_loaded(package: Package, script: BuildScript) -> bool:
     if any(True for _ in package.calls(EXPORTING_PLUGINS, *REGISTERING, anywhere=True)):
         return True
     return any(_GAZEBO.match(name) for name in names_searched(package, script))
+
+
+def _is_third_party(path: str) -> bool:
+    return not THIRD_PARTY_FOLDERS.isdisjoint(path.split("/")[:-1])
 
 
 def _name(path: str) -> str:

@@ -1,5 +1,6 @@
 """Dependencies: what a package needs, what it declares, and the edits that fix the manifest."""
 
+from ros_lint.analysis.dependencies.alternatives import standing_for_first
 from ros_lint.analysis.dependencies.declared_closure import declared_closure, provided_transitively
 from ros_lint.analysis.dependencies.find_package import (
     find_package_closure,
@@ -40,11 +41,11 @@ from ros_lint.analysis.dependencies.traceless import (
     usage_is_visible,
 )
 from ros_lint.analysis.dependencies.undeclared import (
+    distros_providing,
     exists_in_any_distro,
     is_declared_misspelled,
     is_part_of_launch,
     manifest_is_complete,
-    provided_in_other_distros,
     undeclared,
 )
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
@@ -80,6 +81,7 @@ __all__ = [
     "conditions",
     "declared_closure",
     "declared_names",
+    "distros_providing",
     "exists_in_any_distro",
     "find_package_closure",
     "finding_others",
@@ -111,12 +113,12 @@ __all__ = [
     "needs",
     "optional_needs",
     "partial_closure",
-    "provided_in_other_distros",
     "provided_transitively",
     "remedy",
     "remove_dependency",
     "resembles_ament_package",
     "satisfying",
+    "standing_for_first",
     "tag_for",
     "undeclared",
     "undeclared_match",

@@ -8,6 +8,8 @@ TEST_FOLDERS = frozenset(
     {"test", "tests", "testing", "integration_tests", "benchmark", "benchmarks", "unit_tests", "test_data", "testdata",
      "test_resources"}
 )  # fmt: skip
+THIRD_PARTY_FOLDERS = frozenset({"3rd_party", "3rdparty", "extern", "external", "externals", "third_party", "thirdparty"})
+"""Names of folders for third-party code."""
 EDITOR_COPY_FOLDERS = frozenset({".ipynb_checkpoints"})
 """Names of folders in which editors keep copies of files."""
 _DISCARDED_FOLDERS = frozenset({"attic", "backup", "backups", "deprecated", "legacy", "obsolete", "old", "unused"})

@@ -212,9 +212,9 @@ class Knowledge:
             self._elsewhere[package] = frozenset(provided)
         return name in self._elsewhere[package]
 
-    def is_in_closure_elsewhere(self, packages: Collection[str], name: str) -> bool:
-        """Return whether ``name`` is a transitive dependency of one of ``packages`` in any other distribution."""
-        return any(name in entry.closure(packages) for entry in self._indexes_with(name))
+    def distros_providing(self, packages: Collection[str], name: str) -> tuple[str, ...]:
+        """Return the other distributions in which ``name`` is a transitive dependency of one of ``packages``, oldest first."""
+        return tuple([entry.distro for entry in self._indexes_with(name) if name in entry.closure(packages)])
 
     @property
     def active(self) -> tuple[str, ...]:

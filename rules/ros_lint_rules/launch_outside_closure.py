@@ -148,7 +148,7 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
     for name, references in named.items():
         if name in closure or name in reported:
             continue
-        if workspace.world.is_package(name) or not dependencies.provided_in_other_distros(package, workspace, name):
+        if workspace.world.is_package(name) or not dependencies.distros_providing(package, workspace, name):
             yield name, references
 
 

@@ -3,6 +3,7 @@
 
 - Headers that are installed without the folder by which another package of the workspace includes them, as by
   `install(DIRECTORY include/robot/ DESTINATION include)`.
+- Headers that are installed to `include/${PROJECT_NAME}`, while the package exports only `include`.
 - Headers that are installed with an additional folder: without a slash at the end, `install(DIRECTORY include DESTINATION
   include)` puts `robot/robot.hpp` into `include/include`.
 
@@ -13,7 +14,8 @@ Packages that depend on this one do not find its headers: "fatal error: robot/ro
 ## How to fix it
 
 `install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in `target_include_directories(...
-$<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix adds the slash.
+$<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix adds the slash, or changes the
+exported folder.
 
 ## Limitations
 
@@ -39,6 +41,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if headers is not None and headers.installed:
         yield from _misplaced(package, headers.included)
         yield from _doubled(package, headers)
+        yield from _below_export(package, headers)
 
 
 def _misplaced(package: Package, wanted: build.Includes) -> Iterator[Finding]:
@@ -91,6 +94,38 @@ def _doubled(package: Package, headers: build.OwnHeaders) -> Iterator[Finding]:
         build.related_includes(headers.included),
         fix,
         Confidence.HIGH if needed else Confidence.MEDIUM if exported else Confidence.LOW,
+        None if needed else Severity.WARNING,
+    )
+
+
+def _below_export(package: Package, headers: build.OwnHeaders) -> Iterator[Finding]:
+    """Yield a finding for headers that are installed to include/<folder>/, although only include/ is exported."""
+    script, exports = package.built, headers.exports
+    own = [
+        file for file in script.products.installs if file.source.startswith("include/") and file.source.endswith(files.HEADERS)
+    ]
+    if not (own and exports) or script.exports.targets or build.has_extras(package) or any(file.conditional for file in own):
+        return
+    if all(map(_is_doubled, own)):
+        return
+    exported = {build.evaluated_name(package, text) for call in exports for text in call.texts}
+    folders = {file.path.removesuffix(file.source.removeprefix("include/")) for file in own}
+    if not exported <= {"include", "include/"} or len(folders) != 1:
+        return
+    folder = folders.pop().rstrip("/")
+    if not folder.startswith("include/"):
+        return
+    call, name = exports[0], own[0].source.rpartition("/")[2]
+    needed = bool(headers.included) or (headers.library and not headers.loaded)
+    written = "include/${PROJECT_NAME}" if folder == f"include/{script.project.name}" else folder
+    yield Finding(
+        f"the headers in include/ ({name} ...) are installed to {folder}, but only include is exported, so other packages do not "
+        f"find them; write ament_export_include_directories({written})",
+        call.span(0),
+        "include/",
+        build.related_includes(headers.included),
+        Fix.of(f"export {written}", edits.cmake.write(call, 0, written), safe=False) if call.texts[1:] == () else None,
+        Confidence.HIGH if needed else Confidence.MEDIUM,
         None if needed else Severity.WARNING,
     )
 

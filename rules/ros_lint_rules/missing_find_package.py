@@ -19,7 +19,7 @@ Add `find_package(package REQUIRED)` before the first use.
 Not reported:
 
 - Scripts that cannot be fully analysed, and uses under a condition that cannot be decided.
-- Names that are no known ROS package (see `invalid-ament-dependency`), unless they are declared and listed under `DEPENDENCIES`
+- Names that are no known ROS package (see `invalid-ament-dependency`), unless they are declared, and other distributions have them or they are listed under `DEPENDENCIES`
   of `rosidl_generate_interfaces()`, which accepts only packages.
 - Packages that a command of another workspace package uses: that package has to find them.
 - Included headers, if the script adds a folder outside of the package to its include directories.
@@ -73,7 +73,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if _gives_commands(name):
                 continue
             probable.add(name)
-        is_declared = mention.purpose == "interfaces" and package.declares(name)
+        is_declared = package.declares(name) and (mention.purpose == "interfaces" or workspace.world.where_else(name))
         if mention.purpose in _NO_EVIDENCE or not (is_declared or workspace.world.is_package(name)):
             continue
         what = mention.what or mention.name

@@ -173,7 +173,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     elif best.what.startswith("$ENV{"):
         message = f"only '{name}' sets {best.what}, and package.xml does not declare it: add {proposal.written}"
     else:
-        message = f"'{name}' {problem}: add {proposal.written}"
+        message = f"'{name}' {problem}: add {proposal.written}{_provided_elsewhere(package, workspace, name)}"
         if _needs_back(name, package, workspace):
             message += (
                 f"; '{name}' also uses '{package.name}', but two packages cannot declare each other, "
@@ -188,6 +188,16 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
         Severity.WARNING if (proposal.conditional and not workspace.target.explicit) or _is_conditional(need) else None,
     )
+
+
+def _provided_elsewhere(package: Package, workspace: Workspace, name: str) -> str:
+    """Return a remark if declared dependencies provide a package in other distributions, and the user chose none, else ""."""
+    if workspace.target.explicit:
+        return ""
+    distros = dependencies.distros_providing(package, workspace, name)
+    if not distros:
+        return ""
+    return f"; in {', '.join(distros)} other dependencies provide it, in {workspace.target.distro} they do not"
 
 
 def _is_conditional(need: dependencies.Need) -> bool:

@@ -259,7 +259,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
         return
     by_cmake = workspace.world.by_cmake
     exported = _exported(script)
-    exported_packages = exported.union(*(by_cmake(name).names for name in exported))
+    exported_packages = exported.union(*(dependencies.standing_for_first(workspace, by_cmake(name).names) for name in exported))
     finds = sorted(dependencies.names_searched(package, script))
     usable = _compilable_elsewhere(package, workspace, script)
     for name, uses in _public_includes(package, workspace, script).items():

@@ -30,7 +30,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     paths = {provided.path.rpartition("/")[2] for provided in script.products.installs}
     listed = build.install_arguments(package).union(provided.target for provided in script.products.installs)
-    elsewhere = build.libraries_in_libexec(package, (".so",))
+    elsewhere = build.libraries_elsewhere(package, (".so",))
     targets = {target.name: target for target in reversed(script.products.targets)}
     reported: set[str] = set()
     for call in package.calls(*build.REGISTERING):

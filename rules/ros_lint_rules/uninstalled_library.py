@@ -70,7 +70,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     installed = {provided.target for provided in script.products.installs}
     listed = build.install_arguments(package)
     components = {name for call in package.calls(*build.REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
-    yield from _in_package_folder(package)
+    yield from _in_other_folder(package)
     for target in script.products.targets:
         if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
             continue
@@ -98,13 +98,17 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         )
 
 
-def _in_package_folder(package: Package) -> Iterator[Finding]:
-    """Yield findings for exported libraries that are installed to lib/<package>, where find_package() does not look."""
+def _in_other_folder(package: Package) -> Iterator[Finding]:
+    """Yield findings for exported libraries that are installed to lib/<package> or outside of lib.
+
+    ament_export_libraries() looks for libraries in lib (ament_cmake_export_libraries-extras.cmake.in).
+    """
     loaded = build.EXPORTING_PLUGINS in package.built.commands.names
-    for name, place in build.libraries_in_libexec(package, (".so", ".a")).items():
+    for name, place in build.libraries_elsewhere(package, (".so", ".a")).items():
         if exported := _exported(package, name):
+            folder = place.path.rpartition("/")[0]
             yield Finding(
-                f"the library '{name}' is exported, but installed to lib/{package.name}, where find_package() does not look; "
+                f"the library '{name}' is exported, but installed to {folder}, where find_package() does not look; "
                 f"install it to lib{', or remove the export, because plugins are loaded, not linked' if loaded else ''}",
                 place.span,
                 name,

@@ -139,8 +139,8 @@ def install_arguments(package: Package) -> frozenset[str]:
     return frozenset([name for text in texts if (name := evaluated_name(package, text))])
 
 
-def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
-    """Return the libraries that every build installs into ``lib/<package>`` and nowhere else.
+def libraries_elsewhere(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
+    """Return the libraries that every build installs into ``lib/<package>`` or outside of ``lib``, and nowhere else.
 
     The keys are the names of the targets, the values are the first installed file of each target. Only installed files
     with one of the endings, such as ".so", count.
@@ -153,7 +153,10 @@ def libraries_in_libexec(package: Package, endings: tuple[str, ...]) -> dict[str
     return {
         name: files[0]
         for name, files in places.items()
-        if all(place.path.startswith(program_folder) and not (place.conditional or place.test) for place in files)
+        if all(
+            (place.path.startswith(program_folder) or not place.path.startswith("lib/")) and not (place.conditional or place.test)
+            for place in files
+        )
     }
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.build.commands import FINDS_TESTS
+from ros_lint.analysis.dependencies.alternatives import standing_for_first
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Mention, Purpose
@@ -52,7 +53,7 @@ def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
     for name in names:
         providers = workspace.world.by_cmake(name)
         mapped = providers.known and not workspace.world.is_package(name)
-        starts.update(providers.packages if mapped else (name,))
+        starts.update(set(standing_for_first(workspace, providers.names)).intersection(providers.packages) if mapped else (name,))
     return workspace.world.closure(sorted(starts))
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
+from ros_lint.analysis.dependencies.alternatives import stands_for
 from ros_lint.analysis.dependencies.declared_closure import all_declared
 from ros_lint.analysis.dependencies.remedy import cycle_through
 from ros_lint.analysis.memo import cached_by_package
@@ -15,7 +16,7 @@ from ros_lint.base.text import Span
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.sources import Use, Via
 from ros_lint.knowledge.closure import Closure
-from ros_lint.knowledge.spelling import VENDOR, is_part, is_vendor
+from ros_lint.knowledge.spelling import VENDOR, is_vendor
 from ros_lint.workspace.model import Package, Workspace
 
 
@@ -126,7 +127,7 @@ def _needs(
         yield Need(name, tuple(uses), (name,) if name in declared else (), name in closure)
         return
     matches = {
-        names: [provider for provider in names if provider in declared and _is_meant(provider, names[0], closure_of)]
+        names: [provider for provider in names if provider in declared and stands_for(provider, names[0], closure_of)]
         for names in answers
     }
     for names, direct in matches.items():
@@ -149,15 +150,6 @@ def _needs(
         yield Need(name, tuple([use for use in uses if not names or use.providers in unprovided]), (), False)
     elif provided:
         yield Need(name, tuple([use for use in uses if use.providers in provided]), (), True)
-
-
-def _is_meant(name: str, best: str, closure_of: Callable[[tuple[str, ...]], Closure]) -> bool:
-    """Return whether the declared name ``name`` stands for ``best``, the best provider of a need, and not only depends on it.
-
-    True for ``best`` itself, an alternative that does not depend on ``best``, a vendor package of ``best``, and a library of
-    which ``best`` is a part.
-    """
-    return name == best or best not in closure_of((name,)) or is_vendor(name, best) or is_part(best, name)
 
 
 def _rank(use: Use) -> int:

@@ -64,7 +64,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
         sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.certain for use in need.uses))
         sure = sure and not (_looks_into_nothing(need, workspace) or is_declared_misspelled(package, workspace, need))
         if workspace.world.resolution(need.name) != "known":
-            if provided_in_other_distros(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
+            if distros_providing(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
             sure = sure and not (workspace.target.explicit and workspace.world.where_else(need.name))
         uses = uses_not_explained_by(unknown, need.uses, workspace) if sure and unknown else need.uses
@@ -117,14 +117,14 @@ def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
     return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
 
-def provided_in_other_distros(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a declared dependency provides ``name`` transitively in a distribution other than the target."""
+def distros_providing(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
+    """Return the distributions other than the target in which a declared dependency provides ``name`` transitively."""
     starts = {declared.name for declared in package.declared}
     closure = all_declared(package, workspace)
     for name_here, namesakes in workspace.by_name.items():
         if name_here in closure:
             starts.update(declared.name for namesake in namesakes for declared in namesake.declared)
-    return workspace.world.knowledge.is_in_closure_elsewhere(starts, name)
+    return workspace.world.knowledge.distros_providing(starts, name)
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
 
 from ros_lint.base.paths import is_outside, join
@@ -34,8 +34,9 @@ from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
 from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, CallFrame
 from ros_lint.collectors.cmake.evaluator.unset import unset_variables
 from ros_lint.collectors.cmake.evaluator.values import is_known
+from ros_lint.collectors.cmake.exported_packages import exported_packages
 from ros_lint.collectors.cmake.released_macros import macros
-from ros_lint.collectors.cmake.syntax import Command, is_template
+from ros_lint.collectors.cmake.syntax import is_template
 from ros_lint.facts.build import (
     BuildExports,
     BuildProducts,
@@ -131,7 +132,7 @@ def _result(run: Run, path: str) -> BuildScript:
             python_packages=tuple(sorted(run.results.python_packages)),
             interfaces=tuple(sorted(run.results.interfaces)),
         ),
-        exports=BuildExports(tuple(run.results.config_extras), tuple(_exported_packages(run)), tuple(_exported_targets(run))),
+        exports=BuildExports(tuple(run.results.config_extras), tuple(exported_packages(run)), tuple(_exported_targets(run))),
         commands=CMakeCommands(calls, insertion=run.results.insertion, insertion_after=run.results.insertion_after),
         cmake=CMakeBuild(
             subdirectories=tuple(run.results.subdirectories),
@@ -190,50 +191,6 @@ def _lost_exports(run: Run) -> Iterator[CommandPlace]:
 _OF_AMENT: Final = re.compile(r"_?AMENT_(?:CMAKE_)?E")
 """Beginning of the variables in which ament keeps exports: ``_AMENT_EXPORT_...``, ``_AMENT_CMAKE_EXPORT_...`` and
 ``AMENT_EXTENSIONS_...``."""
-
-
-def _exported_packages(run: Run) -> Iterator[tuple[Mention, bool]]:
-    """Yield the packages that this package finds for its dependents, each with True if find_package() always runs.
-
-    The calls of find_package() and find_dependency() are in CONFIG_EXTRAS and in templates of CMake configurations. Calls
-    in functions and macros are left out, because they run only if the function or macro is called.
-    """
-    for file in dict.fromkeys([*run.results.config_extras, *run.results.config_templates]):
-        blocks: list[bool | None] = []  # for each enclosing block, whether it always runs; None for a function or macro
-        for command in run.paths.sources.scripts[file].commands if file in run.paths.sources.scripts else ():
-            words = [argument[0] for argument in command.args]
-            if command.name in ("function", "macro"):
-                blocks.append(None)
-            elif command.name in ("if", "foreach", "while", "block"):
-                blocks.append(command.name == "if" and _tests_existence(words))
-            elif command.name.startswith("end") and blocks:
-                blocks.pop()
-            elif command.name in ("else", "elseif") and blocks:
-                blocks[-1] = False
-            elif command.name in ("find_package", "find_dependency") and words and _PLAIN_NAME.fullmatch(words[0]):
-                if (
-                    None in blocks
-                    or words[0] in (run.results.project.name, run.paths.sources.name)
-                    or words[0] in run.packages.find_modules
-                ):
-                    continue
-                required = "REQUIRED" in words or command.name == "find_dependency"
-                path = join(run.paths.sources.path, file)
-                quotation = f"{command.name}({words[0]}) for dependents of this package"
-                yield Mention(words[0], "cmake", _first_argument(path, command), quotation, not required), all(blocks)
-
-
-_PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
-
-
-def _tests_existence(words: Sequence[str]) -> bool:
-    """Return whether a condition only tests whether a target, a package or a policy exists: ``NOT TARGET fmt::fmt``."""
-    return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
-
-
-def _first_argument(path: str, command: Command) -> Span:
-    _, _, start, end = command.args[0]
-    return command.span(path, start, end)
 
 
 def _interpreted_tests(run: Run) -> tuple[str, ...] | None:

@@ -23,9 +23,6 @@ _TEST_FOLDERS = auxiliary_files.TEST_FOLDERS | {"gtest"}
 _UNBUILT_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
 """Folders whose files are often not part of the build and the installation."""
 
-_THIRD_PARTY_FOLDERS = frozenset({"3rd_party", "3rdparty", "extern", "external", "externals", "third_party", "thirdparty"})
-"""Folders for third-party code, whose tests this package does not build."""
-
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py"})
@@ -133,7 +130,9 @@ class FileRoles:
         ):
             # pytest collects files named like tests; their neighbours are helpers. Elsewhere a file may be anything.
             is_run = self._runs_python_tests and (self._is_run(path) or path in self._started_by_tests)
-            in_use = not (self._compiled_known or resource or self._siblings_are_used(path) or _THIRD_PARTY_FOLDERS & folders)
+            in_use = not (
+                self._compiled_known or resource or self._siblings_are_used(path) or auxiliary_files.THIRD_PARTY_FOLDERS & folders
+            )
             return Role.TEST, (is_run or self._may_be_launched(path)) if python else in_use
         if path in self._launched and (path in self._installed or path in self._installed_python):
             return Role.EXEC, not auxiliary_files.is_backup_copy(path)
