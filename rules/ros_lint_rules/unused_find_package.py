@@ -42,6 +42,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     Confidence,
+    Consequence,
     Declared,
     Finding,
     Mention,
@@ -80,6 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name,
             first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+            explains=(Consequence("wrong-dependency-kind", name),) if sure else (),
         )
 
 
