@@ -171,6 +171,11 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         )
     elif best.what.startswith("$ENV{"):
         message = f"only '{name}' sets {best.what}, and package.xml does not declare it: add {proposal.written}"
+    elif module := _module_of_declared_name(package, name, best):
+        message = (
+            f"the Python module '{module}' is not in the declared '{module}', but in '{name}', which package.xml does not declare: "
+            f"add {proposal.written}"
+        )
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):
@@ -274,6 +279,12 @@ def _suggestion(name: str, workspace: Workspace) -> str:
         return meant.name
     prefixed = [candidate for candidate in workspace.by_name if candidate.endswith(f"_{name}")]
     return prefixed[0] if len(prefixed) == 1 else ""
+
+
+def _module_of_declared_name(package: Package, name: str, use: Use) -> str:
+    """Return the imported module if ``name`` provides it, although a declared package has the name of the module; else ""."""
+    module = use.name.partition(".")[0] if use.via == "import" else ""
+    return module if module != name and package.tags(module) else ""
 
 
 def _condition(package: Package, name: str) -> str:
