@@ -173,8 +173,8 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         message = f"only '{name}' sets {best.what}, and package.xml does not declare it: add {proposal.written}"
     elif module := _module_of_declared_name(package, name, best):
         message = (
-            f"the Python module '{module}' is not in the declared '{module}', but in '{name}', which package.xml does not declare: "
-            f"add {proposal.written}"
+            f"the Python module '{module}' is not in the declared '{module}', but in '{name}', which package.xml does not "
+            f"declare: add {proposal.written}"
         )
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
