@@ -23,7 +23,7 @@ BUILTIN = "ros_lint_rules"
 
 
 class PluginError(UserError):
-    """A plugin that cannot be loaded, or whose rule has a name or code that another rule has."""
+    """A plugin that cannot be loaded, or has a rule with the name or code of another rule."""
 
 
 @lru_cache(maxsize=2)

@@ -120,7 +120,7 @@ class _Place(NamedTuple):
 def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     """Return the end of the message about an undeclared package that may be available elsewhere."""
     tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
-    return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
+    return f"; if '{name}' is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
@@ -190,7 +190,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
         return _Verdict(
-            f"; this package, '{package.name}', installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
+            f"; write '{package.name}', which installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
         )
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):

@@ -77,7 +77,7 @@ Optional uses are reported with low confidence and without a fix:
 - imports where a comparison of `ROS_VERSION` selects ROS 1.
 
 There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
-colcon builds it, but rosdep does not know it.
+colcon builds it, but rosdep cannot resolve its name.
 
 Some packages come with another undeclared package for the same purposes and are not shown beside it, because one line is
 missing. They are reported as `transitive-dependency` once the other one is declared:
@@ -168,9 +168,9 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):
-            message += (
-                f"; '{name}' also uses '{package.name}', but two packages cannot declare each other, "
-                "so move the shared part into one of them"
+            message = (
+                f"'{name}' {problem}; '{name}' also uses '{package.name}', but two packages cannot declare each other: "
+                "move the shared part into one of them, and declare that package in the other"
             )
     return Finding(
         message,

@@ -75,8 +75,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
     ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
-    workspace whose CMake code runs in packages that find them (``exports.config_extras`` of their build script). Evaluate
-    the helpers first, each after the helpers that it finds, then the other packages.
+    workspace whose CMake code runs in their dependents (``exports.config_extras`` of their build script). Evaluate the
+    helpers first, each after the helpers that it finds, then the other packages.
 
     - A condition that cannot be decided: both branches are run. Their products are ``conditional``, their mentions ``optional``.
     - An option has its default value. The effects of the other branch are reported as conditional.
@@ -172,7 +172,7 @@ _MAKES_NOTHING: Final = frozenset(
 
 
 def _lost_exports(run: Run) -> Iterator[CommandPlace]:
-    """Yield the calls that export in a scope that ament_package() does not see.
+    """Yield the calls of ament_export_...() without effect: ament_package() does not read the scope of their variables.
 
     Nothing is yielded if the package passes the variables of ament on, to the scope of ament_package().
     """
