@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
 from ros_lint.base.paths import is_below_any
+from ros_lint.engine.registry import plugin_of
 from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
@@ -60,7 +61,7 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
         not_cloned=tuple(_not_cloned(workspace)),
         blind_spots=_blind_spots(packages),
         ros1=tuple([_name(package) for package in packages if package.is_ros1]),
-        crashes=checked.crashes,
+        crashes=tuple([crash._replace(plugin=plugin_of(crash.rule)) for crash in checked.crashes]),
         workspace=context.folders[0] if len(context.folders) == 1 else "",
         warnings=context.warnings,
     )

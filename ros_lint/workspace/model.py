@@ -114,6 +114,11 @@ class Package(NamedTuple):
     """Plugin loaders in the C++ sources."""
     uninstalled_imports: tuple[UninstalledImport, ...] = ()
     """Imports, in Python programs, of modules that are not installed next to the program."""
+    unreached_modules: frozenset[str] = frozenset()
+    """Installed Python files with imports of other packages that no program, launch file, script or test of the package imports.
+
+    Paths are relative to the package. Modules that other packages import are left out.
+    """
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()

@@ -41,7 +41,14 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
     local = workspace.by_name.get(name, ())
     if local:
         return any(_gives_macros(member) or not makes_something(member) or _lacks_parts(member, world) for member in local)
-    return only_brings(world, name) or _stands_for_others(package, world, name)
+    return is_metapackage(package, workspace, name)
+
+
+def is_metapackage(package: Package, workspace: Workspace, name: str) -> bool:
+    """Return whether ``name`` is a metapackage, or has no content and depends on packages that ``package`` uses."""
+    if local := workspace.by_name.get(name, ()):
+        return not any(makes_something(member) for member in local)
+    return only_brings(workspace.world, name) or _stands_for_others(package, workspace.world, name)
 
 
 def only_brings(world: World, name: str) -> bool:
