@@ -227,7 +227,7 @@ def _as_modules(inside: _Inside, workspace: Workspace) -> str:
     if f"{inside.rest}/__init__.py" in below:
         return f"import its modules from {inside.rest.removeprefix('src/').replace('/', '.')}"
     if below and all(file.endswith(".py") for file in below):
-        return "remove it, because Python finds modules next to the installed program"
+        return "remove the path, because Python finds modules next to the installed program"
     return ""
 
 
