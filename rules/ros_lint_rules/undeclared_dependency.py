@@ -190,7 +190,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
 
 
 def _is_unreached(package: Package, need: dependencies.Need) -> bool:
-    """Return whether only modules that nothing in the package starts or imports need the package."""
+    """Return whether a need only results from modules that nothing in this package starts or imports."""
     uses = [use for use in need.uses if use.certain] or need.uses
     return all(_is_in_unreached_module(package, use) for use in uses)
 

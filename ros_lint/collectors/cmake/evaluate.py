@@ -343,7 +343,7 @@ def _missing_files(run: Run) -> list[Problem]:
         source = path.rstrip("/")
         # CMake accepts a folder in a list of sources and ignores it.
         if not unsure and run.paths.generated.isdisjoint((source, path)) and not run.paths.is_folder(source):
-            empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
+            empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails; add a file to the folder"
             message = f"'{source}' does not exist" if source == path else empty
             problems.append(Problem("missing-file", message, span, subject=path))
     return list(dict.fromkeys(problems))
