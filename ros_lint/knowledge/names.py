@@ -292,7 +292,7 @@ class Names:
         return self._store.table("eol_names.tsv")[1]
 
     def _doubtful_names(self, file: str) -> frozenset[str]:
-        """Return the names in a map whose providers are entered by hand or are rarely declared by packages that use the name."""
+        """Return the names in a map whose providers are entered manually, or are rarely declared where the name is used."""
         doubtful = self._doubtful.get(file)
         if doubtful is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])

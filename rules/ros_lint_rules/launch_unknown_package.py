@@ -122,7 +122,7 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
     if condition := dependencies.condition_for(workspace, name):
         return f'; add <{tag} condition="{condition}">{name}</{tag}>'
-    return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
+    return f"; if '{name}' is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
@@ -193,7 +193,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
         return _Verdict(
-            f"; this package, '{package.name}', installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
+            f"; write '{package.name}', which installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
         )
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):

@@ -78,7 +78,7 @@ Optional uses are reported with low confidence and without a fix:
 - imports where a comparison of `ROS_VERSION` selects ROS 1.
 
 There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
-colcon builds it, but rosdep does not know it.
+colcon builds it, but rosdep cannot resolve its name.
 
 Some packages come with another undeclared package for the same purposes and are not shown beside it, because one line is
 missing. They are reported as `transitive-dependency` once the other one is declared:
@@ -179,9 +179,9 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):
-            message += (
-                f"; '{name}' also uses '{package.name}', but two packages cannot declare each other, "
-                "so move the shared part into one of them"
+            message = (
+                f"'{name}' {problem}; '{name}' also uses '{package.name}', but two packages cannot declare each other: "
+                "move the shared part into one of them, and declare that package in the other"
             )
     return Finding(
         message,
@@ -195,7 +195,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
 
 
 def _is_unreached(package: Package, need: dependencies.Need) -> bool:
-    """Return whether only modules that nothing in the package starts or imports need the package."""
+    """Return whether a need only results from modules that nothing in this package starts or imports."""
     uses = [use for use in need.uses if use.certain] or need.uses
     return all(_is_in_unreached_module(package, use) for use in uses)
 

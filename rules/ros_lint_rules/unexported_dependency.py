@@ -129,7 +129,7 @@ def _together(lacks: Sequence[Lack], linked: Sequence[Lack], of_system: tuple[st
         for cmake_names, finding in others
     )
     message = (
-        f"{who} {names.shorten_list(all_names)}, but packages that use this one do not find them; "
+        f"{who} {names.shorten_list(all_names)}, but packages that use this package do not find them; "
         f"add ament_export_dependencies({' '.join(all_names)})"
     )
     return all_names, Finding(message, first.span, first.subject, first_related([*related, *first.related]))
@@ -171,8 +171,8 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
             continue
         first, *others = [span for name in group for span in places[name]]
         message = (
-            f"an exported library links targets of {names.shorten_list(group)}, but packages that use this one do not find them; "
-            f"add ament_export_dependencies({' '.join(group)})"
+            f"an exported library links targets of {names.shorten_list(group)}, but packages that use this package do not find "
+            f"them; add ament_export_dependencies({' '.join(group)})"
         )
         related = first_related(Related("also linked publicly", span) for span in others)
         yield tuple(group) if group is sure else (), Finding(message, first, group[0], related, confidence=confidence)
@@ -195,7 +195,7 @@ def _linked_of_system(package: Package, workspace: Workspace) -> Iterator[str]:
 
 
 def _without_components(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for exported packages that cannot be found without components, which the call cannot pass."""
+    """Yield findings for exported packages that CMake only finds with components, because the call cannot pass components."""
     script = package.script
     if script is None or not _is_seen(package) or build.has_extras(package):
         return
@@ -216,7 +216,7 @@ def _without_components(package: Package, workspace: Workspace) -> Iterator[Find
 
 
 def _is_without(workspace: Workspace, all_names: Iterable[str], keys: re.Pattern[str]) -> bool:
-    """Return whether all dependencies of the packages with these CMake names are known and no name of them matches ``keys``."""
+    """Return whether no package with these CMake names depends on a name that matches ``keys``; False if that is unknown."""
     packages = [provider for name in all_names for provider in workspace.world.by_cmake(name).names or (name,)]
     closure = workspace.world.closure(packages)
     return closure.complete and not any(keys.match(key) for key in closure)
