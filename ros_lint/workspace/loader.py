@@ -88,7 +88,7 @@ class Loader:
     """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
 
     Paths are relative to the base of the tree. ``others`` are further distributions to check for: :meth:`load_all` reads and
-    evaluates what does not depend on the distribution only once.
+    evaluates only once everything that is independent of the distribution.
     """
 
     def __init__(
