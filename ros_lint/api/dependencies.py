@@ -12,7 +12,14 @@ from ros_lint.analysis.dependencies.find_package import (
 from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
 from ros_lint.analysis.dependencies.misplaced import Misplaced, misplaced
 from ros_lint.analysis.dependencies.needs import Need, is_found_by_cmake, needs, optional_needs
-from ros_lint.analysis.dependencies.remedy import Remedy, availability_remark, is_unresolvable_key, naming_fix, remedy
+from ros_lint.analysis.dependencies.remedy import (
+    Remedy,
+    availability_remark,
+    condition_for,
+    is_unresolvable_key,
+    naming_fix,
+    remedy,
+)
 from ros_lint.analysis.dependencies.tags import (
     TEST_LIBRARIES,
     TEST_MODULES,
@@ -26,9 +33,9 @@ from ros_lint.analysis.dependencies.traceless import (
     PYTHON_LIKE,
     has_programs,
     is_library,
+    is_metapackage,
     is_mostly_runtime,
     may_be_used_without_trace,
-    only_brings,
     usage_is_visible,
 )
 from ros_lint.analysis.dependencies.undeclared import (
@@ -68,6 +75,7 @@ __all__ = [
     "add_dependency",
     "availability_remark",
     "change_dependency",
+    "condition_for",
     "conditions",
     "declared_closure",
     "declared_names",
@@ -82,6 +90,7 @@ __all__ = [
     "is_found_by_cmake",
     "is_fully_visible",
     "is_library",
+    "is_metapackage",
     "is_mostly_runtime",
     "is_part_of_launch",
     "is_traceless_by_name",
@@ -98,7 +107,6 @@ __all__ = [
     "naming_fix",
     "needed_transitively",
     "needs",
-    "only_brings",
     "optional_needs",
     "partial_closure",
     "provided_in_other_distros",

@@ -116,7 +116,7 @@ class ScriptFile(NamedTuple):
 
 
 class UninstalledImport(NamedTuple):
-    """An import that may fail after installation: only in the sources is the module in the folder of the program."""
+    """An import that may fail after installation, because the module is next to the program only in the sources."""
 
     program: str
     """Install path such as ``lib/<package>/talker.py``, or the dotted module of an entry point."""
@@ -311,6 +311,8 @@ class BuildScript(NamedTuple):
     """Places that could not be evaluated."""
     problems: tuple[Problem, ...] = ()
     """Errors of the script."""
+    distros: frozenset[str] | None = None
+    """The distributions for which the script has this result; None if it does not depend on the distribution."""
 
     @property
     def of_cmake(self) -> bool:

@@ -40,7 +40,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if len(same) < 2:
             continue
         first, *others = same
-        places = " and ".join(package.path or "." for package in same)
+        *earlier, last = [package.path or "." for package in same]
+        places = f"{', '.join(earlier)} and {last}"
         yield Finding(
             f"{len(same)} packages have the name '{name}': {places}; colcon rejects the workspace; rename one or put "
             "COLCON_IGNORE into its folder",
@@ -53,7 +54,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _are_built_separately(packages: Iterable[Package]) -> bool:
-    """Return whether each package is in a workspace or course step of its own: these are built separately."""
+    """Return whether each package is in a workspace of its own, such as ``arm_ws`` or ``lesson_2``: not built together."""
     places = [graph.workspace_of(package.path) for package in packages]
     return "" not in places and len(set(places)) == len(places)
 

@@ -55,7 +55,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
     """Yield the arguments that are read before they are declared, because a launch file is processed in order.
 
-    ``above``: names of the configurations that are declared or set by files which include ``file``.
+    ``above``: names of the configurations declared or set by files that include ``file``.
     """
     declared: dict[str, tuple[int, Span]] = {}
     for index, action in enumerate(file.actions):
@@ -125,10 +125,10 @@ def _read_early(
 
 
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
-    """Yield each text of an action that launch evaluates, with its place, whether it is under a condition, and an outcome.
+    """Yield each text of an action that launch evaluates: the text, its place, True if it is under a condition, and ``holds``.
 
-    The texts of a condition are always evaluated. A condition that compares a configuration has an outcome if the
-    configuration is missing (``_Early.holds``); for every other text the outcome is None, because launch stops.
+    The texts of a condition itself are always evaluated. ``holds`` is the result of a condition that compares a missing
+    configuration. It is None for every other text, because launch stops there (:class:`_Early`).
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]

@@ -65,7 +65,7 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield an unresolved dependency for each of ``packages`` that certainly declares ``name``, a name that does not resolve.
+    """Yield an unresolved dependency for each of ``packages`` that certainly declares the unresolved ``name``.
 
     A tag under a condition of unknown value is not certain.
     """
@@ -118,8 +118,8 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDepen
 def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> str:
     """Return the package that an unresolved name probably means, or "" if there is no such package or more than one.
 
-    The package has a similar name, and this package uses it without declaring it. Names with the same words
-    (``robot-talk``, ``talk_robot``) always count as similar. Otherwise the unresolved name must appear only in the manifest.
+    The result has a similar name, and is used but not declared. If both names have the same words (``robot-talk``,
+    ``talk_robot``), the build script must not contain the unresolved name. Otherwise no file except the manifest may contain it.
     """
     package, name = dependency.package, dependency.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]

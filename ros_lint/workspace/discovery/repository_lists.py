@@ -1,4 +1,4 @@
-"""Files that list repositories of a workspace, which need not be cloned."""
+"""Files that list repositories of a workspace. The repositories need not be cloned."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def _repositories(tree: Tree, path: str) -> Iterator[list[str]]:
 
 
 def _is_cloned(tree: Tree, path: str, folder: str) -> bool:
-    """Return whether a listed repository is in a folder into which its list is usually imported."""
+    """Return whether the repository with the path ``folder`` in the list at ``path`` is cloned to a usual place."""
     tops = dict.fromkeys((parent(path), join(parent(path), "src"), "", "src"))
     return any(_has_entries(tree, join(top, folder)) for top in tops)
 

@@ -137,7 +137,7 @@ def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], 
 
 
 def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield a problem for the first absolute path that a call joins to a relative one, because Python drops the path before."""
+    """Yield a problem for the first absolute path that a call joins to another path, because Python drops that other path."""
     if not _SLASH.search(source.text.text):
         return  # because walking the whole tree takes longer
     for node in ast.walk(tree):
@@ -147,7 +147,7 @@ def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
         place = next((part for part in parts[1:] if _is_absolute(part)), None)
         if isinstance(place, ast.Constant) and not _is_absolute(parts[0]):
             path_text = str(place.value)
-            remedy = f"write {path_text.lstrip('/')!r}" if path_text.strip("/") else "remove it"
+            remedy = f"write {path_text.lstrip('/')!r}" if path_text.strip("/") else f"remove {path_text!r}"
             message = f"the path before {path_text!r} is dropped, because {path_text!r} begins with a slash; {remedy}"
             yield Problem("forgotten-path", message, span_of(place, source))
 
