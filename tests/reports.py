@@ -187,7 +187,11 @@ EVERYTHING = Report(
     ),
     blind_spots=(BlindSpot("executables", ("bringup", "talker")), BlindSpot("used dependencies", ("talker",))),
     ros1=("old_driver",),
-    crashes=(Crash("unused-dependency", "talker", TRACEBACK), Crash("dependency-cycle", "", TRACEBACK)),
+    crashes=(
+        Crash("unused-dependency", "talker", TRACEBACK),
+        Crash("dependency-cycle", "", TRACEBACK),
+        Crash("renamed-package", "talker", TRACEBACK, "acme-rules 1.0"),
+    ),
     workspace="ws",
 )
 CLEAN = Report((), RULES, 1, TargetDistro("humble", "--distro"), "2026-11-01", "0.1.0")

@@ -296,54 +296,6 @@ def test_rules_schema_and_completion_are_printed() -> None:
     assert json.loads(run("schema").stdout)["properties"]["distro"]
 
 
-def test_a_plugin_adds_rules(demo: Path, tmp_path: Path) -> None:
-    site = tmp_path / "site"
-    (site / "mine-1.0.dist-info").mkdir(parents=True)
-    (site / "mine-1.0.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
-    (site / "mine-1.0.dist-info" / "entry_points.txt").write_text("[ros_lint.rules]\nmine = mine_rules\n")
-    (site / "mine_rules.py").write_text(
-        "from ros_lint.api import Finding, Rule, Severity\n"
-        "def check(package, workspace):\n    yield Finding('mine', package.span, package.name)\n"
-        "RULE = Rule('mine', 'MY001', 'all is mine', Severity.ERROR, '1.0', '', package=check)\n"
-    )
-    path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
-    assert "[mine]" not in run(demo, "--format", "concise", env={"PYTHONPATH": path}).stdout
-    assert run(demo, "--plugins", "--format", "concise", env={"PYTHONPATH": path}).stdout.count("[mine]") == 5
-    file = demo / "ros-lint.toml"
-    file.write_text("plugins = true\n")
-    process = run(demo, "--format", "concise", env={"PYTHONPATH": path})
-    assert (process.returncode, "[mine]" in process.stdout) == (1, False)
-    assert f"ros-lint: {file}:1: plugins has no effect in a file because it loads code; use --plugins" in process.stderr
-    assert f"{file}:1: plugins has no effect" in run("order", demo, env={"PYTHONPATH": path}).stderr
-    file.write_text("plugins = true\nselect = ['mine']\n")
-    process = run(demo, env={"PYTHONPATH": path})
-    assert f"{file}:1: plugins has no effect" in process.stderr
-    assert "unknown rule 'mine'" in process.stderr
-    file.unlink()
-    (site / "mine_rules.py").write_text("import nothing_of_that_name")
-    process = run(demo, "--plugins", env={"PYTHONPATH": path})
-    assert process.returncode == 2
-    assert "plugin 'mine' (mine_rules) cannot be loaded" in process.stderr
-
-
-def test_a_crashing_rule_hides_no_finding_of_another_rule(demo: Path, tmp_path: Path) -> None:
-    site = tmp_path / "site"
-    (site / "bad-1.0.dist-info").mkdir(parents=True)
-    (site / "bad-1.0.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: bad\nVersion: 1.0\n")
-    (site / "bad-1.0.dist-info" / "entry_points.txt").write_text("[ros_lint.rules]\nbad = bad_rules\n")
-    (site / "bad_rules.py").write_text(
-        "from ros_lint.api import Rule, Severity\n"
-        "def check(package, workspace):\n    raise ValueError('oh')\n"
-        "RULE = Rule('bad', 'BAD01', 'nothing is bad', Severity.ERROR, '1.0', '', package=check)\n"
-    )
-    path = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
-    process = run(demo, "--plugins", "--format", "json", env={"PYTHONPATH": path})
-    assert process.returncode == 2
-    report = json.loads(process.stdout)
-    assert {finding["rule"] for finding in report["findings"]} == HEADLINES
-    assert "ValueError: oh" in str(report["crashes"])
-
-
 def test_the_pre_commit_hooks_check_the_whole_project() -> None:
     yaml = pytest.importorskip("yaml")
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())

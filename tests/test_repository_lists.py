@@ -8,6 +8,8 @@ from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.selection import select
 from ros_lint.reporters.summary import limits
 from ros_lint.workspace.discovery import repository_lists
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import TargetDistro
 from tests.one_package import loaded
 from tests.packages import manifest_text
 
@@ -63,6 +65,20 @@ def test_packages_of_repositories_that_are_not_cloned_are_unknown() -> None:
     assert [world.resolution(name) for name in names] == ["unknowable"] * 3 + ["unknown"] * 2 + ["known"]
     cloned = {**files, "Arm-Tools/package.xml": manifest_text("arm_base")}
     assert loaded(cloned).world.resolution("arm_tools_msgs") == "unknown"
+
+
+def test_any_package_may_be_in_a_repository_of_an_unreadable_list() -> None:
+    class Locked(MemoryTree):
+        def read(self, path: str) -> bytes:
+            if path == "deps.repos":
+                raise PermissionError(13, "Permission denied")
+            return super().read(path)
+
+    files = {"car/package.xml": manifest_text("car"), "deps.repos": "repositories:\n  arm:\n    type: git\n"}
+    workspace = Loader(Locked(files), ("",), TargetDistro("humble", "test")).load()
+    assert [workspace.world.resolution(name) for name in ("wheels", "rclcpp")] == ["unknowable", "known"]
+    assert [unread.what for unread in workspace.not_checked] == ["deps.repos"]
+    assert loaded(files).world.resolution("wheels") == "unknown"
 
 
 def test_the_summary_names_repositories_that_are_not_cloned() -> None:

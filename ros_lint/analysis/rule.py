@@ -21,8 +21,9 @@ class Rule(NamedTuple):
     name: str
     """Name in kebab case, as users write it in settings and suppressions: "missing-file"."""
     code: str
-    """Unique short name: letters, then digits. A plugin uses letters of its own: "ACME001".
+    """Unique short name: capital letters, then digits: "ACME001".
 
+    The letters belong to one plugin, so that codes of two plugins never collide; a second plugin that uses them is an error.
     The codes of ros-lint are ``ROS`` and three digits: 1xx workspace and manifest, 2xx dependencies, 3xx build scripts,
     4xx install, 5xx launch, 9xx ros-lint itself.
     """
@@ -35,8 +36,8 @@ class Rule(NamedTuple):
     doc: str
     """Documentation in Markdown: ``__doc__``, the docstring of the module.
 
-    Its headings are: What it finds, Why it matters, How to fix it, Limitations. SARIF reports contain it; for rules of
-    ros-lint, ``ros-lint rule NAME`` prints it.
+    Its headings are: What it finds, Why it matters, How to fix it, Limitations. SARIF reports contain it, and
+    ``ros-lint rule NAME`` prints it.
     """
     default: bool = True
     """True if the rule runs unless it is deselected; false if it must be selected."""

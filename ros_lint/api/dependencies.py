@@ -26,9 +26,9 @@ from ros_lint.analysis.dependencies.traceless import (
     PYTHON_LIKE,
     has_programs,
     is_library,
+    is_metapackage,
     is_mostly_runtime,
     may_be_used_without_trace,
-    only_brings,
     usage_is_visible,
 )
 from ros_lint.analysis.dependencies.undeclared import (
@@ -82,6 +82,7 @@ __all__ = [
     "is_found_by_cmake",
     "is_fully_visible",
     "is_library",
+    "is_metapackage",
     "is_mostly_runtime",
     "is_part_of_launch",
     "is_traceless_by_name",
@@ -98,7 +99,6 @@ __all__ = [
     "naming_fix",
     "needed_transitively",
     "needs",
-    "only_brings",
     "optional_needs",
     "partial_closure",
     "provided_in_other_distros",

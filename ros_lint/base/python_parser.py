@@ -1,7 +1,7 @@
 """The parser of the running Python, without its warnings.
 
 It may overflow the stack of the process for deeply nested texts. :mod:`ros_lint.collectors.python.syntax` rejects
-these before.
+such texts before.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ def _loader(*, fast: bool) -> Any:
     import yaml  # noqa: PLC0415
 
     class LimitedLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
-        """A subclass that gets the constructor ``integer`` below. Without it, every user of the library would get it."""
+        """The class to which ``integer`` is added. Added to the base class, it would change the library for all its users."""
 
     def integer(loader: Any, node: yaml.ScalarNode) -> int:
         value: int = loader.construct_yaml_int(node)

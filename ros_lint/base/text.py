@@ -103,7 +103,7 @@ class Text:
     def spans(self, ranges: Iterable[tuple[int, int]]) -> Iterator[Span]:
         """Yield the spans of sorted pairs of offsets, each pair within one line.
 
-        This is faster than :meth:`span` for a few places in a long file, because the C library counts the lines.
+        This is faster than :meth:`span` for a few places in a long file, because ``str.count`` counts the lines.
         """
         text, path = self.text, self.path
         if "\r" in text:

@@ -150,6 +150,7 @@ def _add_index(parser: argparse.ArgumentParser) -> None:
 
 def _add_rules(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
+    _add_option(parser, BY_NAME["plugins"])
 
 
 def _add_rule(parser: argparse.ArgumentParser) -> None:

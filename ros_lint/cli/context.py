@@ -1,4 +1,4 @@
-"""Find the package that a path belongs to, and the folder whose packages are the context in which the package is checked."""
+"""Find the package that a path belongs to, and the folder around it whose packages are read as well, to check the package."""
 
 from __future__ import annotations
 

@@ -8,6 +8,7 @@ from ros_lint.analysis.rule import Rule
 from ros_lint.cli.options import CliOption
 from ros_lint.cli.settings import toml
 from ros_lint.engine.former_rules import FORMER, FormerRule
+from ros_lint.engine.registry import plugin_of
 
 GROUPS = {
     "1": "Workspace and manifest",
@@ -20,18 +21,20 @@ GROUPS = {
 
 
 def group(rule: Rule) -> str:
-    """Return the name of the group that a rule belongs to, by the first digit of its code."""
-    return GROUPS[rule.code[3]]
+    """Return the group that a rule belongs to: by the first digit of its code, or "Plugin" and the name of its plugin."""
+    plugin = plugin_of(rule.name)
+    return f"Plugin {plugin}" if plugin else GROUPS[rule.code[3]]
 
 
 def listing(rules: Iterable[Rule]) -> str:
     """Return a line for each rule: code, name, severity, on or off, whether it has fixes, and summary."""
     rules = list(rules)
     width = max((len(rule.name) for rule in rules), default=0)
+    code_width = max((len(rule.code) for rule in rules), default=0)
     lines = []
     for rule in rules:
         marks = f"{'on ' if rule.default else 'off'} {'fix' if rule.fixable else '   '}"
-        lines.append(f"{rule.code}  {rule.name:{width}}  {rule.severity!s:7}  {marks}  {rule.summary}")
+        lines.append(f"{rule.code:{code_width}}  {rule.name:{width}}  {rule.severity!s:7}  {marks}  {rule.summary}")
     return "".join(f"{line}\n" for line in lines)
 
 

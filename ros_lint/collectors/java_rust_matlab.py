@@ -1,6 +1,6 @@
 """Sources in other languages with ROS 2 bindings: Java, Rust and MATLAB.
 
-Their generators put the interfaces of each package into a namespace of their own, as in C++: ``std_msgs.msg.String`` in
+Their generators put the interfaces of each package into a namespace of that package, as in C++: ``std_msgs.msg.String`` in
 Java (rosidl_generator_java), ``std_msgs::msg::String`` in Rust (rosidl_generator_rs). All mentions are
 ``via="symbol"``.
 """

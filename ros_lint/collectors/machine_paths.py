@@ -2,9 +2,9 @@
 
 These are:
 - paths below a home directory,
-- paths into the sources relative to the workspace, which only work in that folder,
-- paths that climb from an installed folder to the sources, which only work in the workspace that was built,
-- paths into ``/opt/ros``, which only work with one distribution.
+- paths into the sources relative to the workspace, because they only work if the program is started in that folder,
+- paths with ``..`` that lead from an installed folder to the sources, because they only work in the workspace that was built,
+- paths into ``/opt/ros``, because they only work with one distribution.
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint import __version__
 from ros_lint.base.paths import is_below_any
+from ros_lint.engine.registry import plugin_of
 from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
 from ros_lint.engine.selection import Selection, show
@@ -60,14 +61,14 @@ def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: 
         not_cloned=tuple(_not_cloned(workspace)),
         blind_spots=_blind_spots(packages),
         ros1=tuple([_name(package) for package in packages if package.is_ros1]),
-        crashes=checked.crashes,
+        crashes=tuple([crash._replace(plugin=plugin_of(crash.rule)) for crash in checked.crashes]),
         workspace=context.folders[0] if len(context.folders) == 1 else "",
         warnings=context.warnings,
     )
 
 
 def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
-    """Yield the listed repositories that are not cloned, without released packages, which need not be cloned."""
+    """Yield the listed repositories that are not cloned and have no existing package of their name, by list."""
     world = workspace.world
     for path, names in world.awaited.lists:
         if unknown := [name for name in names if not world.is_package(package_name(name))]:

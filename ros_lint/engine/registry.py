@@ -1,88 +1,79 @@
 """Discovery of rules: built-in ones and plugins, by the entry point group ``ros_lint.rules``.
 
 An entry names a module or a package; every ``RULE`` in it and in its direct submodules is loaded. The built-in entry is
-known without a search, because ``importlib.metadata`` takes longer than most runs. It is only searched if the settings
-enable plugins.
+known without a search, because ``importlib.metadata`` takes longer than most runs. Plugins are only searched with
+``--plugins``.
 """
 
 from __future__ import annotations
 
 import importlib
-import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
-from types import ModuleType
+from typing import TYPE_CHECKING
 
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.engine.former_rules import former_rule
-from ros_lint.errors import UserError
+from ros_lint.engine.rule_modules import rules_of
 
-GROUP = "ros_lint.rules"
+if TYPE_CHECKING:
+    from ros_lint.engine.plugins import Plugin
+
 BUILTIN = "ros_lint_rules"
-
-
-class PluginError(UserError):
-    """A plugin that cannot be loaded, or whose rule has a name or code that another rule has."""
 
 
 @lru_cache(maxsize=2)
 def load(plugins: bool = False) -> tuple[Rule, ...]:
     """Return the built-in rules, and with ``plugins`` the rules of plugins, sorted by code. Raises PluginError."""
-    rules = list(_rules_of(importlib.import_module(BUILTIN)))
+    rules = list(rules_of(importlib.import_module(BUILTIN)))
     if plugins:
-        rules += _plugin_rules()
-    rule_of: dict[str, Rule] = {}
-    for rule in rules:
-        for key in (rule.name, rule.code):
-            if rule_of.setdefault(key, rule) != rule:
-                raise PluginError(f"two rules have the same name or code '{key}'")
+        rules += [rule for plugin in _plugins() for rule in plugin.rules]
     return tuple(sorted(rules, key=lambda rule: rule.code))
 
 
-def _plugin_rules() -> Iterator[Rule]:
-    from importlib.metadata import entry_points  # noqa: PLC0415
+@lru_cache(maxsize=1)
+def _plugins() -> tuple[Plugin, ...]:
+    from ros_lint.engine import plugins  # noqa: PLC0415  (importlib.metadata takes longer than most runs)
 
-    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
-        if entry.value == BUILTIN:
-            continue
-        try:
-            yield from _rules_of(entry.load())
-        except Exception as error:
-            raise PluginError(f"plugin '{entry.name}' ({entry.value}) cannot be loaded: {error}") from error
+    return plugins.load(load(), BUILTIN)
 
 
-def _rules_of(module: ModuleType) -> Iterator[Rule]:
-    if isinstance(rule := getattr(module, "RULE", None), Rule):
-        yield rule
-    for name in sorted({name for folder in getattr(module, "__path__", ()) for name in _modules_in(folder)}):
-        yield from _rules_of(importlib.import_module(f"{module.__name__}.{name}"))
-
-
-def _modules_in(folder: str) -> Iterator[str]:
-    """Yield the names of the modules and packages in a folder, without ``pkgutil``, whose import takes longer."""
-    for entry in os.scandir(folder) if os.path.isdir(folder) else ():
-        name, dot, suffix = entry.name.partition(".")
-        is_module = suffix == "py" or (not dot and os.path.isfile(os.path.join(entry.path, "__init__.py")))
-        if is_module and name.isidentifier() and name != "__init__":
-            yield name
+def plugin_of(rule: str) -> str:
+    """Return name and version of the plugin that has the rule with this name, "" for a rule of ros-lint. Raises PluginError."""
+    if any(rule == builtin.name for builtin in load()):
+        return ""
+    return next((plugin.name for plugin in _plugins() if any(rule == other.name for other in plugin.rules)), "")
 
 
 def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
-    """Return the rules that match a selector: ``all``, ``default``, a name, a code or a code prefix."""
+    """Return the rules that match a selector: ``all``, ``default``, a name, a code or a code prefix.
+
+    A code prefix is the letters of a code, or its letters and first digits: ``ROS``, ``ROS2``, ``ACME``.
+    """
     if selector == "all":
         return tuple(rules)
     if selector == "default":
         return tuple(rule for rule in rules if rule.default)
     exact = tuple(rule for rule in rules if selector in (rule.name, rule.code))
-    if exact or not selector.startswith("ROS"):
-        return exact
-    return tuple(rule for rule in rules if rule.code.startswith(selector))
+    letters = _letters(selector)
+    return exact or tuple(rule for rule in rules if rule.code.startswith(selector) and _letters(rule.code) == letters)
+
+
+def _letters(code: str) -> str:
+    return code.rstrip("0123456789")
 
 
 def unknown_rule_message(rules: Sequence[Rule], selector: str) -> str:
-    """Return the message for a selector that matches no rule."""
+    """Return the message for a selector that matches no rule. It names ``--plugins`` if ``rules`` lack those of plugins."""
     if former := former_rule(selector):
         return f"rule '{selector}' {former.fate}"
     words = [word for rule in rules for word in (rule.name, rule.code)]
-    return f"unknown rule '{selector}'{did_you_mean(similar_names(selector, [*words, 'all', 'default']))}"
+    hint = did_you_mean(similar_names(selector, [*words, "all", "default"]))
+    if len(rules) > len(load()):
+        return f"unknown rule '{selector}'{hint}"
+    from ros_lint.engine.plugins import installed  # noqa: PLC0415
+
+    if plugins := ", ".join(f"'{name}'" for name in installed(BUILTIN)):
+        return f"unknown rule '{selector}'{hint or ';'} rules of installed plugins ({plugins}) need --plugins"
+    return f"unknown rule '{selector}'{hint or '; if a plugin has it, install the plugin and add --plugins'}"

@@ -84,6 +84,8 @@ class Crash(NamedTuple):
     rule: str
     package: str
     traceback: str
+    plugin: str = ""
+    """Name and version of the plugin that has the rule; "" for a rule of ros-lint."""
 
     @property
     def error(self) -> str:

@@ -17,7 +17,7 @@ from ros_lint.engine.former_rules import former_rule
 from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, UnknownSelector, Unused, lines_of
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable
+    from collections.abc import Container, Iterable, Mapping
 
     from ros_lint.analysis.rule import Rule
     from ros_lint.engine.report import Issue
@@ -69,7 +69,8 @@ def apply_suppressions(
         (comment, tuple([name for name, rule in rules if rule in judged and (comment, name) not in used]))
         for comment, rules in resolved
     ]
-    unknown = [_unknown(comment, name, names) for comment, rules in resolved for name, rule in rules if rule is None]
+    spellings = {key.lower(): key for rule in all_rules for key in (rule.name, rule.code)}
+    unknown = [_unknown(comment, name, spellings) for comment, rules in resolved for name, rule in rules if rule is None]
     return Outcome(
         tuple(kept),
         tuple(suppressed),
@@ -102,11 +103,9 @@ def _first_line(entry: tuple[Suppression, Name]) -> int:
     return lines[0] if lines else 0
 
 
-def _unknown(comment: Suppression, name: Name, names: Iterable[str]) -> UnknownSelector:
-    former = former_rule(name.text)
-    return UnknownSelector(comment, name, "" if former else _nearest(name.text, names), former.fate if former else "")
-
-
-def _nearest(word: str, names: Iterable[str]) -> str:
-    close = similar_names(word.lower(), names)
-    return (close[0].upper() if close[0].startswith("ros") and close[0][3:].isdigit() else close[0]) if close else ""
+def _unknown(comment: Suppression, name: Name, spellings: Mapping[str, str]) -> UnknownSelector:
+    """Return the entry for a name of no rule. ``spellings`` has each name and code of a rule by its lower case."""
+    if former := former_rule(name.text):
+        return UnknownSelector(comment, name, "", former.fate)
+    similar = similar_names(name.text.lower(), spellings)
+    return UnknownSelector(comment, name, spellings[similar[0]] if similar else "", "")

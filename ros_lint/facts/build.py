@@ -116,7 +116,7 @@ class ScriptFile(NamedTuple):
 
 
 class UninstalledImport(NamedTuple):
-    """An import that may fail after installation: only in the sources is the module in the folder of the program."""
+    """An import that may fail after installation, because the module is next to the program only in the sources."""
 
     program: str
     """Install path such as ``lib/<package>/talker.py``, or the dotted module of an entry point."""

@@ -26,6 +26,8 @@ class ExpectedRepositories(NamedTuple):
     """Repositories in ``*.repos`` and ``*.rosinstall`` files, which may or may not have been fetched."""
     lists: tuple[UnclonedRepositories, ...] = ()
     """The uncloned repositories of each list."""
+    complete: bool = True
+    """Whether all lists could be read. Otherwise a repository of any name may be missing."""
 
 
 NOTHING_AWAITED = ExpectedRepositories()

@@ -178,7 +178,7 @@ def by_import(world: Layers, module: str) -> Providers:
 
 
 def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the workspace packages with a module, and the released package named like the module if it may have it.
+    """Return the workspace packages with a module, and the released package of the same name if it may have the module.
 
     The released package comes first if it certainly has the module, else last.
     """
@@ -339,8 +339,8 @@ def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str,
 def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
     """Return the existing packages among ``names``, and the rosdep keys that are also in ``keys``.
 
-    Keys without a rule for the distribution come after them, because a declared name must resolve. Packages that only
-    other distributions have come last: ``fastrtps`` is the former name of ``fastdds``.
+    Keys without a rule for the distribution come after them, because a declared name must resolve. The last names are
+    packages of other distributions, such as ``fastrtps``, the former name of ``fastdds``.
     """
     ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
     allowed = set(keys)

@@ -1,8 +1,8 @@
 """Find names that are similar to an unknown name.
 
-A fix needs the one certain name (:meth:`Spelling.same`, :meth:`Spelling.one_slip`); a hint needs near names
-(:meth:`Spelling.near`). Further functions compare the name of a vendor package with that of its library, and the
-names of rosdep keys for a library and for a part of it.
+A fix needs a name that is certainly meant (:meth:`Spelling.same`, :meth:`Spelling.one_slip`). A hint needs similar names
+(:meth:`Spelling.near`). Further functions recognize the name of the vendor package of a library, and the rosdep key of a part
+of a library.
 """
 
 from __future__ import annotations
@@ -109,8 +109,8 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
     The similar names of :func:`ros_lint.base.suggestions.similar_names`, except for
 
     * names whose differing words do not resemble each other: not rear_camera for front_camera,
-    * names with more words, unless these begin like the differing words: not flir_camera_description for
-      icar_description,
+    * names with more words, unless the additional words begin like the differing words of ``name``: not
+      flir_camera_description for icar_description,
     * all names that extend ``name`` if there are several: neither left_arm nor right_arm for arm.
     """
     words = _words(name)

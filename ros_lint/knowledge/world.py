@@ -130,11 +130,12 @@ class World:
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
     def _may_be_uncloned(self, name: str) -> bool:
-        """Return whether a package may be in a repository that is not cloned: it has its name, or begins with it.
+        """Return whether a package may be in a repository that is not cloned.
 
-        ``arm_msgs`` may be in the repository ``arm`` or ``Arm-Msgs``.
+        The name of the package equals the name of the repository or begins with it: ``arm_msgs`` may be in the repository
+        ``arm`` or ``Arm-Msgs``. Any package may be in a repository of a list that cannot be read.
         """
-        return name in self.awaited.uncloned or f"{name}_".startswith(self._uncloned)
+        return not self.awaited.complete or name in self.awaited.uncloned or f"{name}_".startswith(self._uncloned)
 
     @cached_property
     def _uncloned(self) -> tuple[str, ...]:

@@ -104,8 +104,9 @@ def unread_file(entry: UnreadFile) -> str:
 
 
 def crashed(crash: Crash) -> str:
-    """Return the rule, the package and the error of a crash: "unused-dependency for talker: KeyError: 'a'"."""
-    return f"{crash.rule}{f' for {crash.package}' if crash.package else ''}: {crash.error}"
+    """Return the rule, its plugin, the package and the error of a crash: "unused-dependency for talker: KeyError: 'a'"."""
+    plugin = f" of the plugin '{crash.plugin}'" if crash.plugin else ""
+    return f"{crash.rule}{plugin}{f' for {crash.package}' if crash.package else ''}: {crash.error}"
 
 
 def _lines(report: Report, style: Style) -> Iterator[str]:
@@ -124,10 +125,17 @@ def _lines(report: Report, style: Style) -> Iterator[str]:
         yield f"Not checked: {count(len(report.not_checked), 'item')}"
         yield from _shortened([unread_file(entry) for entry in report.not_checked], style)
     if report.crashes:
-        fault = f"This is a bug in ros-lint {report.version}; please report it:"
-        yield paint(style, "error", f"{count(len(report.crashes), 'check')} failed. {fault}")
+        yield paint(style, "error", f"{count(len(report.crashes), 'check')} failed. {safe(_fault(report), style)}")
         yield from _shortened([crashed(crash) for crash in report.crashes], style)
         yield from (f"  {safe(line, style)}" for line in report.crashes[0].traceback.rstrip().split("\n"))
+
+
+def _fault(report: Report) -> str:
+    """Return the sentence that says whose bugs the crashes are."""
+    plugins = dict.fromkeys(crash.plugin for crash in report.crashes)
+    owners = [f"the plugin '{plugin}'" if plugin else f"ros-lint {report.version}" for plugin in plugins]
+    addressee = "" if "" in plugins else " to its author" if len(owners) == 1 else " to their authors"
+    return f"This is a bug in {and_list(owners)}; please report it{addressee}:"
 
 
 _TITLES = {Severity.ERROR: "Errors", Severity.WARNING: "Warnings", Severity.INFO: "Info"}

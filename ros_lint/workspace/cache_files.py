@@ -1,6 +1,6 @@
 """Read and write files of the cache folder, which contain only facts and reports.
 
-A pickle can call whatever it names. Here, a name resolves to a class of facts or to nothing, and the unpickler gets
+A pickle can call any function by its name. Here, a name resolves to a class of facts or to nothing, and the unpickler gets
 a function that creates objects of the class, not the class itself, because attributes of a class can be set. A file
 or folder that another user can write is neither read nor written.
 """

@@ -21,7 +21,7 @@ from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import DEPENDENCY_KINDS, ROLES, Manifest, Role
 from ros_lint.facts.repositories import ExpectedRepositories
-from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.sources import FileFacts, MachinePath, Use
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
 from ros_lint.knowledge import Knowledge
@@ -43,6 +43,7 @@ from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
 from ros_lint.workspace.usage.resolve import Resolver, resolve
+from ros_lint.workspace.usage.unreached_modules import unreached_modules
 
 Progress = Callable[[str, int, int], None]
 """Called with the current step, the number of finished items and the number of all items."""
@@ -128,9 +129,10 @@ class Loader:
             if sources
             else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
         )
+        unread_lists = tuple(repository_lists.unreadable_lists(tree, lists))
         expected = repository_lists.expected_repositories(
             tree, lists, submodules, [(package.name, package.path) for package in discovered]
-        )
+        )._replace(complete=not unread_lists)
         world = self._world(read_packages, discovery.rejected, expected)
         hidden = hidden_namesakes(
             [
@@ -152,7 +154,7 @@ class Loader:
         ignores = find_ignores(tree, ((package.path, package.files) for package in discovered))
         unread_files = (
             *discovery.not_checked,
-            *repository_lists.unreadable_lists(tree, lists),
+            *unread_lists,
             *ignores.not_checked,
             *_unreadable(collected),
         )
@@ -338,6 +340,9 @@ class Loader:
                 package = package._replace(
                     textual_mentions=textual_mentions.find_textual_mentions(tree, package, source, world, types),
                     possibly_used=textual_mentions.possibly_used(tree, package, source, world, types),
+                    unreached_modules=unreached_modules(
+                        tree, source, _undeclared(package), [other for other in sources if other is not source]
+                    ),
                 )
             yield package
 
@@ -373,6 +378,12 @@ class Loader:
             textual_mentions={},
             opaque=(),
         )
+
+
+def _undeclared(package: Package) -> list[Use]:
+    """Return the uses that no dependency tag of the package names."""
+    names = {declared.name for declared in package.declared}
+    return [use for use in package.uses if names.isdisjoint(use.providers)]
 
 
 def _without_submodules(discovered: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:

@@ -114,6 +114,11 @@ class Package(NamedTuple):
     """Plugin loaders in the C++ sources."""
     uninstalled_imports: tuple[UninstalledImport, ...] = ()
     """Imports, in Python programs, of modules that are not installed next to the program."""
+    unreached_modules: frozenset[str] = frozenset()
+    """Installed Python files with imports of other packages that no program, launch file, script or test of the package imports.
+
+    Paths are relative to the package. Modules that other packages import are left out.
+    """
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()
@@ -240,9 +245,10 @@ class Workspace:
         """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
     def seen_from(self, package: Package) -> Workspace:
-        """Return the workspace for look-ups of a package: without namesakes of packages that its own workspace contains.
+        """Return the workspace in which names of ``package`` are looked up. The engine calls this, so rules need not.
 
-        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. Not for plugins.
+        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. If the workspace of ``package``
+        contains a name, packages of this name in the other workspaces are left out.
         """
         return self._views.get(workspace_of(package.path), self) if self._views else self
 

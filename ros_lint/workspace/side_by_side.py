@@ -22,7 +22,8 @@ L = TypeVar("L", bound=_Located)
 def workspace_of(path: str) -> str:
     """Return the folder of the workspace that contains a package, by the package's path relative to the base.
 
-    It is the folder above the first ``src``, else a course step, else "", the workspace in the base.
+    It is the folder above the first ``src``, else a folder that is built separately, such as ``lesson_2`` of a course, else
+    "", the workspace in the base.
     """
     top, inside, _ = f"/{path}/".partition("/src/")
     if inside:
@@ -33,9 +34,9 @@ def workspace_of(path: str) -> str:
 
 
 def hidden_namesakes(packages: Iterable[tuple[str, str]]) -> Mapping[str, frozenset[str]]:
-    """Return what packages of a workspace do not see: by workspace, the paths of namesakes in other workspaces.
+    """Return, for each workspace, the paths of packages in other workspaces that have the name of one of its packages.
 
-    ``packages`` are names and paths. A workspace in which each name is unique in the repository is left out.
+    ``packages`` are names and paths. A workspace without such packages is left out.
     """
     places: dict[str, dict[str, list[str]]] = {}
     for name, path in packages:

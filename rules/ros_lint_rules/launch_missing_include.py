@@ -167,7 +167,7 @@ def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> I
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files whose paths included launch files form from the arguments that they are passed."""
+    """Yield findings for missing files whose paths are formed by an included launch file from arguments of the include."""
     links = launch.include_resolver(workspace)
     paths = [
         (package, launch_file.file) for package in workspace.packages for launch_file in launch.package_launch_files(package)

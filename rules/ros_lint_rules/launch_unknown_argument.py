@@ -74,8 +74,8 @@ def _configurations(value: LaunchValue) -> Iterator[str]:
 def _in_sibling(name: str, target: LaunchFile, package: Package, source: LaunchFile, workspace: Workspace) -> str:
     """Return the hint that a variant of the included file declares the argument, "" unless exactly one in ``package`` does.
 
-    A variant is in or below the folder of the included file and has a longer name: ``base_imu`` for ``base``. ``source`` is the
-    including file, which may declare what it passes on.
+    A variant is in or below the folder of the included file and has a longer name: ``base_imu`` for ``base``. ``source``, the
+    including file, is no variant, although it often declares the arguments that it passes on.
     """
     folder, tree = target.path.rpartition("/")[0], launch.include_tree(workspace)
     declaring = [

@@ -68,7 +68,7 @@ def _is_of_launch(module: str) -> bool:
 
 
 def _replacing(file: LaunchFile, package: Package, workspace: Workspace) -> Iterator[str]:
-    """Yield the arguments with an empty default that a launch file of the same folder requires."""
+    """Yield the arguments with an empty default if a launch file of the same folder declares them without a default."""
     resolver = launch.include_resolver(workspace)
     required = {name for other in package.launch if _folder(other) == _folder(file) for name in resolver.takes(other).required}
     for action in launch.walk_actions(file.actions):

@@ -125,10 +125,10 @@ def _read_early(
 
 
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
-    """Yield each text of an action that launch evaluates, with its place, whether it is under a condition, and an outcome.
+    """Yield each text of an action that launch evaluates: the text, its place, True if it is under a condition, and ``holds``.
 
-    The texts of a condition are always evaluated. A condition that compares a configuration has an outcome if the
-    configuration is missing (``_Early.holds``); for every other text the outcome is None, because launch stops.
+    The texts of a condition itself are always evaluated. ``holds`` is the result of a condition that compares a missing
+    configuration. It is None for every other text, because launch stops there (:class:`_Early`).
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]

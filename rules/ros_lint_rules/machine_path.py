@@ -200,7 +200,7 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
 
 
 def _source_of_generated(machine: MachinePath, package: Package) -> str:
-    """Return the file of the package from which xacro generated the file with a path, "" if there is none."""
+    """Return the xacro file of the package from which the file that contains the path was generated, "" if there is none."""
     name = machine.generated_from.rpartition("/")[2]
     return next((file for file in sorted(package.files) if name and file.rpartition("/")[2] == name), "")
 

@@ -85,7 +85,7 @@ def _message(package: Package, workspace: Workspace, problem: Problem, path: str
 
 
 def _is_unseen(package: Package, path: str) -> bool:
-    """Return whether a path is in a folder that was not read, such as a submodule, or is a folder above it."""
+    """Return whether a path is in a folder that was not read, such as a submodule, or is a folder above such a folder."""
     return any(f"{path}/".startswith(f"{folder}/") or folder.startswith(f"{path}/") for folder in package.unvisited_folders)
 
 

@@ -21,14 +21,16 @@ Not reported:
 - Packages whose CMakeLists.txt is in a subfolder with its own `package.xml`: CMake reads that one.
 
 If another declared dependency provides the run-time package, may do so, or provides all its dependencies, nothing fails: the
-severity is info and the confidence medium. The confidence is also medium for interfaces that are generated under a condition.
+severity is info and the confidence medium. The severity is warning if the name of the package shows that it serves tests.
+
+The confidence is also medium for interfaces that are generated under a condition.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Role, Rule, Severity, Workspace, build, dependencies
+from ros_lint.api import Confidence, Finding, Package, Role, Rule, Severity, Workspace, build, dependencies, files
 
 _RUNTIME = "rosidl_default_runtime"
 _CORE = "rosidl_core_runtime"
@@ -57,7 +59,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             workspace, _RUNTIME, f"declare '{_RUNTIME}' as <{tag}>", *dependencies.add_dependency(package, tag, _RUNTIME)
         ),
         Confidence.MEDIUM if provided else Confidence.HIGH if generation.certain else Confidence.MEDIUM,
-        Severity.INFO if provided else None,
+        Severity.INFO if provided else Severity.WARNING if files.is_for_tests(package.name) else None,
     )
 
 

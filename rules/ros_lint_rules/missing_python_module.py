@@ -117,7 +117,10 @@ class _Lack(NamedTuple):
 
 
 def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, as_data: Container[str]) -> Iterator[_Lack]:
-    """Yield the sub-packages of installed packages that are not installed, except folders that data_files installs."""
+    """Yield the sub-packages that setup.py does not install, although it installs the Python package around them.
+
+    Left out are the folders ``as_data``, whose Python files are installed as data.
+    """
     installed = script.products.python_packages
     place = slot.end if slot else (script.project.name_span or files.file_start(script.path))
     for name, folder in _packages(package):
@@ -128,7 +131,7 @@ def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, 
 
 
 def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
-    """Yield the packages that contain the modules of entry points and are not installed."""
+    """Yield the Python packages that contain modules of entry points and that setup.py does not install."""
     for module in script.python.entry_point_modules:
         inside = module.name.rpartition(".")[0]
         if inside and not {module.name, inside}.intersection(script.products.python_packages):
@@ -138,7 +141,10 @@ def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
 
 
 def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> Iterator[_Lack]:
-    """Yield the packages that installed modules import and that are not installed."""
+    """Yield the Python sub-packages that installed modules import and that setup.py does not install.
+
+    Left out are the folders ``as_data``, whose Python files are installed as data.
+    """
     for item in imports:
         folder, name = item.source.rstrip("/"), item.module
         if "." in name and folder not in as_data:

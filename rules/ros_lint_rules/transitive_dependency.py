@@ -46,10 +46,14 @@ Reported with low confidence, because packages rarely declare it:
 - `ament_cmake_core`, because every build tool provides it, and `ament_cmake`, if another build tool such as `ament_cmake_auto`
   provides it.
 - Linters that `ament_lint_common` contains.
-- Packages that launch files use and that a released metapackage contains.
+- Packages that launch files use, if a declared metapackage such as `navigation2` depends on them.
 - Optional uses. They have no fix.
 
-The confidence is medium if a single find_package() names the package and no source does: the call may be unused.
+The confidence is also medium if:
+
+- a single find_package() names the package and no source does, because the call may be unused;
+- a single source names a type of the package and includes no header of it, because the interface of another package has the type.
+
 There is also no fix if no rosdep key resolves for the distribution.
 """
 
@@ -93,7 +97,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, workspace, need.uses)):
             may_be_unused = all(map(_is_in_cmake, need.uses)) and (uses_are_hidden or len(need.uses) == 1)
-            certain = need.sure and not may_be_unused
+            certain = need.sure and not may_be_unused and not _is_one_type(need)
             yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
         if wish.is_transitive and not _is_command(wish):
@@ -124,8 +128,8 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
         return True
     if is_direct and in_tests and carrier == _LINTERS:
         return True
-    if is_direct and all(use.via in ("launch", "package") for use in need.uses):
-        return dependencies.only_brings(workspace.world, carrier)
+    if all(use.via in ("launch", "package") for use in need.uses):
+        return len(path) > 1 and all(dependencies.is_metapackage(package, workspace, between) for between in path[:-1])
     outside_tests = [use for use in need.uses if use.role is not Role.TEST]
     return dependencies.is_part_of_launch(package, workspace, outside_tests or need.uses)
 
@@ -133,6 +137,11 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
 def _is_part_of_build_tool(path: Sequence[str]) -> bool:
     """Return whether ``ament_cmake`` itself depends on the last package of ``path``, as it does on ``ament_cmake_python``."""
     return len(path) == 2 and path[0] == _BUILD_TOOL and path[1].startswith(f"{_BUILD_TOOL}_")
+
+
+def _is_one_type(need: dependencies.Need) -> bool:
+    """Return whether a single place, which is in no public header, names a type of the package."""
+    return len(need.uses) == 1 and need.uses[0].via == "symbol" and not need.role & Role.EXPORT
 
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:

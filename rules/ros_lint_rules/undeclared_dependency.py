@@ -34,7 +34,8 @@ If `find_package()` names a package that a package of interfaces does not use, r
 If the package is declared under a condition that is false, widen the condition.
 
 The fix is safe if the name resolves in the chosen distribution, or in every active one if none was chosen. Otherwise
-the message names the distributions that have or lack the name, and the fix needs `--unsafe-fixes`.
+the message names the distributions that have or lack the name, and the fix needs `--unsafe-fixes`. It is also unsafe for keys
+that rosdep installs by pip, because pip refuses to install outside of virtual environments on newer systems (PEP 668).
 
 ## Limitations
 
@@ -87,10 +88,12 @@ missing. They are reported as `transitive-dependency` once the other one is decl
 - libraries that only files with headers of the other one include, if it depends on them directly: `orocos_kdl_vendor` beside
   `kdl_parser`. Packages that `find_package()` names and interfaces are shown.
 
-The severity is lower if the package works where it is built and launched today:
+The severity is lower if the package works where it is built, launched and tested today:
 
 - info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
-- warning for `python3-pytest`, because colcon itself depends on it.
+- warning for `python3-pytest`, because colcon itself depends on it;
+- warning for public headers of a package that compiles nothing, because dependents that declare the package build;
+- warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs.
 """
 
 from __future__ import annotations
@@ -101,12 +104,14 @@ from collections.abc import Iterable, Iterator
 from ros_lint.api import (
     Confidence,
     Consequence,
+    Facet,
     Finding,
     Package,
     Related,
     Role,
     Rule,
     Severity,
+    Use,
     Workspace,
     build,
     dependencies,
@@ -121,7 +126,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
         problem = "is used here, but package.xml does not declare it"
-        severity = Severity.INFO if need.name in with_launch else Severity.WARNING if need.name == _PYTEST else None
+        is_mild = need.name == _PYTEST or _is_unreached(package, need) or _is_only_in_uncompiled_headers(package, need)
+        severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
@@ -145,7 +151,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, problem: str, confidence: Confidence) -> Finding:
     """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
-    best, *others = need.uses
+    best, *others = sorted(need.uses, key=lambda use: _is_in_unreached_module(package, use))
     name = need.name
     role = Role.TEST if name in build.unguarded_tests(package) else need.role  # unguarded-test asks to move it to the tests
     proposal = dependencies.remedy(package, workspace, name, role)
@@ -183,6 +189,28 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     )
 
 
+def _is_unreached(package: Package, need: dependencies.Need) -> bool:
+    """Return whether only modules that nothing in the package starts or imports need the package."""
+    uses = [use for use in need.uses if use.certain] or need.uses
+    return all(_is_in_unreached_module(package, use) for use in uses)
+
+
+def _is_in_unreached_module(package: Package, use: Use) -> bool:
+    return use.via == "import" and package.relative(use.span.path) in package.unreached_modules
+
+
+def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
+    """Return whether only public headers need the package, and this package compiles nothing.
+
+    Then this package builds without it, and only dependents that do not declare it fail.
+    """
+    if package.hidden(Facet.LIBRARIES | Facet.EXECUTABLES) or any(
+        target.sources or not target.sources_known for target in package.built.products.targets
+    ):
+        return False
+    return all(use.via in _CODE and use.role & Role.EXPORT for use in need.uses)
+
+
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
     """Return the find_package() of an undeclared package that a package of interfaces does not use, "" if there is none."""
     products = package.built.products
@@ -200,7 +228,7 @@ def _brought(
 ) -> tuple[Consequence, ...]:
     """Return the findings for undeclared packages that need no tag of their own once ``need`` is declared.
 
-    These packages are dependencies of ``need``, which provides them.
+    These packages are dependencies of ``need``.
     """
     closure = workspace.world.closure((need.name,))
     return tuple(
@@ -213,7 +241,7 @@ def _brought(
 
 
 def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Need, need: dependencies.Need) -> bool:
-    """Return whether packages rarely declare ``other`` if they declare ``need``, which brings it for the same purposes."""
+    """Return whether packages that declare ``need`` rarely declare ``other``, because ``need`` provides it for its purposes."""
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False

@@ -120,9 +120,10 @@ def _rejections(package: Package, file: str) -> list[str]:
 def _finding(
     package: Package, calls: list[Call], file: str, required: str = "", rejection: str = "", *, commented_out: bool = False
 ) -> Finding:
-    """Return the finding about an unlisted file, which needs the name ``required`` first unless that is "".
+    """Return the finding about an interface file that is not listed in rosidl_generate_interfaces().
 
-    ``rejection``: why rosidl rejects the file, "" if it does not. ``commented_out``: a comment has it in place of a list element.
+    ``required``: the name that rosidl requires, "" if the file has a valid name. ``rejection``: why rosidl rejects the content,
+    "" if it does not. ``commented_out``: the list has the file in a comment.
     """
     remedy = f"rename it to '{required}', as rosidl requires, and add it" if required else "add it or remove the file"
     if required and f"{names.interfaces.defined_in(file).partition('/')[0]}/{required}" in package.built.products.interfaces:

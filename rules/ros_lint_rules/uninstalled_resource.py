@@ -162,9 +162,10 @@ def _name(path: str) -> str:
 def _folders(
     package: Package, script: BuildScript, kept: set[str], reported: set[str], looked_into: Mapping[str, Span]
 ) -> Iterator[Finding]:
-    """Yield the folders of resources of which nothing is installed.
+    """Yield a finding for each folder with resources that contains no installed file.
 
-    ``reported``: top folders with findings already. ``looked_into``: folders in which a file is looked up that does not exist.
+    ``reported``: top folders with findings already. ``looked_into``: folders in which a missing file is looked up, with the
+    place of the look-up.
     """
     launches = {launch_file.path for launch_file in launch.package_launch_files(package)}
     places = dict(script.files.referenced_resources)
@@ -239,7 +240,7 @@ class _FolderFindings:
         )
 
     def _unnamed(self, folder: str, file_paths: Sequence[str]) -> tuple[Confidence, Severity]:
-        """Return the confidence that a folder which nothing in the package names should be installed, and the severity."""
+        """Return the confidence and the severity of the finding for a folder that no text of the package names."""
         if folder.partition("/")[0] in _DOCUMENTS:
             return Confidence.LOW, Severity.WARNING
         copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in file_paths])

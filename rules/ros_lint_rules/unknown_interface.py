@@ -214,9 +214,10 @@ def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
 
 @cached_by_package
 def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool], frozenset[str]]:
-    """Return the names of the interfaces of a package by kind, "" for any, and by whether they are written as in headers.
+    """Return the names of the interfaces of a package by kind ("" for all kinds), and by whether they are in snake_case.
 
-    Includes files for which no code is generated, because another finding reports them.
+    The names of headers are in snake_case. Interfaces for which no code is generated are included, because another finding
+    reports them.
     """
     interfaces = [names.interfaces.defined_in(file) for file in maker.files]
     ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.cmake.commented_interfaces]
@@ -228,7 +229,10 @@ def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool]
 
 @cache
 def _names(interfaces: frozenset[str], kind: str, header: bool) -> frozenset[str]:
-    """Return the names of the interfaces of a kind, "" for any, as written in headers or elsewhere."""
+    """Return the names of the interfaces of a kind, or of all interfaces if ``kind`` is "".
+
+    With ``header`` the names are in snake_case, as in the names of headers.
+    """
     form = _form(header)
     return frozenset([form(interface.partition("/")[2]) for interface in interfaces if interface.startswith(kind)])
 

@@ -13,7 +13,7 @@ _EXCLUDED = "AMENT_LINT_AUTO_EXCLUDE"
 def runs_xmllint(package: Package, workspace: Workspace) -> bool:
     """Return whether a test of every build certainly runs ament_xmllint on the manifest.
 
-    CMake calls ``ament_xmllint()``, or finds the test dependencies, one of which brings the linter. In a package of
+    CMake calls ``ament_xmllint()``, or finds the test dependencies, and one of them provides the linter. In a package of
     type ament_python, a test imports ``ament_xmllint``.
     """
     if package.builds_with == "ament_python":

@@ -22,7 +22,7 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
 def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
     """Return declared dependencies of a package together with everything that they provide transitively.
 
-    The start of the closure are the dependencies declared for any role in ``role``, the packages ``others``, and the
+    The closure starts from the dependencies declared for any role in ``role``, the packages ``others``, and the
     members of the groups that the package depends on.
     """
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]

@@ -30,7 +30,7 @@ def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
 
 
 def finds_declared(package: Package) -> bool:
-    """Return whether a CMake macro finds all declared build dependencies and links them to every target, as ament_cmake_auto."""
+    """Return whether a CMake macro finds all declared build dependencies and links them to every target (ament_cmake_auto)."""
     return package.script is not None and not _FIND_DECLARED.isdisjoint(package.script.commands.names)
 
 
@@ -57,11 +57,11 @@ def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
 
 
 def finding_others(package: Package, workspace: Workspace, names: Iterable[str]) -> frozenset[str]:
-    """Return the names whose find_package() may be the only one that finds another package that ``package`` uses.
+    """Return the elements of ``names`` whose find_package() has to stay, because it may also find a package in use.
 
-    ``names``: unused packages of one build script, all of which are to be removed. Example: the sources include
-    ``<Eigen/Dense>``, and CMake finds Eigen only because find_package(tf2_eigen) does. A package with unknown dependencies may
-    find anything.
+    ``names`` are unused packages of one build script, and the calls for all of them are to be removed. Example: the sources
+    include ``<Eigen/Dense>``, and CMake finds Eigen only because find_package(tf2_eigen) finds it, too. A package with
+    unknown dependencies may find any package.
     """
     unused = frozenset(names)
     rest = partial_closure(workspace, sorted(names_searched(package, package.built) - unused)).names

@@ -22,7 +22,7 @@ _TEST: Role = Role.TEST
 
 
 class LostProvision(NamedTuple):
-    """An undeclared but used package that is no longer provided if a certain dependency tag is removed."""
+    """A package that is used but not declared, and that no declared dependency provides after a tag is removed."""
 
     name: str
     """The undeclared package."""
@@ -56,7 +56,7 @@ def needed_transitively(package: Package, workspace: Workspace, unused: Sequence
 
 
 def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> LostProvision | None:
-    """Return an undeclared but used package that is no longer provided if the tags ``removed`` are removed, or None."""
+    """Return a package that is used but not declared, and no longer provided without the tags ``removed``, or None."""
     spans = {declared.depend.span for declared in removed}
     remaining = [declared for declared in package.declared if declared.depend.span not in spans]
     return _lost_here(package, workspace, remaining, removed) or _lost_above(package, workspace, remaining, removed)
@@ -109,9 +109,10 @@ def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
 
 @cached_by_workspace
 def _undeclared_uses_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
-    """Return the uses of :func:`undeclared_uses` in all packages of the workspace, by the name of a package that satisfies them.
+    """Return the uses of :func:`undeclared_uses` in all packages of the workspace, by the name of each possible provider.
 
-    Each use comes with the package that contains it. Uses of a package that the same names satisfy are listed once.
+    Each item has the package that contains the use, and the use. Of several uses in one package with the same providers,
+    only the last is listed.
     """
     result: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:

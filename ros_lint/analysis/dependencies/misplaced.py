@@ -73,8 +73,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
     - all needs of packages for tests, because all of their dependencies serve tests,
     - needs of unguarded tests, because the tests have to be guarded,
     - parts of launch that only launch files import, because ``ros2 launch`` provides them,
-    - needs that are provided as soon as another declared dependency gets the tag that it needs, because the wrong tag of that
-      dependency is reported,
+    - needs that another declared dependency provides once its own wrong tag is corrected, because that tag is reported,
     - needs that a dependency with the right tag may provide: its dependencies are unknown, or it provides the need in
       another distribution and the user chose no distribution.
     """

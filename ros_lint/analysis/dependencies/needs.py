@@ -152,10 +152,10 @@ def _needs(
 
 
 def _is_meant(name: str, best: str, closure_of: Callable[[tuple[str, ...]], Closure]) -> bool:
-    """Return whether the declared name ``name`` satisfies a need for ``best`` itself, not only because it depends on ``best``.
+    """Return whether the declared name ``name`` stands for ``best``, the best provider of a need, and not only depends on it.
 
-    True for ``best``, an alternative that does not depend on ``best``, a vendor package of ``best``, and a library of which
-    ``best`` is a part.
+    True for ``best`` itself, an alternative that does not depend on ``best``, a vendor package of ``best``, and a library of
+    which ``best`` is a part.
     """
     return name == best or best not in closure_of((name,)) or is_vendor(name, best) or is_part(best, name)
 

@@ -58,13 +58,14 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
     if is_unresolvable_key(workspace, name):
         obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
-    if is_of_pip(workspace, name):
+    of_pip = is_of_pip(workspace, name)
+    if of_pip:
         written += " (installed by pip: a released package cannot depend on it)"
     written += f", because {workspace.target.distro} has no '{name}'" if only_in else availability_remark(workspace, name)
     if _is_exported(package, name):
         written += " (the tag in <export> declares nothing)"
     edits = add_dependency(package, tag, name) if usable and not only_in else ()
-    fix = naming_fix(workspace, name, f"declare '{name}' as <{tag}>", *edits)
+    fix = naming_fix(workspace, name, f"declare '{name}' as <{tag}>", *edits, safe=not of_pip)
     return Remedy(written, fix, "", circular=False, certain=usable, conditional=bool(only_in))
 
 

@@ -16,7 +16,7 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
     """Return the tag that covers all roles of a dependency (REP 149), such as "depend" or "exec_depend".
 
     Exceptions:
-    - "depend" is returned for "exec_depend" if the manifest declares even run-time dependencies by ``<depend>``, unless
+    - "depend" takes the place of "exec_depend" if the manifest declares even run-time dependencies by ``<depend>``, unless
       CMake finds and links all declared dependencies.
     - Format 1 has no tag for building and running. The result is "build_depend", and :func:`add_dependency` adds the
       ``<run_depend>``.

@@ -41,7 +41,14 @@ def may_be_used_without_trace(package: Package, workspace: Workspace, name: str)
     local = workspace.by_name.get(name, ())
     if local:
         return any(_gives_macros(member) or not makes_something(member) or _lacks_parts(member, world) for member in local)
-    return only_brings(world, name) or _stands_for_others(package, world, name)
+    return is_metapackage(package, workspace, name)
+
+
+def is_metapackage(package: Package, workspace: Workspace, name: str) -> bool:
+    """Return whether ``name`` is a metapackage, or has no content and depends on packages that ``package`` uses."""
+    if local := workspace.by_name.get(name, ()):
+        return not any(makes_something(member) for member in local)
+    return only_brings(workspace.world, name) or _stands_for_others(package, workspace.world, name)
 
 
 def only_brings(world: World, name: str) -> bool:
@@ -58,8 +65,8 @@ def only_brings(world: World, name: str) -> bool:
 def _stands_for_others(package: Package, world: World, name: str) -> bool:
     """Return whether a released metapackage provides a package that this package uses.
 
-    A metapackage that counts has the name of its repository, and most of its run dependencies are from that repository.
-    It declares its members by ``<depend>``.
+    Only a metapackage with the name of its repository counts, and only if most of its run-time dependencies are packages
+    of that repository.
     """
     released = world.released(name)
     if released is None or released.repository != name or not _offers_nothing(world, released):

@@ -32,16 +32,16 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     """Return the needs that no declared dependency provides, each with True if the need is certain.
 
     Left out are:
-    - packages that only launch files outside of tests name, because another rule reports them,
-    - packages that are declared by another name, such as a rosdep key,
-    - packages that only CMake macros name, if another undeclared package provides them.
+    - packages named only in launch files outside of tests, because another rule reports them,
+    - packages declared by another name, such as a rosdep key,
+    - packages named only by CMake macros, if another undeclared package provides them.
 
     Not certain are:
-    - packages that only launch modules name, because the launch file that imports the module may provide them,
-    - packages declared under a false condition, unless CMake needs them, because the files with the uses may be unused, too,
-    - files of a metapackage, because a metapackage has no files, so the name is probably wrong,
-    - packages that a misspelled declared name probably means, because the misspelled name is reported,
-    - packages that a dependency with unknown dependencies may provide.
+    - packages named only in launch modules, because the package whose launch file imports the module may declare them,
+    - packages declared under a false condition, unless CMake needs them, because the files that use them may be unused then,
+    - metapackages whose files are looked up, because a metapackage has no files, so the name is probably wrong,
+    - packages that package.xml probably declares by a misspelled name, because another rule reports that name,
+    - packages that may be provided by a dependency whose own dependencies are unknown.
     """
     unknown = all_declared(package, workspace).unknown
     result = []

@@ -118,8 +118,8 @@ def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDepen
 def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> str:
     """Return the package that an unresolved name probably means, or "" if there is no such package or more than one.
 
-    The package has a similar name, and this package uses it without declaring it. Names with the same words
-    (``robot-talk``, ``talk_robot``) always count as similar. Otherwise the unresolved name must appear only in the manifest.
+    The result has a similar name, and is used but not declared. If both names have the same words (``robot-talk``,
+    ``talk_robot``), the build script must not contain the unresolved name. Otherwise no file except the manifest may contain it.
     """
     package, name = dependency.package, dependency.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]

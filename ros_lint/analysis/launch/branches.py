@@ -36,7 +36,11 @@ def _normalized(condition: LaunchCondition) -> LaunchCondition:
 
 
 def _are_exhaustive(given: Iterable[Branch]) -> bool:
-    """Return whether one of the branches always holds: two that differ only in the negation of a condition are one without it."""
+    """Return whether one of the branches always holds.
+
+    Two branches that differ only in the negation of a condition are replaced by a branch without this condition. One branch
+    always holds if a branch without conditions remains.
+    """
     branches = set(given)
     pending = list(branches)
     while pending:

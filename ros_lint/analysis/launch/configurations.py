@@ -85,9 +85,9 @@ class IncludeTree:
         return self._names[file.path]
 
     def fill(self, file: LaunchFile) -> bool:
-        """Return whether this file, a file that it includes or a file that includes it may read any launch configuration.
+        """Return whether this file, a file that it includes or a file that includes it may read configurations of any name.
 
-        Such a file substitutes configurations in a parameter file, and users can replace the parameter file.
+        A file may do so if it substitutes configurations in a parameter file, because users can replace the parameter file.
         """
         if not self._filling:
             return False

@@ -30,7 +30,7 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class PassedFile(NamedTuple):
-    """A launch or parameter file to which an included launch file refers, given the arguments that the include passes."""
+    """A launch or parameter file that an included launch file names when it gets the arguments of the include."""
 
     package: str
     """Package whose share folder contains the file."""
@@ -51,7 +51,7 @@ class PassedFile(NamedTuple):
 def expand_defaults(
     file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], arguments: Mapping[str, str] = _NOTHING
 ) -> Expansion:
-    """Return the processes and includes that result from launching a file with ``arguments``; other arguments have defaults.
+    """Return the processes and includes that result from launching a file with ``arguments``; others have their defaults.
 
     ``follow`` returns True for each included file that is to be expanded.
     """

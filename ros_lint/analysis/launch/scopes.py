@@ -13,14 +13,14 @@ from ros_lint.workspace.model import Workspace
 
 
 class PlacedInclude(NamedTuple):
-    """An include, and the actions that run after it in the same scope."""
+    """An include, and the actions that may read the launch configurations set by the include, because they run after it."""
 
     action: LaunchAction
     """The include."""
     later: list[LaunchAction]
-    """The later actions of the file that see the configurations that the include leaves set."""
+    """The later actions of the file for which the configurations of the include are still set."""
     leaves: bool
-    """True if its configurations are still set at the end of the file."""
+    """True if the configurations of the include are still set at the end of the file."""
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
@@ -40,7 +40,7 @@ def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction], *,
 
 
 class ScopeLeaks:
-    """Finds launch files that may read a launch configuration which an earlier include has left set."""
+    """Finds actions that may read a launch configuration after the include that has set it."""
 
     def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._links = links

@@ -3,7 +3,7 @@
 The JSON has ``schema_version`` 1 and, in the order of names:
 
 - ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it;
-  and with metrics ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists longer
+  and with ``--metrics`` also ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists longer
   paths.
 - ``edges``: ``from`` depends on ``to``; ``test_only``; ``certain``, false if it depends on an unknown condition;
   ``reasons``, each with ``tag``, ``categories`` (build, run, test, group), ``path``, ``line`` and ``column``.

@@ -8,17 +8,14 @@ from typing import Any
 
 from ros_lint.cli import rule_pages
 from ros_lint.engine import registry
+from ros_lint.errors import UserError
 
 
 def run(command: str, options: Mapping[str, Any]) -> int:
     """Print the requested information and return the exit code."""
     match command:
-        case "rules":
-            rules = registry.load()
-            print(rule_pages.as_json(rules) if options.get("format") == "json" else rule_pages.listing(rules), end="")
-            return 0
-        case "rule":
-            return _rule(options["rule"], options.get("format", "text"))
+        case "rules" | "rule":
+            return _rules(options)
         case "schema":
             import json  # noqa: PLC0415
 
@@ -30,13 +27,22 @@ def run(command: str, options: Mapping[str, Any]) -> int:
             return _completion(options["shell"])
 
 
-def _rule(name: str, form: str) -> int:
-    rules = registry.load()
-    matches = [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
-    if not matches:
-        print(f"ros-lint: {registry.unknown_rule_message(rules, name)}", file=sys.stderr)
+def _rules(options: Mapping[str, Any]) -> int:
+    """Print all rules, or the one that the options name. Returns the exit code."""
+    name: str | None = options.get("rule")
+    try:
+        rules = registry.load(options.get("plugins", False))
+    except UserError as error:
+        print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    print(rule_pages.as_json(matches) if form == "json" else rule_pages.page(matches[0]), end="")
+    matches = rules if name is None else [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
+    if not matches:
+        print(f"ros-lint: {registry.unknown_rule_message(rules, str(name))}", file=sys.stderr)
+        return 2
+    if options.get("format") == "json":
+        print(rule_pages.as_json(matches), end="")
+    else:
+        print(rule_pages.listing(matches) if name is None else rule_pages.page(matches[0]), end="")
     return 0
 
 

@@ -24,7 +24,7 @@ _IDL_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 def collect(source: Text) -> FileFacts:
     """Return the types of other packages that an interface file uses, as ``package/Type``.
 
-    A .msg field names them ``package/Type``; more slashes mean the same, but the generator rejects them. An .idl file
+    A .msg field names a type ``package/Type``. Names with more slashes count, too, although rosidl rejects them. An .idl file
     includes ``package/msg/Type.idl`` and names ``package::msg::Type``, also for its own package.
     """
     if source.path.endswith(".idl"):

@@ -208,8 +208,8 @@ def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
     """Yield the imports of alternative branches, each with its kind: 0 (required) if every branch imports from the same package.
 
-    All others have ``kind``. A relative import is required if another branch imports something, because that branch may replace
-    only its module.
+    All other imports have ``kind``. A relative import is required if another branch imports something, too: that branch may be
+    a replacement for its module only.
     """
     needed = [{root for statement, optional in branch if not optional for root in _roots(statement)} for branch in branches]
     always = set.intersection(*needed)

@@ -111,7 +111,7 @@ def _found(source: Text, tree: ast.Module, telling: Iterable[tuple[Expression, l
 
 
 def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]:
-    """Yield the expressions that look up a package, and the expressions that use a name which such an expression binds.
+    """Yield the expressions that look up a package, and all expressions that use their results through names.
 
     Each expression has its look-up calls, with the argument that is the package name.
     """

@@ -18,7 +18,7 @@ def runs_when_started(source: Text, *, is_program: bool) -> bool:
 
     True if the script has a ``__main__`` guard, or if a statement outside of functions and classes calls a function or
     class of the script itself, or a function of ``rclpy``. If the file is marked as a program (``is_program``), a call of any
-    function suffices, except of one that prepares the imports or the output of a module, such as ``sys.path.append()``.
+    function suffices, except calls that prepare the imports or the output of a module, such as ``sys.path.append()``.
     """
     if "__main__" in source.text:
         return True

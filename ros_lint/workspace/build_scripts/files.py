@@ -114,7 +114,7 @@ _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
 def _read_in_sources(package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts) -> Iterator[str]:
-    """Yield the ``uninstalled`` folders that the program reads from the source tree, because a text contains their source path.
+    """Yield the ``uninstalled`` folders that code probably reads from the source tree, because a text has their source path.
 
     Examples of the path are ``/home/me/src/robot/maps/hall`` and ``"src", "robot", "maps"``. A path with slashes in a file
     of the folder itself does not count: xacro writes the path of its input into the generated model.

@@ -27,7 +27,9 @@ _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
 
 
 def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
-    """Return the topmost folders of a package of which nothing is installed, with their resources.
+    """Return the folders with resources that contain no installed file, each with its resources.
+
+    Of nested folders without installed files, only the outermost is returned.
 
     ``files`` are the files of the package, ``sources`` the installed files; both are relative to the package.
     """

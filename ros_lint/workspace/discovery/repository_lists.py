@@ -113,7 +113,7 @@ def _repositories(tree: Tree, path: str) -> Iterator[list[str]]:
 
 
 def _is_cloned(tree: Tree, path: str, folder: str) -> bool:
-    """Return whether a listed repository is in a folder into which its list is usually imported."""
+    """Return whether the repository with the path ``folder`` in the list at ``path`` is cloned to a usual place."""
     tops = dict.fromkeys((parent(path), join(parent(path), "src"), "", "src"))
     return any(_has_entries(tree, join(top, folder)) for top in tops)
 

@@ -106,13 +106,14 @@ class FileRoles:
         return path in self._started
 
     def serves_tests(self, path: str) -> bool:
-        """Return whether no target except tests compiles or includes a file."""
-        return path not in self._production
+        """Return whether only tests of this package can include a file: no other target does, and it is not installed."""
+        return path not in self._production and path not in self._installed_headers
 
     def _role(self, path: str) -> tuple[Role, bool]:
         name = path.rpartition("/")[2]
         if path in self._public:
-            if path in self._installed_for_tests and path not in self._production:
+            of_tests = path in self._installed_for_tests or (self._builds_only_tests and path not in self._installed_headers)
+            if of_tests and path not in self._production:
                 return Role.TEST, True
             unused = path in self._headers_of_uncompiled_sources or path in self._unreferenced_headers or self._is_of_ros_1(path)
             return PUBLIC, path in self._production or not unused
@@ -151,9 +152,9 @@ class FileRoles:
         return PRODUCTION, not (self._compiled_known or in_unbuilt_folder or self._siblings_are_used(path))
 
     def _may_be_launched(self, path: str) -> bool:
-        """Return whether a file among the tests is a launch file that may be run.
+        """Return whether a file in a folder of tests is a launch file that a test or a user may launch.
 
-        If all tests that are run are known, only an installed file may be run.
+        If the build script shows all tests that are run, the file must be installed, because then only users launch it.
         """
         sees_all = self._script.cmake.interpreted_tests is not None or self._has_no_tests
         return path in self._launched and (not sees_all or path in self._installed)
@@ -306,6 +307,12 @@ class FileRoles:
         provides = self._script.products.installs
         always = {p.source for p in provides if not p.test}
         return frozenset([p.source for p in provides if p.test and p.source not in always])
+
+    @cached_property
+    def _builds_only_tests(self) -> bool:
+        """True if the package has targets, and builds them only together with tests."""
+        targets = self._script.products.targets
+        return self._targets_known and bool(targets) and all(target.test for target in targets)
 
     @cached_property
     def _generates(self) -> frozenset[str] | None:

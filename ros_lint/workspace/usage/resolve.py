@@ -132,10 +132,10 @@ class Resolver:
         return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> ProviderMatch:
-        """Return the package ``name``, as uncertain, for a mention that certainly looks up a package of that name.
+        """Return ``name`` as an uncertain provider, for code that looks up an unknown package of this name.
 
-        There is no provider if the name exists anywhere, may belong to something that ros-lint cannot read, or cannot be a
-        package name.
+        There is no provider if the name exists in any distribution, may belong to a package that ros-lint cannot read, or is
+        not a valid package name.
         """
         is_unknown = self.names.resolution(name) == "unknown" and may_be_package(name)
         return ProviderMatch((name,), False, name) if is_unknown else _NO_MATCH

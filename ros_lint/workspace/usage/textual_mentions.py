@@ -254,7 +254,10 @@ def _search_batch(
 
 
 def _search_words(words: Sequence[str], data: bytes) -> tuple[int, bytes]:
-    """Return the offset of the first of ``words`` that is anywhere in ``data``, in any case, and the word; -1 if none is."""
+    """Return the offset in ``data`` and the word for the first element of ``words`` that occurs there, in upper or lower case.
+
+    A part of a longer word counts, too. The offset is -1 if no word occurs.
+    """
     lower = data.lower()
     places = ((lower.find(to_bytes(word.lower())), to_bytes(word)) for word in words)
     return next((place for place in places if place[0] >= 0), (-1, b""))
@@ -345,8 +348,8 @@ _WORD_JOINERS = b"-_"
 def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
     """Return the offset of a word, -1 if there is none. This is many times faster than a pattern.
 
-    ``joining`` are the bytes that belong to a word besides letters and digits. A word that ends with another
-    character is complete whatever follows.
+    ``joining`` are the bytes that belong to a word besides letters and digits. If ``word`` ends with neither a letter nor a
+    digit (``tf2::``), any byte may follow it.
     """
     start = data.find(word)
     marked = not word[-1:].isalnum()

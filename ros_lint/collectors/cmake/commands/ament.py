@@ -70,7 +70,7 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
 
 
 def _is_given_data(run: Run, args: list[str]) -> bool:
-    """Return whether an argument of an unknown command is the path or name of a folder of the package without C++ sources.
+    """Return whether an argument of an unknown command is the path or name of a folder in the package that has no C++ sources.
 
     The command probably installs such a folder, for example ``install_models(meshes)``.
     """
@@ -209,7 +209,7 @@ def _provide(run: Run, args: list[str]) -> None:
 def _headers(run: Run, args: list[str]) -> None:
     """Run ``ros_lint_headers(scoped)``: install the folder include/, as ament_auto_package() of ament_cmake_auto does.
 
-    The destination is include/<project> if ``scoped`` is TRUE or always so in the distribution, else include/.
+    The destination is include/<project> if ``scoped`` is TRUE or if the distribution always uses it, else include/.
     """
     scoped = args[:1] == ["TRUE"] or run.distro in _SCOPED
     folder = f"include/{run.get('PROJECT_NAME') or ''}" if scoped else "include"
@@ -376,7 +376,7 @@ RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
-    """Run the command of CMake with this name, without its exits."""
+    """Run the CMake command ``name``; its possible exits are not returned."""
     HANDLERS[name](run, args)
 
 

@@ -278,7 +278,7 @@ def _include_directories(run: Run, args: list[str]) -> None:
 
 
 def _link_all(run: Run, args: list[str]) -> None:
-    """Run ``link_libraries(names...)``: record packages with whose targets all later targets are linked."""
+    """Run ``link_libraries(names...)``: record the packages of the names, because all later targets are linked to them."""
     record_header_sources(run, ALL_TARGETS, args)
     link(run, args)
 

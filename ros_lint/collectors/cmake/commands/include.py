@@ -197,9 +197,10 @@ _BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:
-    """Return the build folder of a subdirectory, which is below the build folder of the current directory.
+    """Return the build folder of a subdirectory, HOLE if it is unknown.
 
-    Its path there is the second argument of add_subdirectory(), by default the path of the subdirectory.
+    It is the second argument of add_subdirectory(), by default the path of the subdirectory. A relative path is relative to
+    the build folder of the current directory.
     """
     argument = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
     below = argument or relative(run.paths.tree_path(run.paths.directory), run.paths.tree_path(path))

@@ -1,7 +1,4 @@
-"""Commands that query the machine, or properties that are not evaluated.
-
-The output variables of these commands become unknown.
-"""
+"""Commands whose output variables become unknown: they query the machine, or properties that ros-lint does not evaluate."""
 
 from __future__ import annotations
 

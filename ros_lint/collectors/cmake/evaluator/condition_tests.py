@@ -105,7 +105,7 @@ UNARY: Final[dict[str, Callable[[Run, ConditionToken], Truth]]] = {
 
 
 def _operands(run: Run, token: ConditionToken) -> tuple[str, ...]:
-    """Return the possible values of an operand: the value of the variable with its name, or the text if none is set.
+    """Return the possible values of an operand: the value of the variable with its name, or the text if it is not set.
 
     An empty variable has both as possible values, because it may be unset.
     """

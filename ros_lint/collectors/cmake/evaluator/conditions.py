@@ -1,7 +1,7 @@
 """Conditions of if(), elseif() and while() (cmake-commands(7)), with answers that may be unknown.
 
-An answer is true, false, unknown, *likely* or *unlikely*. The last two are true or false unless the user sets an option
-or a variable.
+An answer is true, false, unknown, *likely* or *unlikely*. *Likely* is true, and *unlikely* is false, unless the user sets
+an option or a variable.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ def is_known(value: str) -> bool:
 
 
 def is_fixed(value: str) -> bool:
-    """Return whether the value is one fixed text, even if a piece of it (an ATOM) is unknown."""
+    """Return whether the value is one fixed text: it contains neither HOLE nor MAYBE. An ATOM is a fixed text as well."""
     return HOLE not in value and MAYBE not in value
 
 

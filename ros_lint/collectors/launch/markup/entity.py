@@ -172,7 +172,7 @@ class Entity:
     def _converted(self, name: str, kind: Type) -> Any:
         """Return the text of an XML attribute converted to a type.
 
-        If the entity has an attribute ``<name>-sep``, the text is split at its value first.
+        If the entity has an attribute ``<name>-sep``, its value is the separator at which the text is split first.
         """
         value: str | list[str] = self.attributes[name]
         separator = self.attributes.get(f"{name}-sep")

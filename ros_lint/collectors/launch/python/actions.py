@@ -104,7 +104,7 @@ def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: La
 
 
 def _uncertain_names(arguments: Sequence[_PassedArgument]) -> tuple[str, ...]:
-    """Return the names of arguments that may not be passed. An argument that both sides of a branch pass is certain."""
+    """Return the names of arguments that may not be passed. An argument of both branches of a condition is certain."""
     counts = Counter([argument.name for argument in arguments])
     return tuple([argument.name for argument in arguments if argument.uncertain and counts[argument.name] == 1])
 

@@ -137,7 +137,7 @@ def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], 
 
 
 def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield a problem for the first absolute path that a call joins to a relative one, because Python drops the path before."""
+    """Yield a problem for the first absolute path that a call joins to another path, because Python drops that other path."""
     if not _SLASH.search(source.text.text):
         return  # because walking the whole tree takes longer
     for node in ast.walk(tree):

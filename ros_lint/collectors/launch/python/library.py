@@ -175,7 +175,7 @@ _FILE_POSITIONS: Mapping[str, int] = {
 def _note_built(call: LibraryCall, owner: LaunchObject) -> None:
     """Record the file that a method of a MoveIt builder reads while the launch file is read.
 
-    Its path is relative to the share folder of the package of the builder.
+    The path of the file is relative to the share folder of the package that the builder looks up.
     """
     position = _FILE_POSITIONS.get(call.name)
     if position is None or call.machine.guarded or owner.name not in ("MoveItConfigsBuilder", "ParameterBuilder"):

@@ -1,4 +1,4 @@
-"""Detection of a recursive call that repeats a call which is still being interpreted.
+"""Detection of recursive calls that repeat an outer call, so that their interpretation would add nothing.
 
 A function that searches a nested dictionary calls itself for each element. If the dictionary is unknown, the inner
 call does the same as the outer call, on the same unknown values. Interpreting the inner call would add no result and
@@ -51,7 +51,8 @@ def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value]
     """Append a call to ``under_way`` and return True, or return False if the call repeats a call in ``under_way``.
 
     A repeating call must not be interpreted. A call repeats an outer call of the same function if both read the same
-    values, and if the inner call is under more conditions. Without more conditions the program ends the recursion itself.
+    values, and if the inner call is under more conditions. If it is under no further condition, all tests before it had
+    known results, so these results end the recursion.
 
     ``names`` are the values of the parameters, ``recorder`` has the conditions that hold. Most functions are not
     recursive, so values are compared from the second nested call on.
@@ -67,10 +68,7 @@ def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value]
 
 
 def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
-    """Return the values of the outer names that a function reads, by name and frame.
-
-    Names that are read by the functions which it may call are included.
-    """
+    """Return the values of the outer names that a function and the functions called by it may read, by name and frame."""
     values: dict[tuple[str, Frame], Value] = {}
     waiting, seen = [function], {function.node}
     while waiting:
@@ -96,7 +94,7 @@ def _outline(names: dict[Any, Value], recorder: Recorder) -> Any:
 
 
 class _Outliner:
-    """Creates the outline of a value: a hashable value that is equal for all values which differ only in unknown parts."""
+    """Creates the outline of a value: a hashable value, equal for two values that differ only in unknown parts."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder

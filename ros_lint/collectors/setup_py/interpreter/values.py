@@ -1,4 +1,4 @@
-"""The values of the options of setup(). Where conditions decide between alternative values, only the valid one is kept.
+"""The values of the options of setup(), reduced to the alternatives that can hold under the conditions of the call.
 
 Texts and unknown values keep their origins in the source.
 """

@@ -1,0 +1,103 @@
+"""Find installed Python modules that no program, launch file, script or test of their package imports, even indirectly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from ros_lint.base.auxiliary_files import TEST_FOLDERS
+from ros_lint.base.paths import folders_of, join
+from ros_lint.base.tree import Tree, text_of
+from ros_lint.collectors.python.imported_paths import imported_paths
+from ros_lint.facts.sources import Use
+from ros_lint.workspace.usage.package_files import PackageSource
+
+_PROGRAMS = ("lib/", "bin/")
+
+
+def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], others: Sequence[PackageSource]) -> frozenset[str]:
+    """Return the modules that contain imports of ``uses`` and that the package imports from no file that it starts.
+
+    Paths are relative to the package. It starts entry points, installed programs, launch files, tests, and Python files
+    outside of its installed Python packages. Modules that the packages ``others`` import count as reached. The result is
+    empty if:
+
+    - nothing is started by name, as in a library,
+    - a reached file computes names of imported modules,
+    - a reached file cannot be read.
+    """
+    tops = frozenset([name.partition(".")[0] for name in source.built.products.python_packages])
+    modules = [file for file in source.files if file.endswith(".py") and _top(file) in tops]
+    importing = {use.span.path for use in uses if use.via == "import"}
+    candidates = [module for module in modules if join(source.path, module) in importing]
+    started = frozenset(_started(source, modules)) if candidates else frozenset()
+    if not started or started.issuperset(candidates):
+        return frozenset()
+    outside = [file for file in source.files if file.endswith(".py") and _top(file) not in tops and file != "setup.py"]
+    reached = _reached(tree, source, [*started, *outside, *_imported_elsewhere(modules, tops, others)])
+    return frozenset() if reached is None else frozenset(candidates) - reached
+
+
+def _top(file: str) -> str:
+    return file.removeprefix("src/").partition("/")[0].removesuffix(".py")
+
+
+def _started(source: PackageSource, modules: Sequence[str]) -> Iterator[str]:
+    """Yield the modules that are started by name: entry points, programs, launch files, tests and modules that texts name."""
+    script = source.built
+    yield from (module.path for module in script.python.entry_point_modules)
+    yield from (file.source for file in script.products.installs if file.path.startswith(_PROGRAMS) and not file.importable)
+    launched = {launch.path for launch in source.launch}
+    named = {name for facts in source.facts.values() for name in facts.programs}
+    for module in modules:
+        name = module.rpartition("/")[2]
+        is_test = name.startswith("test_") or name.endswith("_test.py") or not TEST_FOLDERS.isdisjoint(module.split("/"))
+        if is_test or name == "__main__.py" or name in named or join(source.path, module) in launched:
+            yield module
+
+
+def _imported_elsewhere(modules: Iterable[str], tops: frozenset[str], others: Iterable[PackageSource]) -> Iterator[str]:
+    """Yield the modules that other packages import. ``import robot`` counts for all modules of ``robot``."""
+    names = {
+        mention.name.replace(".", "/")
+        for other in others
+        for facts in other.facts.values()
+        for mention in facts.mentions
+        if mention.via == "import" and mention.name.partition(".")[0] in tops
+    }
+    prefixes = tuple([f"{name}{end}" for name in names for end in ("/", ".")])
+    yield from (module for module in modules if module.removeprefix("src/").startswith(prefixes)) if prefixes else ()
+
+
+def _reached(tree: Tree, source: PackageSource, starts: Iterable[str]) -> frozenset[str] | None:
+    """Return the Python files that the files ``starts`` reach by imports, with them, None if this is unknown."""
+    files = frozenset([file for file in source.files if file.endswith(".py")])
+    by_import = _by_import(files)
+    reached: set[str] = set()
+    pending = [start for start in starts if start in files]
+    while pending:
+        file = pending.pop()
+        if file in reached:
+            continue
+        reached.add(file)
+        text = text_of(tree, join(source.path, file))
+        imported = imported_paths(text, file) if text is not None else None
+        if imported is None:
+            return None
+        pending += [module for path in imported for module in by_import.get(path, ())]
+        pending += [init for folder in folders_of(file) if (init := f"{folder}/__init__.py") in files]
+    return frozenset(reached)
+
+
+def _by_import(files: Iterable[str]) -> Mapping[str, Sequence[str]]:
+    """Return the files that an import may mean, by the imported path from any folder.
+
+    ``src/robot/arm.py`` is the file of ``robot/arm``, of ``arm`` and of ``robot/*``.
+    """
+    result: dict[str, list[str]] = {}
+    for file in files:
+        stem = file.removesuffix(".py").removesuffix("/__init__")
+        for path in (stem, f"{stem.rpartition('/')[0]}/*"):
+            parts = path.split("/")
+            for start in range(len(parts)):
+                result.setdefault("/".join(parts[start:]), []).append(file)
+    return result
