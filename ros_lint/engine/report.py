@@ -34,6 +34,10 @@ class Issue(NamedTuple):
     finding: Finding
     explained: tuple[ExplainedFinding, ...] = ()
     """Findings that are not shown, because this finding explains them."""
+    distros: tuple[str, ...] = ()
+    """The distributions that have the finding; () if all distributions of the run have it."""
+    other_messages: tuple[tuple[str, str], ...] = ()
+    """Pairs of a distribution and its message, for distributions whose message differs from that of the finding."""
 
     @property
     def severity(self) -> Severity:
@@ -103,6 +107,7 @@ class Report(NamedTuple):
     packages: int
     """Number of packages checked; 0 if no package was found."""
     target: TargetDistro
+    """The distribution of the run, with the others if there are several."""
     data_date: str
     """The date of the package index, as YYYY-MM-DD."""
     version: str

@@ -37,8 +37,8 @@ Not reported:
 Reported with medium confidence:
 
 - The name is unknown and similar to no other, because vendors may not release their drivers. If the package is started
-  unconditionally and `package.xml` does not declare it, it is a warning with high confidence instead: users who install this
-  package do not get it.
+  unconditionally and `package.xml` does not declare it, not even for another distribution, it is a warning with high confidence
+  instead: users who install this package do not get it.
 - A `*.repos` or `*.rosinstall` file fetches a repository of that name.
 - The name is the default of an argument.
 - `package.xml` declares the name as well, a package has a similar name, and the name is valid for a package (REP 144: no
@@ -120,16 +120,19 @@ class _Place(NamedTuple):
 def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     """Return the end of the message about an undeclared package that may be available elsewhere."""
     tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
+    if condition := dependencies.condition_for(workspace, name):
+        return f'; add <{tag} condition="{condition}">{name}</{tag}>'
     return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
     """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
-    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another package.
+    A tag with a false condition counts as well: the package is not needed in this distribution. An unknown dependency is
+    assumed not to depend on a package that ROS 2 replaced by another package.
     """
     manifest = package.manifest
-    if manifest is None or manifest.problems or package.tags(name):
+    if manifest is None or manifest.problems or any(depend.name == name for depend in manifest.depends):
         return False
     closure = dependencies.declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
     replaced = bool(workspace.world.successor(name))

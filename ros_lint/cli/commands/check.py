@@ -134,8 +134,7 @@ def _report(request: Request, progress: Progress) -> Report:
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
     context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.roots, session.warnings)
-    workspace = session.loader.load()
-    report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
+    report = check(session.loader.load_all(), session.loader.suppressions(), _selection(request.settings), context)
     cache.store(recorded, report)
     return report
 

@@ -149,6 +149,7 @@ def _result(run: Run, path: str) -> BuildScript:
         ),
         opaque=tuple(opaques),
         problems=tuple(problems),
+        distros=run.same_distros,
     )
 
 
