@@ -17,7 +17,8 @@ from ros_lint.engine.report_cache import ReportCache
 from ros_lint.errors import UserError
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
-from ros_lint.workspace import fact_cache
+from ros_lint.workspace.cache.file import NO_CACHE, CacheFile, files_below
+from ros_lint.workspace.cache.folder import folder as cache_folder
 from ros_lint.workspace.target import TargetDistro
 
 if TYPE_CHECKING:
@@ -50,8 +51,8 @@ class Request(NamedTuple):
     """The distributions to check for, at least one."""
     places: tuple[str, ...]
     """Folders with data about released packages that override the shipped data."""
-    cache: str
-    """The cache folder, or "" if nothing is cached."""
+    cache: CacheFile
+    """The cached results of the workspace."""
     warnings: tuple[str, ...]
     """Warnings about the settings."""
 
@@ -73,6 +74,8 @@ class Session(NamedTuple):
     roots: tuple[str, ...]
     """As in :class:`Request`."""
     warnings: tuple[str, ...]
+    cache: CacheFile
+    """As in :class:`Request`."""
 
 
 def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
@@ -120,7 +123,7 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
         _tracked(base, environment),
         targets,
         places,
-        fact_cache.folder(environment) if settings["cache"] else "",
+        CacheFile(cache_folder(environment) if settings["cache"] else "", base),
         warnings,
     )
 
@@ -153,7 +156,9 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
     Raises UsageError and KnowledgeError.
     """
-    from ros_lint.workspace.loader import DistroData, Loader  # noqa: PLC0415  (not needed for a cached report)
+    # Not needed for a cached report.
+    from ros_lint.workspace.cache.facts import FactCache  # noqa: PLC0415
+    from ros_lint.workspace.loader import DistroData, Loader  # noqa: PLC0415
 
     settings, base = request.settings, request.base
     knowledge = Knowledge(request.targets[0].distro, request.places)
@@ -172,18 +177,10 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
         others=others,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=fact_cache.FactCache(request.cache, _fact_cache_key(request)),
+        cache=FactCache(request.cache, () if request.inside == (request.base,) else request.inside),
         progress=progress,
     )
-    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread))
-
-
-def _fact_cache_key(request: Request) -> str:
-    """Return the cache key of the facts: the base, followed by the folders that links may lead into.
-
-    If links may lead into the base only, the key is the base alone.
-    """
-    return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
+    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread), request.cache)
 
 
 _WITHOUT_EFFECT = frozenset((
@@ -204,21 +201,21 @@ def report_cache(request: Request) -> ReportCache:
     """
     settings = request.settings
     if not request.cache or settings["plugins"]:
-        return ReportCache("", request.base, "", ())
+        return ReportCache(NO_CACHE, "", ())
     from importlib.util import find_spec  # noqa: PLC0415
 
     values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _WITHOUT_EFFECT]
     rules = find_spec(BUILTIN)
     folders = [*(rules.submodule_search_locations or () if rules else ()), *request.places]
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
-    data = [*libraries, *(file for folder in folders for file in fact_cache.files_below(folder))]
+    data = [*libraries, *(file for folder in folders for file in files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
     request_key = repr(
         (request.roots, request.context, request.inside, request.targets, values, prefixes, settings.origin("underlay"))
     )
     if request.tracked:
         request_key += repr([sorted(paths) for paths in request.tracked])
-    return ReportCache(request.cache, request.base, request_key, data)
+    return ReportCache(request.cache, request_key, data)
 
 
 def _underlays(settings: Settings, distro: str, base: str, machine: Tree | None) -> tuple[tuple[Underlay, ...], tuple[str, ...]]:

@@ -24,7 +24,7 @@ T = TypeVar("T")
 
 
 class ReportContext(NamedTuple):
-    """Data about the run that its report contains, and the rules that suppressions may name."""
+    """Data about a run for its report, and the rules that suppressions may name."""
 
     rules: tuple[Rule, ...]
     """All rules, selected or not."""

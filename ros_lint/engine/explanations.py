@@ -41,7 +41,7 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
 
 
 def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
-    """Return the members of ``issues``, which are of one package, that the issue ``cause`` explains."""
+    """Return the elements of ``issues`` that the issue ``cause`` explains. All of them are about one package."""
     keys = {(consequence.rule, consequence.subject) for consequence in cause.finding.explains}
     return [
         issue

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
+# The cache derives the encoding of a report from these annotations, so the types are imported in each run.
+from ros_lint.analysis.finding import Finding, Severity
+from ros_lint.analysis.rule import Rule
+from ros_lint.base.text import Span
+from ros_lint.facts.repositories import UnclonedRepositories
 from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    from ros_lint.analysis.finding import Finding, Severity
-    from ros_lint.analysis.rule import Rule
-    from ros_lint.base.text import Span
-    from ros_lint.facts.repositories import UnclonedRepositories
 
 
 class ExplainedFinding(NamedTuple):

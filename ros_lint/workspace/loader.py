@@ -29,12 +29,14 @@ from ros_lint.knowledge.world import Member, World
 from ros_lint.workspace import launch_modules
 from ros_lint.workspace.build_scripts import evaluate as build_scripts
 from ros_lint.workspace.build_scripts.sources import Parts
-from ros_lint.workspace.collect import Collected, collect_all
+from ros_lint.workspace.cache.facts import FactCache
+from ros_lint.workspace.cache.file import NO_CACHE
+from ros_lint.workspace.collect import collect_all
+from ros_lint.workspace.collected import Collected
 from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
 from ros_lint.workspace.discovery.named_distros import named_distros
-from ros_lint.workspace.fact_cache import FactCache
 from ros_lint.workspace.join import Progress, ReadPackage, join_packages, unusable_package
 from ros_lint.workspace.model import Declared, Package, Workspace
 from ros_lint.workspace.side_by_side import hidden_namesakes, workspace_of
@@ -88,7 +90,7 @@ class Loader:
     """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
 
     Paths are relative to the base of the tree. ``others`` are further distributions to check for: :meth:`load_all` reads and
-    evaluates what does not depend on the distribution only once.
+    evaluates only once everything that is independent of the distribution.
     """
 
     def __init__(
@@ -115,7 +117,7 @@ class Loader:
         self._distros = (DistroData(target, knowledge or Knowledge(target.distro), tuple(underlays)), *others)
         self._exclude = exclude
         self._jobs = jobs
-        self._cache = cache or FactCache("", "")
+        self._cache = cache or FactCache(NO_CACHE)
         self._progress = progress
         self._collected: dict[str, Collected] = {}
         self._named_distros: tuple[NamedDistro, ...] | None = None
@@ -271,7 +273,7 @@ class Loader:
         paths = [path for path in changed if path in self._collected]
         if not paths:
             return self._collected
-        fresh = collect_all(OverlayTree(self.tree, changed), paths, 1, FactCache("", ""), lambda finished: None)
+        fresh = collect_all(OverlayTree(self.tree, changed), paths, 1, FactCache(NO_CACHE), lambda finished: None)
         return {**self._collected, **fresh}
 
     def _read(

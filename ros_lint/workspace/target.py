@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.text import file_start
+from ros_lint.base.text import Span, file_start
 from ros_lint.facts.environment import ROS_2
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    from ros_lint.base.text import Span
 
 
 class TargetDistro(NamedTuple):

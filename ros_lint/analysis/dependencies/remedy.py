@@ -29,9 +29,9 @@ class Remedy(NamedTuple):
     Such a manifest has to be fixed first.
     """
     obstacle: str
-    """The reason why it cannot be declared, which completes "cannot be declared: ", or ""."""
+    """The reason why the name cannot be declared, which completes "cannot be declared: ", or ""."""
     circular: bool
-    """True if the obstacle is that it depends on the package itself."""
+    """True if the obstacle is that the needed package depends on this package."""
     certain: bool = True
     """False if the remedy is circular or colcon rejects the manifest, whatever the evidence is."""
     conditional: bool = False
@@ -51,14 +51,14 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
     condition = f' condition="{_condition(only_in, workspace.world.knowledge.active)}"' if only_in else ""
     written = " and ".join(f"<{needed_tag}{condition}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
-        between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
-        return Remedy(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
+        between = f", through {' > '.join(map(repr, way[1:-1]))}" if len(way) > 2 else ""
+        return Remedy(written, None, f"'{name}' depends on this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
     if (bare := workspace.by_name.get(name)) and all(namesake.manifest is None for namesake in bare):
-        obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
+        obstacle = f"the folder '{bare[0].path}' has no package.xml, so rosdep cannot resolve '{name}'; add package.xml"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
     if is_unresolvable_key(workspace, name) and not condition_for(workspace, name):
-        obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
+        obstacle = f"rosdep has no rule for '{name}'{_where(workspace, name)}"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
     of_pip = is_of_pip(workspace, name)
     if of_pip:
@@ -133,7 +133,7 @@ def _find_availability(workspace: Workspace, name: str) -> _Availability:
         return _Availability(f" (there are no data about {target.distro})")
     distros = tuple([distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)])
     if not distros:
-        return _Availability(" (no distribution has it)")
+        return _Availability(" (not released in any active distribution)")
     needed = target.distros if target.explicit else knowledge.active
     without = tuple([distro for distro in needed if distro not in distros])
     if not without:
@@ -189,7 +189,7 @@ def condition_for(workspace: Workspace, name: str) -> str:
 
 
 def is_of_pip(workspace: Workspace, name: str) -> bool:
-    """Return whether a name is a rosdep key that is installed by pip and not by apt, which the build farm does not accept."""
+    """Return whether a name is a rosdep key for pip and not for apt. The build farm does not accept such a key."""
     key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
     return key is not None and bool(key.pip) and not key.apt
 

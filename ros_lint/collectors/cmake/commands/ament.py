@@ -97,7 +97,7 @@ def _component(run: Run, args: list[str]) -> None:
 
 
 def _exported(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_exported(sets...)``: record export sets whose targets reach each package that finds this package."""
+    """Run ``ros_lint_exported(sets...)``: record export sets whose targets are available to all dependents."""
     if not (run.muted or run.conditional or run.testing):
         run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(strip_mark, args) if certain]))
 

@@ -206,7 +206,7 @@ class Run(State):
         return name in self.settable or (name in CONFIGURABLE_VARIABLES and self.value_or_missing(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
-        """Return whether the user, or code that cannot be read, may have set a variable that the read scripts do not set."""
+        """Return whether a variable that is not set in the read scripts may be set by the user, or by unreadable code."""
         if self.is_configurable(name):
             return True
         return self.open_world and self.value_or_missing(name) is MISSING and name not in self.path_variables
