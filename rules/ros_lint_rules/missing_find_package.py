@@ -19,8 +19,8 @@ Add `find_package(package REQUIRED)` before the first use.
 Not reported:
 
 - Scripts that cannot be fully analysed, and uses under a condition that cannot be decided.
-- Names that are no known ROS package (see `invalid-ament-dependency`), unless they are declared, and other distributions have them or they are listed under `DEPENDENCIES`
-  of `rosidl_generate_interfaces()`, which accepts only packages.
+- Names that are no known ROS package (see `invalid-ament-dependency`). Exceptions: a declared package that other distributions
+  have, and a declared name that is listed under `DEPENDENCIES` of `rosidl_generate_interfaces()`, which accepts only packages.
 - Packages that a command of another workspace package uses: that package has to find them.
 - Included headers, if the script adds a folder outside of the package to its include directories.
 - Packages that provide commands, such as `ament_cmake_gtest`, if they come with a found package.
