@@ -120,6 +120,7 @@ COMMANDS = {
     "rules": "list the rules",
     "rule": "explain a rule",
     "index": "rebuild or extend the index of released packages",
+    "cache": "show or remove cached results",
     "schema": "print the JSON schema of the configuration file",
     "completion": "print the completion script for a shell",
 }
