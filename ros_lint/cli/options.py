@@ -119,6 +119,7 @@ COMMANDS = {
     "overlay": "show packages that exist in several layers, and which layer wins",
     "rules": "list the rules",
     "rule": "explain a rule",
+    "new-rule": "write a plugin with a new rule, its cases and its tests into a new folder",
     "index": "rebuild or extend the index of released packages",
     "cache": "show or remove cached results",
     "schema": "print the JSON schema of the configuration file",
