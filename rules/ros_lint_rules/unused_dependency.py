@@ -4,7 +4,8 @@
 - A `<depend>` or `<build_depend>` on a ROS package that the package does not use: no include, import, `find_package`, interface
   or launch file refers to it, and no other file contains its name.
 - A `<test_depend>` in a package without a test that could use it, unless something else uses it, such as `find_package` or a
-  launch file.
+  launch file. A `<test_depend>` on messages that no file names is reported although the package has tests.
+- A `<buildtool_depend>` on a package for which CMake does not look.
 
 ## Why it matters
 
@@ -33,6 +34,7 @@ Reported with medium confidence:
 - rosdep keys of libraries, because headers of other packages may need them. The confidence is high if a package that is used
   depends on the library.
 - Packages that are not known.
+- Build tools.
 - Packages that others mostly declare for run time only: Python packages, and packages with both messages and programs.
 - Any dependency, if a file of the workspace cannot be read.
 - Any dependency, if the modules that entry points name do not exist yet, or if no Python code imports anything.
@@ -62,6 +64,7 @@ from ros_lint.api import (
 
 _TAGS = ("depend", "build_depend")
 _HANDED_ON = Role.EXEC | Role.EXPORT
+_BUILD_TYPE = frozenset({"ament_cmake", "ament_cmake_core"})
 _NO_TEST = build.FINDS_TESTS | {"enable_testing"}
 
 
@@ -129,7 +132,13 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
     for declared in package.declared:
         depend = declared.depend
         name = depend.name
-        if not declared.always or name in used or name in wrong or dependencies.name_suggests_no_trace(world, name):
+        if not declared.always or name in used or name in wrong:
+            continue
+        if depend.tag == "buildtool_depend":
+            if whole and _is_never_found(package, script, workspace, name):
+                yield declared, "the build script does not look for it", Confidence.MEDIUM
+            continue
+        if dependencies.name_suggests_no_trace(world, name):
             continue
         if not (whole or dependencies.is_library(world, name)):
             continue
@@ -143,12 +152,13 @@ def _unused(package: Package, workspace: Workspace) -> Iterator[tuple[Declared, 
             if mostly_run and not dependencies.usage_is_visible(package, workspace, name):
                 continue
             reason = "nothing in the package uses it"
-        elif depend.tag == "test_depend" and not (
-            _is_used(package, name)
-            or _brings_linters(script, workspace, name)
-            or _can_test_with(package, script, workspace, name)
-        ):
-            reason = f"the package has no {_kind_of_test(name)} that could use it"
+        elif depend.tag == "test_depend" and not (_is_used(package, name) or _brings_linters(script, workspace, name)):
+            if not _can_test_with(package, script, workspace, name):
+                reason = f"the package has no {_kind_of_test(name)} that could use it"
+            elif _is_of_interfaces(workspace, name) and name not in package.textual_mentions:
+                reason = "no test uses it"
+            else:
+                continue
         else:
             continue
         # Headers of other packages may need a library, but it is available without the tag if a used package depends on it.
@@ -163,6 +173,24 @@ def _lacks_programs(package: Package, script: BuildScript) -> bool:
     if script.products.entry_points:
         return not script.python.entry_point_modules
     return package.builds_with == "ament_python" and not any(use.role & ~Role.TEST for use in package.uses)
+
+
+def _is_never_found(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
+    """Return whether CMake does not look for a released build tool that only find_package() makes available."""
+    released = workspace.world.released(name)
+    return (
+        package.builds_with == "ament_cmake"
+        and released is not None
+        and released.build_type == "ament_cmake"
+        and name not in _BUILD_TYPE
+        and not (_is_used(package, name) or name in dependencies.names_searched(package, script))
+    )
+
+
+def _is_of_interfaces(workspace: Workspace, name: str) -> bool:
+    """Return whether a released package has interfaces and nothing to run, so that code has to name their types."""
+    released = workspace.world.released(name)
+    return bool(released and released.interfaces) and not dependencies.has_programs(workspace.world, name)
 
 
 def _is_used(package: Package, name: str) -> bool:

@@ -17,7 +17,7 @@ from ros_lint.base.text import Span, Text, file_start, from_bytes, span_in, to_b
 from ros_lint.base.tree import Tree, contents
 from ros_lint.collectors.comments import comments
 from ros_lint.facts.sources import Via
-from ros_lint.workspace.model import Package
+from ros_lint.workspace.model import Declared, Package
 from ros_lint.workspace.usage.package_files import PackageSource
 from ros_lint.workspace.usage.resolve import satisfying, used_names
 from ros_lint.workspace.usage.unqualified_types import Types
@@ -38,7 +38,7 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
     """Return a place for each declared name that a text of the package contains and no code uses."""
     if not is_build_visible(package):
         return {}
-    declared = [d.name for d in package.declared if d.depend.tag in ("depend", "build_depend") and d.always]
+    declared = [d.name for d in package.declared if d.always and _needs_a_trace(world, d)]
     used_declared, satisfied = used_names(declared, package.uses), satisfying(package.uses)
     names = world.knowledge.names
     unused = [
@@ -60,6 +60,15 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
         places = {**places, **types.used(source, remaining)}
         remaining = [name for name in remaining if name not in places]
     return {**places, **_find_commands_in_pages(remaining, tree, package)} if remaining else places
+
+
+def _needs_a_trace(world: World, declared: Declared) -> bool:
+    """Return whether a rule asks for traces of a dependency: for the build, or messages for tests."""
+    tag = declared.depend.tag
+    if tag == "test_depend":
+        released = world.released(declared.name)
+        return released is not None and bool(released.interfaces)
+    return tag in ("depend", "build_depend")
 
 
 def _find_commands_in_pages(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
