@@ -26,8 +26,8 @@ RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda packag
 FIRST, SECOND = (Fix("t", (Edit(Span("f", 1, 1, 1, 1), text),)) for text in ("a", "b"))
 
 
-def issue(subject: str = "s", message: str = "m", fix: Fix | None = None, **other: Any) -> Issue:
-    return Issue(RULE, "p", Finding(message, Span("f", 1, 1, 1, 2), subject, fix=fix, **other))
+def issue(subject: str = "s", message: str = "m", fix: Fix | None = None, rule: Rule = RULE, **other: Any) -> Issue:
+    return Issue(rule, "p", Finding(message, Span("f", 1, 1, 1, 2), subject, fix=fix, **other))
 
 
 def merged(*by_distro: list[Issue]) -> list[Issue]:
@@ -86,11 +86,21 @@ def test_a_fix_of_some_distributions_is_unsafe() -> None:
     assert only.finding.fix == FIRST._replace(safe=False)
 
 
+def test_a_fix_is_safe_if_other_distributions_have_it_for_another_rule() -> None:
+    other = issue(fix=FIRST, rule=RULE._replace(name="o", code="ROS998"))
+    assert [(i.distros, i.finding.fix) for i in merged([issue(fix=FIRST)], [other])] == [
+        (("humble",), FIRST),
+        (("jazzy",), FIRST),
+    ]
+
+
 def test_a_cause_explains_findings_only_where_it_holds() -> None:
     cause, consequence = issue("cause", explains=(Consequence("r", "s"),)), issue()
     assert [i.finding.subject for i in without_explained(merged([cause, consequence], [cause, consequence]))] == ["cause"]
     assert len(without_explained(merged([cause, consequence], [consequence]))) == 2
     assert [i.finding.subject for i in without_explained(merged([cause, consequence], [cause]))] == ["cause"]
+    assert [i.finding.subject for i in without_explained(merged([cause, consequence], [issue("cause")]))] == ["cause"]
+    assert len(without_explained(merged([cause, consequence], [issue("cause"), consequence]))) == 2
 
 
 # --- loading
