@@ -62,7 +62,7 @@ class _DistroFindings:
         return frozenset([*subjects, *((package, rule, "") for package, rule, _ in subjects)])
 
     def accepts(self, entry: Consequence, issue: Issue) -> bool:
-        """Return whether ``issue``, a finding of this distribution, explains ``entry``, or the distribution has no such finding."""
+        """Return whether ``issue``, a finding of this distribution, explains ``entry``, or no finding of it is ``entry``."""
         return entry in issue.finding.explains or (issue.package, entry.rule, entry.subject) not in self._subjects
 
 
