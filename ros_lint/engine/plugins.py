@@ -26,7 +26,7 @@ _SELECTORS = ("all", "default")
 
 
 class PluginError(UserError):
-    """A plugin that cannot be loaded, or whose rules have invalid names or codes or those of other rules."""
+    """A plugin that cannot be loaded, or a rule of a plugin with the name or code of another rule, or with an invalid one."""
 
 
 class Plugin(NamedTuple):

@@ -172,7 +172,7 @@ class Loader:
         data: DistroData,
         sources: bool,
     ) -> Workspace:
-        """Return the workspace of the read packages. If it has several workspaces side by side, it contains a view for each."""
+        """Return the workspace of the read packages, with a view for each of several workspaces side by side."""
         rejected_manifests = found.discovery.rejected
         world = _world(read_packages, rejected_manifests, data, found.expected)
         hidden = hidden_namesakes(
