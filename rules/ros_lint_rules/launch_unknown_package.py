@@ -152,7 +152,7 @@ class _Verdict(NamedTuple):
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
     """Yield each unknown package name with the places in launch files that name it.
 
-    A name comes twice if some of its places start executables that this package installs: these places are a group of their own.
+    Places that start executables of this package are a group of their own, so a name may be yielded twice.
     """
     unknown: dict[tuple[str, bool], list[_Place]] = {}
     own = launch.installed_programs(package)

@@ -149,7 +149,7 @@ class LibraryName:
 
 
 def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
-    """Return the expression of the argument of a call with a position or one of ``names``, the call itself if there is none."""
+    """Return the expression of a call's argument at ``position`` or with a keyword in ``names``, else the call itself."""
     for keyword in call.keywords:
         if keyword.arg in names:
             return keyword.value
@@ -178,7 +178,7 @@ class LaunchObject:
         """True if it escaped to code that is not interpreted."""
 
     def get(self, position: int, *names: str) -> Value:
-        """Return the value of the argument with a position or one of ``names``, None if it is missing."""
+        """Return the value of the argument at ``position`` or with a keyword in ``names``, None if it is missing."""
         for name in names:
             if name in self.keywords:
                 return self.keywords[name]
@@ -189,7 +189,7 @@ class LaunchObject:
         return UNKNOWN in self.keywords and self.keywords.keys().isdisjoint(names)
 
     def written(self, position: int, *names: str) -> ast.expr:
-        """Return the expression of the argument with a position or one of ``names``, the call itself if it is missing."""
+        """Return the expression of the argument at ``position`` or with a keyword in ``names``, else the call itself."""
         return argument_of(self.node, position, *names)
 
 
