@@ -71,7 +71,7 @@ class _Found(NamedTuple):
 
     @property
     def depends_on_distro(self) -> bool:
-        """True if a condition chooses the build type of a package, so that colcon may find other packages elsewhere."""
+        """True if a condition chooses the build type of a package, so that another distribution may have other packages."""
         manifests = [*(package.manifest for package in self.discovery.packages), *self.discovery.rejected]
         exports = [export for manifest in manifests if manifest for export in manifest.exports]
         return any(export.tag == "build_type" and conditions.of(export) for export in exports)

@@ -185,7 +185,7 @@ class LaunchObject:
         return self.arguments[position] if 0 <= position < len(self.arguments) else None
 
     def may_hide(self, *names: str) -> bool:
-        """Return whether unknown ``**keywords`` may contain the argument with one of ``names``, because it is not given."""
+        """Return whether unknown ``**keywords`` may contain an argument in ``names``, because none of them is given."""
         return UNKNOWN in self.keywords and self.keywords.keys().isdisjoint(names)
 
     def written(self, position: int, *names: str) -> ast.expr:
