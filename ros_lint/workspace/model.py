@@ -189,7 +189,7 @@ class Package(NamedTuple):
         return join(self.path, "CMakeLists.txt")
 
     def calls(self, *names: str, anywhere: bool = False) -> Iterator[Call]:
-        """Yield calls of CMake commands in the package's CMakeLists.txt, or ``anywhere`` in its CMake files."""
+        """Yield calls of CMake commands in the package's CMakeLists.txt, or, with ``anywhere``, in all of its CMake files."""
         if self.script is None:
             return
         calls = [call for call in self.script.commands.calls if call.name in names]
