@@ -19,11 +19,11 @@ DistroIssue = tuple["_DistroFindings", "Issue"]
 
 
 def merge(issues_by_distro: Sequence[tuple[str, Sequence[Issue]]]) -> tuple[Issue, ...]:
-    """Return the findings for several distributions, each pair of which has the name of a distribution and its findings.
+    """Return the merged findings for several distributions, given pairs of a distribution and its findings.
 
     - Findings are merged into one if rule, package, subject, place, severity and confidence are equal.
-    - The merged finding has the message for the first distribution that has it. The message ends with "(only in jazzy)" if not
-      all distributions have the finding.
+    - The merged finding has the message for the first distribution that has it. The message ends with
+      "(reported only for jazzy)" if not all distributions have the finding.
     - Its fix is safe only if every distribution has a safe fix with the same edits, for a finding of the same or of another rule.
     - It explains findings only if it does so in every distribution that has them.
 
@@ -72,9 +72,9 @@ def _merged(group: Sequence[DistroIssue], distros: Sequence[_DistroFindings]) ->
     names = () if len(group) == len(distros) else tuple([distro.name for distro, _ in group])
     differing = [(distro.name, issue.finding.message) for distro, issue in others if issue.finding.message != finding.message]
     if names:
-        ending = f" (only in {and_list(names)})"
+        ending = f" (reported only for {and_list(names)})"
     else:
-        ending = f" (also in {and_list([name for name, _ in differing])})" if differing else ""
+        ending = f" (reported also for {and_list([name for name, _ in differing])})" if differing else ""
     entries = dict.fromkeys([entry for _, issue in group for entry in issue.finding.explains])
     merged = finding._replace(
         message=finding.message + ending,
