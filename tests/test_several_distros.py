@@ -41,14 +41,14 @@ def test_a_finding_of_all_distributions_stays_as_it_is() -> None:
 
 def test_a_finding_of_some_distributions_names_them() -> None:
     (only,) = merged([], [issue()], [])
-    assert (only.finding.message, only.distros) == ("m (only in jazzy)", ("jazzy",))
+    assert (only.finding.message, only.distros) == ("m (reported only for jazzy)", ("jazzy",))
     (only,) = merged([issue()], [], [issue()])
-    assert (only.finding.message, only.distros) == ("m (only in humble and kilted)", ("humble", "kilted"))
+    assert (only.finding.message, only.distros) == ("m (reported only for humble and kilted)", ("humble", "kilted"))
 
 
 def test_a_message_that_differs_is_kept_beside_the_first() -> None:
     (both,) = merged([issue(message="through a")], [issue(message="through b")])
-    assert (both.finding.message, both.distros) == ("through a (also in jazzy)", ())
+    assert (both.finding.message, both.distros) == ("through a (reported also for jazzy)", ())
     assert both.other_messages == (("jazzy", "through b"),)
 
 
@@ -176,9 +176,9 @@ ament_package()
 """
 BOTH = ("--distro", "humble,jazzy")
 FINDINGS = {
-    "gazebo_ros": (["humble"], "because jazzy has no 'gazebo_ros' (only in humble)"),
+    "gazebo_ros": (["humble"], "because jazzy has no 'gazebo_ros' (reported only for humble)"),
     "rclcpp": (["humble", "jazzy"], "add <depend>rclcpp</depend>"),
-    "sensor_msgs": (["jazzy"], "widen the condition (only in jazzy)"),
+    "sensor_msgs": (["jazzy"], "widen the condition (reported only for jazzy)"),
 }
 
 
@@ -226,8 +226,8 @@ def test_findings_have_the_distributions_in_which_they_hold(
 def test_every_format_names_the_distributions(robot: Path, capsys: pytest.CaptureFixture[str], form: str) -> None:
     run(*BOTH, "--format", form)
     text = capsys.readouterr().out
-    assert "(only in humble)" in text
-    assert "(only in jazzy)" in text
+    assert "(reported only for humble)" in text
+    assert "(reported only for jazzy)" in text
     if form == "sarif":
         (sarif,) = json.loads(text)["runs"]
         assert sarif["properties"]["distros"] == ["humble", "jazzy"]

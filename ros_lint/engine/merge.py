@@ -18,11 +18,11 @@ DistroIssue = tuple[str, "Issue"]
 
 
 def merge(issues_by_distro: Sequence[tuple[str, Sequence[Issue]]]) -> tuple[Issue, ...]:
-    """Return the findings for several distributions, each pair of which has the name of a distribution and its findings.
+    """Return the merged findings for several distributions, given pairs of a distribution and its findings.
 
-    Findings are merged into one if rule, package, subject, place, severity and confidence are equal. The merged finding has the
-    message for the first distribution that has it, and ends with "(only in jazzy)" if not all distributions have it. Its fix
-    is safe only if all distributions have the finding with the same safe fix. The result is not sorted.
+    Findings are merged into one if rule, package, subject, place, severity and confidence are equal. The merged finding has
+    the message for its first distribution. The message ends with "(reported only for jazzy)" if not all distributions have
+    the finding. Its fix is safe only if all distributions have the finding with the same safe fix. The result is not sorted.
     """
     if len(issues_by_distro) == 1:
         return tuple(issues_by_distro[0][1])
@@ -43,9 +43,9 @@ def _merged(group: Sequence[DistroIssue], *, everywhere: bool) -> Issue:
     differing = [(distro, issue.finding.message) for distro, issue in others if issue.finding.message != finding.message]
     distros = () if everywhere else tuple([distro for distro, _ in group])
     if distros:
-        ending = f" (only in {and_list(distros)})"
+        ending = f" (reported only for {and_list(distros)})"
     else:
-        ending = f" (also in {and_list([distro for distro, _ in differing])})" if differing else ""
+        ending = f" (reported also for {and_list([distro for distro, _ in differing])})" if differing else ""
     merged = finding._replace(
         message=finding.message + ending,
         fix=_merged_fix([issue.finding.fix for _, issue in group], everywhere=everywhere),

@@ -1,4 +1,4 @@
-"""Join the facts of packages: their uses of each other, and the package that rules read."""
+"""Join the facts of packages: resolve their uses of other packages, and create the model that rules read."""
 
 from __future__ import annotations
 

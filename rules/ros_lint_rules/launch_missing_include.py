@@ -325,7 +325,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return the hint that ``package``, or else the only package of the workspace with the file, installs it; "" if none."""
+    """Return the hint which package installs the file: ``package``, else the only other package that does; "" if unclear."""
     owners = {
         other.name
         for other in workspace.packages

@@ -143,7 +143,7 @@ def _is_part_of_build_tool(path: Sequence[str]) -> bool:
 
 
 def _is_one_type(need: dependencies.Need) -> bool:
-    """Return whether a single place, which is in no public header, names a type of the package."""
+    """Return whether only one place uses the package: a type is named there, outside of public headers."""
     return len(need.uses) == 1 and need.uses[0].via == "symbol" and not need.role & Role.EXPORT
 
 

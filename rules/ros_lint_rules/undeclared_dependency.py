@@ -219,7 +219,7 @@ def _is_in_unreached_module(package: Package, use: Use) -> bool:
 def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
     """Return whether only public headers need the package, and this package compiles nothing.
 
-    Then this package builds without it, and only dependents that do not declare it fail.
+    Then this package builds without the needed package, and only dependents that do not declare the needed package fail.
     """
     if package.hidden(Facet.LIBRARIES | Facet.EXECUTABLES) or any(
         target.sources or not target.sources_known for target in package.built.products.targets

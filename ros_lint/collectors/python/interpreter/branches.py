@@ -67,7 +67,7 @@ def either(
 ) -> int:
     """Interpret both sides of a branch, join their results, and return how the branch ends: NEXT, CONTINUE, BREAK or LEAVE.
 
-    ``condition`` is the condition of ``body``, its opposite that of ``other``. ``test`` is the tested expression. ``loop``
+    ``body`` runs under ``condition``, ``other`` under its opposite. ``test`` is the tested expression. ``loop``
     is True if ``body`` is the body of a loop that runs any number of times.
     """
     condition = machine.fresh(condition, test)
