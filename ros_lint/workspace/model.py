@@ -122,6 +122,11 @@ class Package(NamedTuple):
 
     Paths are relative to the package. Modules that other packages import are left out.
     """
+    pip_requirements: frozenset[str] = frozenset()
+    """Normalized names of the distributions that requirement files and setup.py name.
+
+    Empty unless the package imports modules that no dependency tag names.
+    """
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()
