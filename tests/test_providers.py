@@ -85,7 +85,7 @@ def test_cmake_modules_need_no_package_and_unknown_names_have_no_provider() -> N
     [
         ("rclcpp/rclcpp.hpp", ("rclcpp",)),
         ("std_msgs/msg/string.hpp", ("std_msgs",)),
-        ("Eigen/Dense", ("eigen", "eigen3_cmake_module")),
+        ("Eigen/Dense", ("eigen",)),
         ("octomap/OcTree.h", ("octomap", "liboctomap-dev")),
         ("moveit/benchmarks/server.h", ("moveit_ros_benchmarks",)),
         ("moveit/move_group_interface/move_group_interface.hpp", ("moveit_ros_planning_interface",)),

@@ -36,7 +36,7 @@ def finds_declared(package: Package) -> bool:
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
-    """Return the packages that ``find_package()`` of each name finds, their transitive dependencies, and the names.
+    """Return the packages that ``find_package()`` of each name finds, their transitive dependencies, and the names themselves.
 
     The result is None if a name belongs to no known package, or if the dependencies of a found package are unknown.
     """
@@ -65,7 +65,7 @@ def finding_others(package: Package, workspace: Workspace, names: Iterable[str])
     unknown dependencies may find any package.
     """
     unused = frozenset(names)
-    rest = partial_closure(workspace, sorted(names_searched(package, package.built) - unused)).names
+    rest = _found(workspace, names_searched(package, package.built) - unused)
     needed = [use.providers for use in package.uses if not use.optional and use.role & _BUILT and rest.isdisjoint(use.providers)]
     needed = [providers for providers in dict.fromkeys(needed) if unused.isdisjoint(providers)]
     closures = {name: partial_closure(workspace, [name]) for name in unused}
@@ -76,6 +76,12 @@ def finding_others(package: Package, workspace: Workspace, names: Iterable[str])
             if not closure.complete or any(not closure.names.isdisjoint(providers) for providers in needed)
         ]
     )
+
+
+def _found(workspace: Workspace, names: Iterable[str]) -> frozenset[str]:
+    """Return the packages and rosdep keys that ``find_package()`` of each name finds, with their transitive dependencies."""
+    providers = [workspace.world.by_cmake(name).names for name in names]
+    return partial_closure(workspace, sorted(names)).names.union(*providers)
 
 
 def found_only_through(package: Package, workspace: Workspace, unused: Iterable[str]) -> frozenset[str]:
@@ -89,10 +95,8 @@ def found_only_through(package: Package, workspace: Workspace, unused: Iterable[
         return frozenset()
     world = workspace.world
     names = frozenset(unused)
-    searched = [
-        name for name in names_searched(package, package.built) - names if world.is_package(name) or not world.is_key(name)
-    ]
-    rest = partial_closure(workspace, sorted(searched)).names
+    searched = names_searched(package, package.built) - names
+    rest = _found(workspace, [name for name in searched if world.is_package(name) or not world.is_key(name)])
     needed = [use.providers for use in package.uses if use.via == "include" and not use.optional and use.role & _BUILT]
     needed = [providers for providers in dict.fromkeys(needed) if rest.isdisjoint(providers)]
     return frozenset([name for name in names if any(provider in world.closure((name,)) for use in needed for provider in use)])
