@@ -58,6 +58,12 @@ class Want(NamedTuple):
     tags: frozenset[str]
     """Words in brackets: each must be the confidence of the finding or the name of its rule."""
 
+    @property
+    def written(self) -> str:
+        """The comment that expects the finding, such as ``want [medium] "is used"``."""
+        tags = f"[{', '.join(sorted(self.tags))}] " if self.tags else ""
+        return f'want {tags}"{self.text}"'
+
     def fits(self, issue: Issue) -> bool:
         """Return whether ``issue`` is the expected finding."""
         finding = issue.finding
@@ -177,7 +183,7 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
             wanted.remove(match)
         else:
             yield f"{issue.finding.span}: unexpected [{issue.finding.confidence}]: {issue.finding.message}"
-    yield from (f'{want.path}:{want.line}: missing {sorted(want.tags)}: "{want.text}"' for want in wanted)
+    yield from (f"{want.path}:{want.line}: no finding here meets {want.written}" for want in wanted)
 
     if case.output is not None and (actual := _output(tree, issues)) != case.output:
         yield f"the output is\n{actual}"
@@ -197,7 +203,10 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
 
 
 def bless(case: Case, rule: Rule) -> None:
-    """Rewrite the blocks ``output`` and ``diff`` of a case with the current results."""
+    """Rewrite the blocks ``output`` and ``diff`` of a case with the current results.
+
+    Raises AssertionError if the case fails after that, for example because a ``want`` is not met: only a block is rewritten.
+    """
     tree = case.tree()
     issues = issues_of(tree, case, rule)
     new = {"output": _output(tree, issues), "diff": _diff(tree, fixed(tree, issues))}
@@ -207,6 +216,11 @@ def bless(case: Case, rule: Rule) -> None:
         block = f"```{kind}\n{text}```"
         body = _block(kind).sub(block.replace("\\", r"\\"), body)
     case.source.write_text(head + heading + body + separator + tail, "utf-8")
+    blessed = case._replace(
+        output=None if case.output is None else new["output"], diff=None if case.diff is None else new["diff"]
+    )
+    if remaining := "\n".join(differences(blessed, rule)):
+        raise AssertionError(f"{case.source.name}: {case.title}: the blocks are rewritten, but the case fails:\n{remaining}")
 
 
 def _block(kind: str) -> re.Pattern[str]:

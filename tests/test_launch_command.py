@@ -89,6 +89,18 @@ def test_settings_of_a_group_apply_to_its_nodes() -> None:
     ]
 
 
+def test_a_name_that_may_not_be_set_and_unknown_keywords_are_shown() -> None:
+    nodes = "Node(package='p', executable='x', name='n' if unknown() else None), Node(package='p', executable='y', **unknown())"
+    body = f"from launch_ros.actions import Node\ndef generate_launch_description():\n    return [{nodes}]\n"
+    output, _, _ = ask(package("p", {"launch/a.launch.py": body}), "p", "a.launch.py")
+    assert [line.strip() for line in output.splitlines()[1:5]] == [
+        "node p x as /n | /...",
+        "node p y as /?/?",
+        "unknown parameters",
+        "unknown remappings",
+    ]
+
+
 def test_settings_of_an_unscoped_group_stay_in_effect() -> None:
     assert launch('<group scoped="false"><set_env name="X" value="1"/></group><executable cmd="ls -l" cwd="/tmp"/>') == [
         "process ls -l",

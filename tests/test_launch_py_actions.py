@@ -106,3 +106,40 @@ def test_loop_values_replace_parameter_defaults() -> None:
     function = "def each(p='a'):\n    return [Node(package=p, executable='b')]"
     _, file = collect("return LaunchDescription([ForEach(LaunchConfiguration('x'), function=each)])", function)
     assert [UNKNOWN in action.package.texts for action in file.actions if action.package] == [True]
+
+
+@pytest.mark.parametrize(
+    ("keywords", "name", "namespace"),
+    [
+        ("", None, None),
+        (", name=None", None, None),
+        (", name='b'", ("b",), None),
+        (", name='b' if unknown() else None", ("b", ""), None),
+        (", namespace=None if unknown() else 'n'", None, ("", "n")),
+        (", **unknown()", (UNKNOWN,), (UNKNOWN,)),
+        (", name='b', **unknown()", ("b",), (UNKNOWN,)),
+        (", **{'name': 'b'}", ("b",), None),
+    ],
+)
+def test_a_name_is_set_or_not_set_or_unknown(
+    keywords: str, name: tuple[str, ...] | None, namespace: tuple[str, ...] | None
+) -> None:
+    _, file = collect(f"return LaunchDescription([Node(package='a', executable='x'{keywords})])")
+    (node,) = file.actions
+    assert (node.name and node.name.texts, node.namespace and node.namespace.texts) == (name, namespace)
+
+
+def test_unknown_keywords_may_have_parameters_and_remappings() -> None:
+    _, file = collect("return LaunchDescription([Node(package='a', executable='x', **unknown())])")
+    (node,) = file.actions
+    assert [name for name, _ in node.parameters] == [UNKNOWN]
+    assert [(old.texts, new.texts) for old, new in node.remappings] == [((UNKNOWN,), (UNKNOWN,))]
+    _, file = collect("return LaunchDescription([Node(package='a', executable='x', parameters=[], remappings=[], **unknown())])")
+    assert (file.actions[0].parameters, file.actions[0].remappings) == ((), ())
+
+
+def test_a_default_that_may_be_none_is_unknown() -> None:
+    _, file = collect("return LaunchDescription([DeclareLaunchArgument('a', default_value='b' if unknown() else None)])")
+    (argument,) = file.actions
+    assert argument.value is not None
+    assert argument.value.texts == ("b", UNKNOWN)

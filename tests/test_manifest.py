@@ -344,3 +344,12 @@ def test_comments_and_texts_between_elements_are_listed() -> None:
 def test_an_empty_condition_differs_from_no_condition() -> None:
     manifest = of(with_("<depend condition=''>a</depend>", "<exec_depend>a</exec_depend>"))
     assert [depend.condition for depend in manifest.depends] == [" ", ""]
+
+
+def test_attributes_of_elements_have_places() -> None:
+    text = Text("p/package.xml", GOOD.replace("</package>", '<url type="bugtracker"\n  note="ä">u</url><export/></package>'))
+    (url,) = [element for element in collect(text).elements if element.tag == "url"]
+    places = [(text.offset(*span[1:3]), text.offset(*span[3:5])) for span in url.attribute_spans]
+    assert [text.text[start:end] for start, end in places] == ["bugtracker", "ä"]
+    assert url.span_of("note") == url.attribute_spans[1]
+    assert url.span_of("nothing") == url.span

@@ -80,9 +80,13 @@ class LaunchAction(NamedTuple):
     * ``remap``: the new name. ``namespace``: the namespace.
     """
     name: LaunchValue | None = None
-    """Name of a node or component; None if the launch file does not set it."""
+    """Name of a node or component; None if the launch file does not set it.
+
+    The alternative "" means that the file may not set it, as in ``name="a" if condition else None``. If unknown keywords
+    (``Node(**keywords)``) may set it, its only text is not plain (``launch.is_plain``). The same holds for the namespace.
+    """
     namespace: LaunchValue | None = None
-    """Namespace of a node or component; None if the action does not set it."""
+    """Namespace of a node or component; None if the action does not set it. See ``name``."""
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
     """Values passed by name.
 
@@ -99,7 +103,7 @@ class LaunchAction(NamedTuple):
     A parameter file has the name "". Unknown parameters together have a name that is not plain (``launch.is_plain``).
     """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
-    """Remappings of a node or component: old name and new name."""
+    """Remappings of a node or component: old name and new name. Unknown remappings together are a pair that is not plain."""
     conditions: tuple[LaunchCondition, ...] = ()
     """Conditions that must all hold."""
     children: tuple[LaunchAction, ...] = ()

@@ -73,10 +73,17 @@ class Element(NamedTuple):
     """Place of the whole element."""
     text_span: Span
     """Place of the text."""
+    attribute_spans: tuple[Span, ...] = ()
+    """Places of the values of the attributes, without the quotes: one for each of ``attributes``."""
 
     def get(self, attribute: str, default: str = "") -> str:
         """Return the value of an attribute, or ``default`` if the element does not have it."""
         return dict(self.attributes).get(attribute, default)
+
+    def span_of(self, attribute: str) -> Span:
+        """Return the place of the value of an attribute, or of the whole element if it does not have the attribute."""
+        names = [name for name, _ in self.attributes]
+        return self.attribute_spans[names.index(attribute)] if attribute in names else self.span
 
 
 class Depend(NamedTuple):
@@ -87,7 +94,7 @@ class Depend(NamedTuple):
     tag: str
     """Name of the element, such as "exec_depend"."""
     condition: str
-    """Text of the attribute ``condition`` (REP 149), "" if absent.
+    """Text of the attribute ``condition`` (REP 149), "" if absent. A finding about an attribute is placed at ``span``.
 
     " " is an empty attribute, which fails to parse.
     """

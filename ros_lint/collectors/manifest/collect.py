@@ -124,7 +124,7 @@ def _read_children(
                 if tag in DEPENDENCY_TAGS:
                     add_depend(_new(Depend, (raw, tag, "", (), span, name_span, previous_end - close)))
                 else:
-                    add_element(_new(Element, (tag, raw, (), span, name_span)))
+                    add_element(_new(Element, (tag, raw, (), span, name_span, ())))
                 continue
         node, at = child(document, at)
         previous_end = node.end if node.end >= 0 else len(text)  # else the file ends in it
@@ -168,6 +168,7 @@ def _depend(text: str, node: XmlNode, place: _Place) -> Depend:
 def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> Element:
     """Return the Element of an XML node. ``rich`` keeps the markup in its text, as catkin_pkg does for ``<description>``."""
     span = place(node.start, node.end)
+    attribute_spans = tuple([place(*attribute(text, node, name)[1:]) for name in node.attributes])
     if rich:
         content = markup(text, node) if node.tag != "export" else ""
         inner = text[node.inner : node.close]
@@ -175,7 +176,7 @@ def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> 
         end = max(start, node.close - len(inner) + len(inner.rstrip(BLANK)))
     else:
         content, start, end = value(text, node)
-    return _new(Element, (node.tag, content, tuple(node.attributes.items()), span, place(start, end)))
+    return _new(Element, (node.tag, content, tuple(node.attributes.items()), span, place(start, end), attribute_spans))
 
 
 def _placer(source: Text) -> _Place:

@@ -12,7 +12,8 @@ The JSON has ``schema_version`` 1, ``file``, and
 - ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and
   ``column``.
 
-Texts are lists of alternatives, in the syntax of XML launch files, with ``?`` for unknown parts.
+Texts are lists of alternatives, in the syntax of XML launch files, with ``?`` for unknown parts. The alternative "" of ``name``
+is the name that the program of the node sets.
 """
 
 from __future__ import annotations
@@ -55,11 +56,11 @@ def _value(texts: Iterable[str]) -> str:
 
 
 def _full_name(started: Started) -> str:
-    """Return the name of a node with its namespace, as far as the launch file sets them."""
+    """Return the name of a node with its namespace; "..." is the name that its program sets, "" is no known name at all."""
     spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
     if not started.name:
         return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))
-    return _text(dict.fromkeys(f"{space}/{name}" for space in spaces for name in started.name))
+    return _text(dict.fromkeys(f"{space}/{name or '...'}" for space in spaces for name in started.name))
 
 
 def _condition(condition: LaunchCondition) -> str:
@@ -142,7 +143,7 @@ def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
     if any(name == UNKNOWN for name, _ in started.parameters):
         yield "unknown parameters"
     for before, after in started.remappings:
-        yield f"remap {_text(before)} to {_text(after)}"
+        yield "unknown remappings" if before == after == (UNKNOWN,) else f"remap {_text(before)} to {_text(after)}"
     for name, texts in started.environment:
         yield f"environment {readable(name)} = {_value(texts)}"
     for name, texts in started.arguments:

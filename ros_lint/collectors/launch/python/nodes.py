@@ -114,8 +114,8 @@ def _started(
         place_of(launch_object),
         package=walker.value(launch_object, -1, "package"),
         target=walker.value(launch_object, -1, target, f"node_{target}"),
-        name=walker.value(launch_object, -1, "name", "node_name"),
-        namespace=walker.value(launch_object, -1, "namespace", "node_namespace"),
+        name=walker.value(launch_object, -1, "name", "node_name", absent=""),
+        namespace=walker.value(launch_object, -1, "namespace", "node_namespace", absent=""),
         parameters=_parameters(walker, launch_object),
         remappings=_remappings(walker, launch_object),
         conditions=conditions,
@@ -183,15 +183,21 @@ def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) ->
         result += [
             (word, walker.text(plain(value), at, launch_object.source)) for (word, value), at in zip(pairs, places, strict=True)
         ]
-    single_values = [(name, value) for name in ("prefix", "cwd") if (value := walker.value(launch_object, -1, name)) is not None]
-    return (*result, *single_values)
+    given = [name for name in ("prefix", "cwd") if name in launch_object.keywords]
+    single_values = [(name, walker.value(launch_object, -1, name)) for name in given]
+    return (*result, *[(name, value) for name, value in single_values if value is not None])
 
 
 def _parameters(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[str, LaunchValue], ...]:
     result: list[tuple[str, LaunchValue]] = []
+    if launch_object.may_hide("parameters"):
+        return ((UNKNOWN, walker.unknown(launch_object)),)
     if "parameters" not in launch_object.keywords:
         return ()
-    entries = items(walker.machine, launch_object.keywords["parameters"]) or [launch_object.keywords["parameters"]]
+    parameters_value = launch_object.keywords["parameters"]
+    entries = items(walker.machine, parameters_value)
+    if entries is None:
+        entries = [parameters_value]
     for entry, node in zip(entries, _elements(launch_object.written(-1, "parameters"), len(entries)), strict=True):
         for alternative in alternatives(entry):
             parameters = _parameter(walker, alternative.value, node, launch_object)
@@ -258,7 +264,9 @@ def _key(key: Value) -> str:
 
 def _remappings(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[LaunchValue, LaunchValue], ...]:
     result: list[tuple[LaunchValue, LaunchValue]] = []
-    if "remappings" in launch_object.keywords:
+    if launch_object.may_hide("remappings"):
+        result.append((walker.unknown(launch_object), walker.unknown(launch_object)))
+    elif "remappings" in launch_object.keywords:
         node = launch_object.written(-1, "remappings")
         for pair in items(walker.machine, launch_object.keywords["remappings"]) or ():
             choices = [(items(walker.machine, alternative.value), alternative) for alternative in alternatives(pair)]

@@ -25,6 +25,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Written,
     alternatives,
     plain,
+    union,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, installed
 from ros_lint.facts.launch import LaunchAction, LaunchValue
@@ -36,6 +37,12 @@ if TYPE_CHECKING:
 
 _MAX_DEPTH = 60
 _MAX_ACTIONS = 5_000
+
+
+def _with_text_for_none(value: Guarded | Union, text: str) -> Value:
+    """Return a value with ``text`` in place of each alternative that is None."""
+    parts = alternatives(value)
+    return union(Guarded(text, part.conditions) if part.value is None else part for part in parts)
 
 
 def span_of(node: python_syntax.Node, source: Source) -> Span:
@@ -167,10 +174,22 @@ class Walker:
             self._stopped = True
             self.unknown_launches.append((reason, at or file_start(self._source.text.path)))
 
-    def value(self, launch_object: LaunchObject, position: int, *names: str) -> LaunchValue | None:
-        """Return the possible texts of an argument of a launch object, None if the argument is missing."""
+    def value(self, launch_object: LaunchObject, position: int, *names: str, absent: str = UNKNOWN) -> LaunchValue | None:
+        """Return the possible texts of an argument of a launch object, None if the argument is missing.
+
+        An argument that unknown ``**keywords`` may contain has the text UNKNOWN. ``absent`` is the text of an alternative that
+        is None, as in ``name="a" if condition else None``.
+        """
         argument = launch_object.get(position, *names)
-        return None if argument is None else self.text(argument, launch_object.written(position, *names), launch_object.source)
+        if argument is None:
+            return self.unknown(launch_object) if launch_object.may_hide(*names) else None
+        if isinstance(argument, (Guarded, Union)):
+            argument = _with_text_for_none(argument, absent)
+        return self.text(argument, launch_object.written(position, *names), launch_object.source)
+
+    def unknown(self, launch_object: LaunchObject) -> LaunchValue:
+        """Return the value of an argument of a launch object if nothing is known about it."""
+        return LaunchValue((UNKNOWN,), place_of(launch_object))
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return the possible texts of a value, with the span of the literal that the value comes from, else of ``node``."""

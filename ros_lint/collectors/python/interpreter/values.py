@@ -184,6 +184,10 @@ class LaunchObject:
                 return self.keywords[name]
         return self.arguments[position] if 0 <= position < len(self.arguments) else None
 
+    def may_hide(self, *names: str) -> bool:
+        """Return whether unknown ``**keywords`` may contain the argument with one of ``names``, because it is not given."""
+        return UNKNOWN in self.keywords and self.keywords.keys().isdisjoint(names)
+
     def written(self, position: int, *names: str) -> ast.expr:
         """Return the expression of the argument with a position or one of ``names``, the call itself if it is missing."""
         return argument_of(self.node, position, *names)
