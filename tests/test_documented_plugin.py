@@ -97,12 +97,29 @@ def test_the_first_example_of_the_page_of_the_api(tmp_path: Path) -> None:
     assert list(differences(case, example("api.md", "boost")["RULE"])) == []
 
 
-def test_the_examples_about_launch_files() -> None:
-    node = 'Node(package="a", executable="b")'
-    text = f"from launch_ros.actions import Node\ndef generate_launch_description():\n    return [{node}]\n"
-    tree = MemoryTree({"a/package.xml": manifest_text("a"), "a/a.launch.py": text})
+@pytest.mark.parametrize(
+    ("name", "text", "expected"),
+    [
+        (
+            "a.launch.py",
+            "from launch_ros.actions import Node\ndef generate_launch_description():\n"
+            '    return [Node(package="a", executable="b")]\n',
+            '[Node(package="a", executable="b", output="screen")]',
+        ),
+        ("a.launch.xml", '<launch>\n  <node pkg="a" exec="b"/>\n</launch>\n', '<node pkg="a" exec="b" output="screen"/>'),
+        (
+            "a.launch.yaml",
+            "launch:\n  - node:\n      pkg: a\n      exec: b\n",
+            "  - node:\n      pkg: a\n      output: screen\n      exec: b\n",
+        ),
+        ("b.launch.yaml", "launch:\n  - node: {pkg: a, exec: b}\n", ""),
+    ],
+)
+def test_the_examples_about_launch_files(name: str, text: str, expected: str) -> None:
+    tree = MemoryTree({"a/package.xml": manifest_text("a"), f"a/{name}": text})
     ((file,),) = [package.launch for package in Loader(tree, ("",), TargetDistro("jazzy", "test")).load().packages]
     assert example("writing-a-rule.md", "def executables")["executables"](file) == ["b"]
-    fix = example("writing-a-rule.md", "def set_output")["set_output"](file.actions[0])
-    changed = edits.apply([fix], lambda path: edits.text_of(tree, path))
-    assert 'Node(package="a", executable="b", output="screen")' in changed["a/a.launch.py"]
+    fix = example("writing-a-rule.md", "def set_output")["set_output"](file, file.actions[0])
+    changed = edits.apply([fix], lambda path: edits.text_of(tree, path))[f"a/{name}"] if fix else ""
+    assert expected in changed
+    assert bool(changed) == bool(expected)

@@ -158,6 +158,11 @@ def _add_rule(parser: argparse.ArgumentParser) -> None:
     _add_rules(parser)
 
 
+def _add_new_rule(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("name", metavar="NAME", help="name of the rule and of the folder, such as acme-old-name")
+    parser.add_argument("--code", metavar="CODE", help="code of the rule (default: the first word of its name and 001: ACME001)")
+
+
 def _add_completion(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("shell", choices=("bash", "zsh", "fish", "tcsh"))
 
@@ -173,6 +178,7 @@ _ADDERS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "index": _add_index,
     "rules": _add_rules,
     "rule": _add_rule,
+    "new-rule": _add_new_rule,
     "schema": lambda _: None,
     "completion": _add_completion,
 }

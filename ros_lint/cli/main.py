@@ -97,6 +97,10 @@ def _run_command(command: str, options: dict[str, object]) -> int:
         from ros_lint.cli.commands import index  # noqa: PLC0415
 
         return index.run(options)
+    if command == "new-rule":
+        from ros_lint.cli.commands import new_rule  # noqa: PLC0415
+
+        return new_rule.run(options)
     if command == "check":
         from ros_lint.cli.commands import check  # noqa: PLC0415
 

@@ -115,6 +115,7 @@ COMMANDS = {
     "overlay": "show packages that exist in several layers, and which layer wins",
     "rules": "list the rules",
     "rule": "explain a rule",
+    "new-rule": "write a plugin with a new rule, its cases and its tests into a new folder",
     "index": "rebuild or extend the index of released packages",
     "schema": "print the JSON schema of the configuration file",
     "completion": "print the completion script for a shell",

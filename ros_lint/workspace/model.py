@@ -81,7 +81,10 @@ class Package(NamedTuple):
     script: BuildScript | None
     """The evaluated CMakeLists.txt or setup.py; None if there is none."""
     launch: tuple[LaunchFile, ...]
-    """Launch files of the package, whether they are installed or not."""
+    """All launch files of the package: also tests, examples, helper modules and files that are not installed.
+
+    ``launch.package_launch_files`` yields those that users launch.
+    """
     uses: tuple[Use, ...]
     """Places in the sources, launch files and build script that need another package.
 
@@ -224,7 +227,10 @@ class Workspace:
         self.packages = packages
         """The packages that colcon finds, sorted by path; two may have the same name."""
         self.unusable = unusable
-        """Folders with a ``package.xml`` in which colcon finds no package, named as in the manifest."""
+        """Folders with a ``package.xml`` in which colcon finds no package, named as in the manifest.
+
+        For example, the manifest is rejected. Rules are not called for them, and ``packages`` and ``by_name`` lack them.
+        """
         self.world = world
         """Look-ups of names in the workspace, in underlays and among released packages."""
         self.target = target

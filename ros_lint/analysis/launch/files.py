@@ -35,7 +35,7 @@ class PackageLaunchFile(NamedTuple):
 def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[PackageLaunchFile]:
     """Yield the launch files of a package that users launch. ``apart`` adds the launch files of tests and examples.
 
-    Python modules without generate_launch_description() are left out.
+    Python modules without generate_launch_description() are left out. ``Package.launch`` contains all launch files.
     """
     if not package.launch:  # true for most packages, and many rules call this
         return
