@@ -13,7 +13,7 @@ A file of cases is named after its rule. Each ``##`` heading begins a case, whic
 - A block ``output`` is the expected output for the case, a block ``diff`` the expected changes of its fixes. Both are compared
   exactly; ``pytest --bless`` rewrites them.
 - A block ``toml`` without a path has settings:
-  ``distro = "humble"``: the distribution, by default jazzy; ``chosen = false``: the user did not choose it;
+  ``distro = "humble"``: the distribution, by default jazzy; a list has several; ``chosen = false``: the user did not choose it;
   ``executable = ["scripts/a.py"]``: files with the executable bit;
   ``underlay = "opt"``: a folder of the case that is an underlay. It needs a file COLCON_IGNORE.
 """
@@ -34,8 +34,9 @@ from ros_lint.engine import edits, registry
 from ros_lint.engine.explanations import without_explained
 from ros_lint.engine.report import Issue
 from ros_lint.engine.run import find_issues
+from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.underlays import in_tree
-from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.loader import DistroData, Loader
 from ros_lint.workspace.target import TargetDistro
 
 FENCE = re.compile(
@@ -79,7 +80,8 @@ class Case(NamedTuple):
     files: Mapping[str, str]
     output: str | None
     diff: str | None
-    distro: str
+    distros: tuple[str, ...]
+    """The distributions to check for."""
     chosen: bool
     """True if the user chose the distribution."""
     executable: frozenset[str]
@@ -111,13 +113,14 @@ def read_cases(source: Path) -> Iterator[Case]:
             else:
                 extra[match["kind"]] = match["body"]
         settings = _settings(extra.get("toml", ""))
+        distro = settings.pop("distro", "jazzy")
         yield Case(
             title,
             source,
             files,
             extra.get("output"),
             extra.get("diff"),
-            settings.pop("distro", "jazzy"),
+            (distro,) if isinstance(distro, str) else tuple(distro),
             settings.pop("chosen", True),
             frozenset(settings.pop("executable", [])),
             settings.pop("underlay", ""),
@@ -152,18 +155,28 @@ def manifest(header: re.Match[str]) -> tuple[str, str]:
     return ("package.xml" if folder == "." else f"{folder}/package.xml"), "\n".join(lines)
 
 
+def loader_of(tree: Tree, case: Case) -> Loader:
+    """Return a loader of the workspace of a case, which is read from ``tree``."""
+    first, *others = [_distro_data(tree, case, distro) for distro in case.distros]
+    return Loader(tree, ("",), first.target, knowledge=first.knowledge, underlays=first.underlays, others=others)
+
+
+def _distro_data(tree: Tree, case: Case, distro: str) -> DistroData:
+    others = tuple(other for other in case.distros if other != distro)
+    target = TargetDistro(distro, "--distro" if case.chosen else "default", case.chosen, others)
+    return DistroData(target, Knowledge(distro), (in_tree(tree, case.underlay, distro),) if case.underlay else ())
+
+
 def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
     """Return the findings of a rule in the workspace of a case, which is read from ``tree``.
 
     Only this rule runs, except for a rule about suppressions, which needs the findings of all rules. Raises AssertionError
     with the traceback if a rule crashes.
     """
-    target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
-    underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
-    loader = Loader(tree, ("",), target, underlays=underlays)
+    loader = loader_of(tree, case)
     all_rules = registry.load()
     rules = all_rules if rule.suppressions else (rule,)
-    checked = find_issues(loader.load(), rules, loader.suppressions(), all_rules)
+    checked = find_issues(loader.load_all(), rules, loader.suppressions(), all_rules)
     if checked.crashes:
         raise AssertionError(checked.crashes[0].traceback)
     return without_explained([issue for issue in checked.issues if issue.rule is rule])

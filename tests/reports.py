@@ -6,6 +6,7 @@ from ros_lint.analysis.finding import Confidence, Finding, Fix, Related, Severit
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text, read
+from ros_lint.engine.merge import merge
 from ros_lint.engine.report import OFF, UNSURE, BlindSpot, Crash, HiddenCount, Issue, Report
 from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
@@ -198,4 +199,14 @@ CLEAN = Report((), RULES, 1, TargetDistro("humble", "--distro"), "2026-11-01", "
 NOTHING = CLEAN._replace(packages=0)
 SOUND = EVERYTHING._replace(issues=tuple(issue for issue in ISSUES if issue.finding.span.path != "ws/gone"))
 """Without a finding about a file that is not there."""
-REPORTS = {"everything": EVERYTHING, "clean": CLEAN, "nothing": NOTHING, "sound": SOUND}
+SEVERAL = CLEAN._replace(
+    issues=merge(
+        [
+            ("humble", ISSUES[:3]),
+            ("jazzy", (ISSUES[0], ISSUES[2]._replace(finding=ISSUES[2].finding._replace(message="another message")))),
+        ]
+    ),
+    target=TargetDistro("humble", "--distro", others=("jazzy",)),
+)
+"""A report for two distributions."""
+REPORTS = {"everything": EVERYTHING, "clean": CLEAN, "nothing": NOTHING, "sound": SOUND, "several": SEVERAL}

@@ -45,8 +45,8 @@ def workspace(distro: str, *, told: bool) -> Workspace:
             " (not in jazzy, only in kilted, lyrical, rolling)",
             " (not in jazzy, only in kilted, lyrical, rolling)",
         ),
-        ("acme_core", " (no distribution has it)", " (no distribution has it)"),
-        ("ros1_bridge", " (no distribution has it)", " (no distribution has it)"),
+        ("acme_core", " (not released in any active distribution)", " (not released in any active distribution)"),
+        ("ros1_bridge", " (not released in any active distribution)", " (not released in any active distribution)"),
     ],
 )
 def test_a_name_resolves_where_it_is_stated_or_everywhere(name: str, stated: str, assumed: str) -> None:

@@ -1,130 +1,89 @@
-"""A file of the cache folder never runs code, whatever it contains; at most the run is slow."""
+"""A file of the cache folder never runs code, whatever it contains; at most the run is slow and says why."""
 
 from __future__ import annotations
 
-import builtins
-import operator
+import errno
 import os
 import pickle
+import signal
+import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from importlib import import_module
+import time
+from collections.abc import Callable
 from pathlib import Path
-from pkgutil import walk_packages
-from types import ModuleType
 from typing import Any, NamedTuple
 
 import pytest
 
-import ros_lint
-from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.base import files
-from ros_lint.base.sealed import Sealed
+from ros_lint.base.columns import Codec
 from ros_lint.base.text import Span, file_start
-from ros_lint.facts.visibility import Facet, Opaque
-from ros_lint.workspace import cache_files
+from ros_lint.workspace.cache import folder, layout
+from ros_lint.workspace.cache.file import CacheFile
 
-ATTRIBUTES = ("__dict__", "__class__", "__setstate__", "__call__", "__new__", "__doc__", "anything")
-
-
-def modules() -> list[ModuleType]:
-    ours = [
-        modules_found.name
-        for modules_found in walk_packages(ros_lint.__path__, "ros_lint.")
-        if not modules_found.name.endswith("__main__")
-    ]
-    return [*map(import_module, ours), ros_lint, builtins, operator, os, pickle, sys]
-
-
-def names(module: ModuleType) -> Iterator[str]:
-    """Yield every name that a pickle can request from a module, with the dotted names of protocol 4."""
-    for name in {*vars(module), *dir(module), "", ".", "nothing"}:
-        yield name
-        yield from (f"{name}.{attribute}" for attribute in dir(getattr(module, name, None)))
-
-
-def test_unpickling_can_create_only_facts() -> None:
-    reached_names: set[tuple[str, str]] = set()
-    for module in modules():
-        for name in names(module):
-            try:
-                created = cache_files.maker(module.__name__, name)
-            except LookupError:
-                continue
-            reached_names.add((module.__name__, name))
-            assert not isinstance(created, type), name
-            modules_found = getattr(module, name)
-            assert (modules_found.__module__, modules_found.__qualname__) == (module.__name__, name)
-            assert issubclass(modules_found, tuple | Sealed), name
-            # An object takes no state: it has none, or refuses it. No opcode calls a method of it.
-            assert issubclass(modules_found, Sealed) or modules_found.__dictoffset__ == 0, name
-            assert not any(hasattr(modules_found, method) for method in ("append", "extend", "add", "__setitem__")), name
-            for attribute in ATTRIBUTES:
-                with pytest.raises((AttributeError, TypeError)):
-                    setattr(created, attribute, tuple)
-    assert {
-        ("ros_lint.engine.report", "Report"),
-        ("ros_lint.facts.visibility", "Opaque"),
-        ("ros_lint.analysis.finding", "Severity"),
-    } <= reached_names
-    assert {module for module, _ in reached_names} == set(cache_files.MODULES)
-
-
-def test_all_classes_of_facts_can_be_cached() -> None:
-    for module in cache_files.MODULES:
-        for modules_found in cache_files.classes(module).values():
-            assert cache_files.maker(module, modules_found.__qualname__)
-    assert {Facet, Opaque, Severity, Confidence, Span} <= set(cache_files._reducers())
-
-
-def write(path: Path, pickled: bytes, state: str = "state") -> None:
-    path.write_bytes(cache_files._head(state, pickled) + b"\n" + pickled)
-
-
-def text(value: str) -> bytes:
-    return b"X" + len(value.encode()).to_bytes(4, "little") + value.encode()
-
-
-SPAN = b"cros_lint.base.text\nSpan\n(" + text("a") + b"K\x01K\x01K\x01K\x01tR"
-MEMBER = b"cros_lint.analysis.finding\nSeverity\nK\x03\x85R"
-CLASS = b"cros_lint.analysis.finding\nSeverity\n"
-STATE = b"}" + text("_value_") + b"K\x01s"
-SLOTS = b"N}" + text("__doc__") + b"K\x01s\x86"
-
-
-@pytest.mark.parametrize("state", [STATE, SLOTS], ids=["state", "slots"])
-@pytest.mark.parametrize(
-    "of", [SPAN, MEMBER, CLASS, b"cros_lint.base.text\nSpan\n"], ids=["fact", "member", "enumeration", "class"]
-)
-def test_no_cached_object_accepts_a_pickled_state(tmp_path: Path, of: bytes, state: bytes) -> None:
-    content = [dict(vars(modules_found)) for modules_found in (Span, Severity, Severity.ERROR)]
-    write(tmp_path / "kept", of + b".")
-    assert cache_files.load(str(tmp_path / "kept"), "state") is not None
-    write(tmp_path / "kept", of + state + b"b.")
-    assert cache_files.load(str(tmp_path / "kept"), "state") is None
-    assert [dict(vars(modules_found)) for modules_found in (Span, Severity, Severity.ERROR)] == content
-
-
-KEPT = (file_start("a"), Facet.USES | Facet.SHARE, Severity.ERROR, {"b": [1, "c"]})
+CODEC: Codec[tuple[Span, ...]] = Codec(tuple[Span, ...])
+SPANS = (file_start("a"), Span("b", 1, 2, 3, 4))
 
 
 class Place(NamedTuple):
-    """Create a cache folder with a readable file."""
+    """A cache folder with the file of a workspace."""
 
     folder: Path
-    file: Path
+    workspace: Path
+
+    @property
+    def cache(self) -> CacheFile:
+        return CacheFile(str(self.folder), str(self.workspace))
+
+    @property
+    def file(self) -> Path:
+        return Path(self.cache._path)
+
+    def read(self) -> tuple[dict[str, Any], str]:
+        """Return the spans by name and the notes."""
+        cache = self.cache
+        return cache.read(lambda name: name != folder.WORKSPACE, CODEC), "\n".join(cache.notes)
+
+    def write(self, name: str = "spans", spans: tuple[Span, ...] = SPANS, obsolete: tuple[str, ...] = ()) -> str:
+        """Write spans and return the notes."""
+        cache = self.cache
+        cache.write({name: spans}, CODEC, lambda names: obsolete)
+        return "\n".join(cache.notes)
 
 
 @pytest.fixture
 def place(tmp_path: Path) -> Place:
-    file = tmp_path / "cache" / "kept"
-    assert cache_files.save(str(file), "state", KEPT)
-    assert cache_files.load(str(file), "state") == KEPT
-    assert cache_files.load(str(file), "another state") is None
-    return Place(file.parent, file)
+    (tmp_path / "ws").mkdir()
+    result = Place(tmp_path / "cache", tmp_path / "ws")
+    assert result.read() == ({}, "")
+    assert result.write() == ""
+    assert result.read() == ({"spans": SPANS}, "")
+    return result
 
 
-def _link(place: Place) -> None:
+def test_records_are_added_replaced_and_removed(place: Place) -> None:
+    place.write("other", ())
+    place.write("spans", SPANS[:1])
+    assert list(place.read()[0].items()) == [("other", ()), ("spans", SPANS[:1])]
+    place.write("third", obsolete=("other", "absent"))
+    assert list(place.read()[0]) == ["spans", "third"]
+    assert place.file.stat().st_mode & 0o777 == 0o600
+    assert place.folder.stat().st_mode & 0o777 == 0o700
+    assert CacheFile("", "").read(lambda name: True, CODEC) == {}
+
+
+def test_each_workspace_and_installation_has_a_file(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert CacheFile(str(place.folder), str(place.folder)).read(lambda name: True, CODEC) == {}
+    (place.folder.parent / "link").symlink_to(place.workspace)
+    assert CacheFile(str(place.folder), str(place.folder.parent / "link"))._path == str(place.file)
+    monkeypatch.setattr("ros_lint.workspace.cache.file.__version__", "99.0")
+    assert place.read() == ({}, "")
+    place.write("new")
+    monkeypatch.undo()
+    assert place.read() == ({"spans": SPANS}, "")
+
+
+def _move_and_link(place: Place) -> None:
     place.file.rename(place.folder / "elsewhere")
     place.file.symlink_to("elsewhere")
 
@@ -134,46 +93,94 @@ def _fifo(place: Place) -> None:
     os.mkfifo(place.file)
 
 
-def _flip(place: Place) -> None:
-    data = bytearray(place.file.read_bytes())
-    data[-3] ^= 1
-    place.file.write_bytes(data)
+def _directory(place: Place) -> None:
+    place.file.unlink()
+    place.file.mkdir()
 
 
-NOT_READ: dict[str, Callable[[Place], object]] = {
-    "a file that all can write": lambda place: place.file.chmod(0o666),
-    "a file that the group can write": lambda place: place.file.chmod(0o620),
-    "a link": _link,
-    "a FIFO": _fifo,
-    "a folder": lambda place: (place.file.unlink(), place.file.mkdir()),
-    "a byte that changed": _flip,
-    "a file that was cut": lambda place: place.file.write_bytes(place.file.read_bytes()[:-2]),
-    "an empty file": lambda place: place.file.write_bytes(b""),
-}
+def _flip(at: int) -> Callable[[Place], object]:
+    def change(place: Place) -> None:
+        data = bytearray(place.file.read_bytes())
+        data[at] ^= 1
+        place.file.write_bytes(data)
+
+    return change
 
 
-@pytest.mark.parametrize("change", NOT_READ.values(), ids=NOT_READ)
-def test_damaged_and_foreign_files_are_not_read(place: Place, change: Callable[[Place], object]) -> None:
+def _contents(data: bytes) -> Callable[[Place], object]:
+    return lambda place: place.file.write_bytes(data)
+
+
+def _record(data: bytes) -> Callable[[Place], object]:
+    """Plant a record with a correct checksum."""
+    return lambda place: place.file.write_bytes(layout._pack({"spans": data}))
+
+
+class Planted:
+    def __reduce__(self) -> tuple[Any, ...]:
+        return os.mkdir, ("planted",)
+
+
+UNUSABLE: dict[str, tuple[Callable[[Place], object], str]] = {
+    "a file that all can write": (lambda place: place.file.chmod(0o666), "another user owns the file or can write to it"),
+    "a file that the group can write": (lambda place: place.file.chmod(0o620), "another user owns the file or can write to it"),
+    "a file that cannot be read": (_directory, "Is a directory"),
+    "a link": (_move_and_link, "Too many levels of symbolic links"),
+    "a broken link": (lambda place: (place.file.unlink(), place.file.symlink_to("gone")), "Too many levels of symbolic links"),
+    "a hard link": (lambda place: (place.folder / "other").hardlink_to(place.file), "the file has further hard links"),
+    "a FIFO": (_fifo, "not a regular file"),
+    "a changed byte in a record": (_flip(-3), "damaged"),
+    "a changed byte in the index": (_flip(40), "not a cache file, or damaged"),
+    "a changed byte in the head": (_flip(3), "not a cache file, or damaged"),
+    "a file that was cut": (lambda place: place.file.write_bytes(place.file.read_bytes()[:-2]), "damaged"),
+    "a file that was cut early": (lambda place: place.file.write_bytes(place.file.read_bytes()[:30]), "damaged"),
+    "an empty file": (_contents(b""), "not a cache file, or damaged"),
+    "zeros": (_contents(bytes(5000)), "not a cache file, or damaged"),
+    "a pickle": (_contents(pickle.dumps(Planted())), "not a cache file, or damaged"),
+    "a pickle in a record": (_record(pickle.dumps(Planted())), "damaged"),
+    "a record of another type": (_record(Codec(tuple[str, ...]).encode(("a", "b"))), "damaged"),
+    "an index without an end": (_contents(b"ros-lint cache 1 999999999999 0\n"), "not a cache file, or damaged"),
+    "a record without an end": (
+        _contents(layout._pack({"spans": b""}).replace(b"spans 0", b"spans 9")), "not a cache file, or damaged"
+    ),
+    "huge numbers": (_contents(b"ros-lint cache 1 " + b"9" * 5000), "not a cache file, or damaged"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("change", "reason"), UNUSABLE.values(), ids=UNUSABLE)
+def test_files_that_cannot_be_trusted_are_not_used(
+    place: Place, monkeypatch: pytest.MonkeyPatch, change: Callable[[Place], object], reason: str
+) -> None:
+    monkeypatch.chdir(place.workspace)
     change(place)
-    assert cache_files.load(str(place.file), "state") is None
-    if not place.file.is_dir():
-        assert cache_files.save(str(place.file), "state", KEPT)  # the next run is a fast one
-        assert cache_files.load(str(place.file), "state") == KEPT
+    read, note = place.read()
+    assert read == {}
+    assert note.startswith(f"the cached results are not used, so this run is slower: '{place.file}': ")
+    assert note.endswith(reason)
+    if place.file.is_dir():
+        assert place.write() == f"the results are not cached, so the next run is slower: '{place.file}': Is a directory"
+    else:
+        assert place.write() == ""  # the next run is a fast one
+        assert place.read() == ({"spans": SPANS}, "")
+    assert not any(path.name.endswith(".tmp") for path in place.folder.iterdir())
+    assert list(place.workspace.iterdir()) == []
 
 
-def test_large_files_are_not_read(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache_files, "_MAX_BYTES", place.file.stat().st_size - 1)
-    assert cache_files.load(str(place.file), "state") is None
-    other_file = place.folder / "other"
-    assert not cache_files.save(str(other_file), "state", KEPT)  # it could not be read again
-    assert [path.name for path in place.folder.iterdir()] == ["kept"]
+def test_large_files_are_neither_read_nor_written(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(layout, "MOST_BYTES", place.file.stat().st_size - 1)
+    assert "is more than the limit of" in place.read()[1]
+    before = place.file.read_bytes()
+    assert "is more than the limit of" in place.write("spans", SPANS * 9)
+    assert place.file.read_bytes() == before
 
 
-def untouched(place: Place, path: Path) -> bool:
+def untouched(place: Place, at: Path) -> bool:
     """Return whether a file is neither read nor written, and no other file is written next to it."""
     content = {file: file.read_bytes() for file in place.folder.iterdir()}
-    assert cache_files.load(str(path), "state") is None
-    assert not cache_files.save(str(path), "state", ("other",))
+    cache = CacheFile(str(at), str(place.workspace))
+    assert cache.read(lambda name: True, CODEC) == {}
+    cache.write({"spans": ()}, CODEC, lambda names: ())
+    assert [note.rpartition(": ")[2] for note in cache.notes] == ["another user owns the folder or can write to it"] * 2
     return content == {file: file.read_bytes() for file in place.folder.iterdir()}
 
 
@@ -181,21 +188,21 @@ def untouched(place: Place, path: Path) -> bool:
 def test_folders_that_others_can_write_are_not_used(place: Place, tmp_path: Path, mode: int) -> None:
     place.folder.chmod(mode)
     (tmp_path / "link").symlink_to(place.folder)
-    assert untouched(place, place.file)
-    assert untouched(place, tmp_path / "link" / "kept")
+    assert untouched(place, place.folder)
+    assert untouched(place, tmp_path / "link")
 
 
 def test_a_link_to_a_folder_of_the_user_is_followed(place: Place, tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(place.folder)
-    assert cache_files.load(str(tmp_path / "link" / "kept"), "state") == KEPT
+    assert place._replace(folder=tmp_path / "link").read() == ({"spans": SPANS}, "")
 
 
 def test_folders_of_another_user_are_not_used(place: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "link").symlink_to(place.folder)
-    other_file = os.geteuid() + 1
-    monkeypatch.setattr(os, "geteuid", lambda: other_file)
-    assert untouched(place, place.file)
-    assert untouched(place, tmp_path / "link" / "kept")
+    other_user = os.geteuid() + 1
+    monkeypatch.setattr(os, "geteuid", lambda: other_user)
+    assert untouched(place, place.folder)
+    assert untouched(place, tmp_path / "link")
 
 
 def test_a_link_of_another_user_is_not_followed(place: Place, tmp_path: Path) -> None:
@@ -203,29 +210,141 @@ def test_a_link_of_another_user_is_not_followed(place: Place, tmp_path: Path) ->
         pytest.skip("only root can give a link to another user")
     (tmp_path / "link").symlink_to(place.folder)
     os.lchown(tmp_path / "link", 65534, 65534)
-    assert untouched(place, tmp_path / "link" / "kept")
+    assert untouched(place, tmp_path / "link")
 
 
 def test_a_file_of_another_user_is_not_read_and_is_replaced(place: Place) -> None:
     if os.geteuid():
         pytest.skip("only root can give a file to another user")
     os.chown(place.file, 65534, 65534)
-    assert cache_files.load(str(place.file), "state") is None
-    assert cache_files.save(str(place.file), "state", KEPT)
-    assert cache_files.load(str(place.file), "state") == KEPT
+    assert "another user owns the file" in place.read()[1]
+    assert place.write() == ""
+    assert place.read() == ({"spans": SPANS}, "")
 
 
-def test_a_failed_write_leaves_no_file(place: Place) -> None:
-    deep: Any = ()
-    for _ in range(100_000):
-        deep = (deep,)
-    for value in (deep, lambda: None):
-        assert not cache_files.save(str(place.file), "state", value)
-        assert [path.name for path in place.folder.iterdir()] == ["kept"]
-    assert cache_files.load(str(place.file), "state") == KEPT
+def test_a_failed_write_leaves_the_file_as_it_was(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device", str(place.file))
+
+    wrong: Any = ("no span",)
+    assert place.write("spans", wrong).startswith("the results are not cached, so the next run is slower: ")
+    monkeypatch.setattr(os, "replace", fail)
+    assert place.write("spans", ()).endswith(f"'{place.file}': No space left on device")
+    assert [path.name for path in place.folder.iterdir()] == [place.file.name]
+    assert place.read() == ({"spans": SPANS}, "")
 
 
-def test_files_above_the_size_limit_are_not_written(tmp_path: Path) -> None:
+def test_a_full_disk_leaves_the_file_as_it_was(place: Place) -> None:
+    resource = pytest.importorskip("resource")
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
+        note = place.write("spans", tuple(file_start(f"a{number}") for number in range(5000)))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, ignored)
+    assert "File too large" in note
+    assert [path.name for path in place.folder.iterdir()] == [place.file.name]
+    assert place.read() == ({"spans": SPANS}, "")
+
+
+def test_a_folder_that_cannot_be_created_is_noted(place: Place) -> None:
+    cache = CacheFile(f"{place.file}/below", str(place.workspace))
+    assert cache.read(lambda name: True, CODEC) == {}
+    cache.write({}, CODEC, lambda names: ())
+    assert cache.notes[-1].startswith(f"the results are not cached, so the next run is slower: '{place.file}")
+
+
+WRITE_FOREVER = """
+import sys
+from ros_lint.base.columns import Codec
+from ros_lint.base.text import Span, file_start
+from ros_lint.workspace.cache.file import CacheFile
+spans = tuple(file_start(f"{sys.argv[3]}{n}") for n in range(2000))
+number = 0
+while True:
+    cache = CacheFile(sys.argv[1], sys.argv[2])
+    cache.write({f"{sys.argv[3]}-{number % 3}": spans}, Codec(tuple[Span, ...]), lambda names: ())
+    cache.read(lambda name: name[0] == sys.argv[3], Codec(tuple[Span, ...]))
+    if cache.notes:
+        sys.exit(str(cache.notes))
+    if not number:
+        print("started", flush=True)
+    number += 1
+"""
+
+
+@pytest.mark.slow
+def test_concurrent_writers_and_killed_ones_leave_a_usable_file(place: Place) -> None:
+    command = [sys.executable, "-c", WRITE_FOREVER, str(place.folder), str(place.workspace)]
+    for _ in range(4):
+        writers = [subprocess.Popen([*command, name], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for name in "ab"]
+        for writer in writers:
+            assert writer.stdout is not None
+            assert writer.stdout.readline() == "started\n"
+        end = time.monotonic() + 0.4
+        while time.monotonic() < end:
+            read, note = place.read()
+            assert note == ""
+            assert {len(spans) for spans in read.values()} <= {2, 2000}
+        assert [writer.poll() for writer in writers] == [None, None]
+        for writer in writers:
+            writer.kill()
+            writer.communicate()
+    place.write()
+    assert place.read()[0]["spans"] == SPANS
+
+
+def test_temporary_files_of_killed_processes_are_removed(place: Place) -> None:
+    abandoned, current = place.folder / "a.cache.5-1.tmp", place.folder / "a.cache.5-2.tmp"
+    for path in (abandoned, current):
+        path.write_bytes(b"")
+    os.utime(abandoned, (time.time() - 7200,) * 2)
+    place.write()
+    assert (abandoned.exists(), current.exists()) == (False, True)
+
+
+def others(place: Place, *ages: float) -> list[Path]:
+    """Create files of further workspaces that were used some days ago."""
+    result = []
+    for number, age in enumerate(ages):
+        workspace = place.workspace.parent / f"ws{number}"
+        workspace.mkdir()
+        cache = CacheFile(str(place.folder), str(workspace))
+        cache.write({"spans": SPANS}, CODEC, lambda names: ())
+        os.utime(cache._path, (time.time() - age * 86400,) * 2)
+        result.append(Path(cache._path))
+    return result
+
+
+def test_unused_files_are_removed(place: Place) -> None:
+    recent, old, read = others(place, 80, 100, 100)
+    CacheFile(str(place.folder), str(place.workspace.parent / "ws2")).read(lambda name: True, CODEC)
+    place.write()
+    assert (recent.exists(), old.exists(), read.exists()) == (True, False, True)
+
+
+def test_the_folder_stays_below_its_size_limit(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    older, newer = others(place, 5, 3)
+    size = place.file.stat().st_size
+    os.utime(place.file, (0, 0))
+    monkeypatch.setattr(folder, "MOST_BYTES", 2 * size + 40)
+    place.write()
+    assert (older.exists(), newer.exists(), place.file.exists()) == (False, True, True)
+
+
+def test_files_of_workspaces_that_are_gone_are_removed_when_a_workspace_is_added(place: Place) -> None:
+    gone, existing = others(place, 1, 1)
+    (place.workspace.parent / "ws0").rmdir()
+    place.write()
+    assert gone.exists()
+    place.file.unlink()
+    place.write()
+    assert (gone.exists(), existing.exists()) == (False, True)
+
+
+def test_files_above_the_size_limit_are_not_read(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"12345")
     assert files.read(str(tmp_path / "a"), 5) == b"12345"
     with pytest.raises(OSError, match="is more than the limit of 1 KB"):

@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 
 from ros_lint.base.tree import DiskTree
+from ros_lint.workspace.cache.facts import FactCache
+from ros_lint.workspace.cache.file import NO_CACHE
 from ros_lint.workspace.collect import collect_all
-from ros_lint.workspace.fact_cache import FactCache
 
 
 class Pool:
@@ -55,6 +56,6 @@ def test_at_most_one_process_per_core_is_used(
     names = [f"{number}.cpp" for number in range(files)]
     for name in names:
         (tmp_path / name).write_text("#include <a/b.hpp>\n")
-    collected = collect_all(DiskTree(str(tmp_path)), names, jobs, FactCache("", ""), lambda finished: None)
+    collected = collect_all(DiskTree(str(tmp_path)), names, jobs, FactCache(NO_CACHE), lambda finished: None)
     assert list(collected) == names
     assert (Pool.requested or [1]) == [processes]

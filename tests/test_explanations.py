@@ -125,3 +125,18 @@ def test_a_wrong_name_explains_that_it_is_unused(declared: str, cause: str) -> N
     (issue,) = without_explained(issues)
     assert issue.rule.name == cause
     assert [explained.rule for explained in issue.explained] == ["unused-dependency"]
+
+
+def test_an_unused_find_package_explains_that_its_tag_does_not_cover_the_export() -> None:
+    files = {
+        "arm/package.xml": manifest().replace("<export>", "<build_depend>std_msgs</build_depend><export>"),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\nfind_package(std_msgs REQUIRED)\n"
+        "add_library(arm arm.cpp)\nament_target_dependencies(arm std_msgs)\ninstall(TARGETS arm DESTINATION lib)\n"
+        "ament_export_dependencies(std_msgs)\nament_package()\n",
+        "arm/arm.cpp": "int zero() { return 0; }\n",
+    }
+    rules = tuple(rule for rule in registry.load() if rule.name in ("unused-find-package", "wrong-dependency-kind"))
+    issues, _ = run_rules(loaded(files), rules)
+    (issue,) = without_explained(issues)
+    assert issue.rule.name == "unused-find-package"
+    assert [(explained.rule, explained.subject) for explained in issue.explained] == [("wrong-dependency-kind", "std_msgs")]

@@ -37,7 +37,7 @@ def report(comment: str = "", **settings: Any) -> Report:
     }
     loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "--distro", True))
     rules = registry.load()
-    return check(loader.load(), loader.suppressions(), select(rules, **settings), ReportContext(rules, "", ("",), ()))
+    return check(loader.load_all(), loader.suppressions(), select(rules, **settings), ReportContext(rules, "", ("",), ()))
 
 
 def test_findings_of_rules_that_are_off_are_counted() -> None:

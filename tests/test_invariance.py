@@ -16,8 +16,7 @@ from ros_lint.base.paths import join
 from ros_lint.base.tree import DiskTree, MemoryTree, Tree
 from ros_lint.engine import registry
 from ros_lint.engine.run import find_issues
-from ros_lint.knowledge.underlays import in_tree
-from ros_lint.testing import Case, read_cases
+from ros_lint.testing import Case, loader_of, read_cases
 from ros_lint.workspace.discovery.discover import discover
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
@@ -35,10 +34,8 @@ ATTRIBUTE = re.compile(r"""\s+([\w:.-]+)\s*=\s*("[^"<]*"|'[^'<]*')""")
 
 def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str, str, str, str]]:
     """Return what is said of a case, or by ``default``: rule, package, subject and message of each finding."""
-    target = TargetDistro(case.distro, "--distro" if case.chosen else "default", case.chosen)
-    underlays = (in_tree(tree, case.underlay, case.distro),) if case.underlay else ()
-    loader = Loader(tree, ("",), target, underlays=underlays)
-    checked = find_issues(loader.load(), RULES, loader.suppressions(), RULES)
+    loader = loader_of(tree, case)
+    checked = find_issues(loader.load_all(), RULES, loader.suppressions(), RULES)
     assert not checked.crashes
     return Counter(
         (issue.rule.name, issue.package, issue.finding.subject, issue.finding.message)
@@ -140,7 +137,7 @@ def test_other_names_for_colcon_keep_the_findings_of_a_workspace(names: Callable
     workspaces = [Loader(demo, ("",), TargetDistro("jazzy", "test")).load(changed) for changed in ({}, files)]
     own, other = ([package.colcon_name for package in workspace.packages] for workspace in workspaces)
     assert other == names(own)
-    before, after = (find_issues(workspace, RULES, (), RULES) for workspace in workspaces)
+    before, after = (find_issues((workspace,), RULES, (), RULES) for workspace in workspaces)
     assert not after.crashes
     of_ament = [[issue for issue in checked.issues if issue.rule.name not in OF_COLCON] for checked in (before, after)]
     assert of_ament[1] == of_ament[0] != []

@@ -87,7 +87,7 @@ def test_the_maps_name_only_existing_packages_and_keys() -> None:
     known = {name for distro in DISTROS for name in Knowledge(distro).index.names()}
     known.update(Knowledge("jazzy").rosdep.names())
     store = Store()
-    for file in ("cmake_ros.tsv", "cmake_system.tsv", "include_ros.tsv", "include_system.tsv", "ros1_successors.tsv"):
+    for file in ("cmake_ros.tsv", "cmake_system.tsv", "include_ros.tsv", "include_system.tsv", "successors.tsv"):
         for line in store.lines(file)[1]:
             names = {*(line + "\t").split("\t")[1].split()} - {NOTHING_NEEDED}
             assert names <= known, f"{file}: {line}"

@@ -81,7 +81,7 @@ def test_nothing_is_read_if_the_user_chose_a_distribution() -> None:
         ),
         (
             [NamedDistro("humble", "a", 1), NamedDistro("jazzy", "b", 2), NamedDistro("foxy", "c", 3, indexed=False)],
-            "This repository builds for humble (a:1) and jazzy (b:2): pass --distro humble or --distro jazzy",
+            "This repository builds for humble (a:1) and jazzy (b:2): pass --distro humble,jazzy",
         ),
         (
             [NamedDistro("foxy", "c", 3, indexed=False)],

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import pickle
 import shutil
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from ros_lint.base.tree import DiskTree, RecordedTree
+from ros_lint.base.columns import Codec
+from ros_lint.base.recorded_tree import RecordedTree
+from ros_lint.base.tree import DiskTree
 from ros_lint.cli.main import main
+from ros_lint.engine.report_cache import _CachedReport
 from ros_lint.reporters import FORMATS
-from ros_lint.workspace import cache_files as kept_files
-from ros_lint.workspace.collect import collect_all
-from ros_lint.workspace.fact_cache import FactCache
+from ros_lint.workspace.cache import layout
+from ros_lint.workspace.cache.facts import CachedFacts
 from ros_lint.workspace.loader import Loader
 
 pytestmark = pytest.mark.slow
@@ -45,9 +49,9 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copytree(DEMO, target)
     (target / "src" / "here").symlink_to("nowhere")
     for name, package in (("a", "nav_msgs"), ("b", "std_srvs")):
-        (tmp_path / f"{name}.cpp").write_text(f"#include <{package}/srv/x.hpp>\n")
-        os.utime(tmp_path / f"{name}.cpp", ns=(1, 1))
-    (target / "src" / "rover_driver" / "src" / "linked.cpp").symlink_to(tmp_path / "a.cpp")
+        (target / f"{name}.cpp").write_text(f"#include <{package}/srv/x.hpp>\n")
+        os.utime(target / f"{name}.cpp", ns=(1, 1))
+    (target / "src" / "rover_driver" / "src" / "linked.cpp").symlink_to("../../../a.cpp")
     return target
 
 
@@ -90,7 +94,7 @@ def _swap(workspace: Path) -> None:
     """Lead a link to another file of the same size and time."""
     link = workspace / DRIVER / "src" / "linked.cpp"
     link.unlink()
-    link.symlink_to(workspace.parent / "b.cpp")
+    link.symlink_to("../../../b.cpp")
 
 
 CHANGES: dict[str, Callable[[Path], object]] = {
@@ -201,55 +205,145 @@ def test_warnings_are_printed_for_a_cached_report(
     assert "AMENT_PREFIX_PATH" in first
 
 
-def _of_short(text: str) -> bytes:
-    return b"X" + len(text).to_bytes(4, "little") + text.encode()
+def of_reports(name: str) -> bool:
+    return name.startswith("report-")
 
 
-_RUN = _of_short("__import__('os').system('touch \"$PLANTED\"')")
-_NO_LISTS = pickle.dumps(("CMakeLists.txt", [((5, "\0"), 5)], 5), 2)
-PLANTED = {
-    "a function of the system": b"cposix\nsystem\n" + _of_short('touch "$PLANTED"') + b"\x85R.",
-    "builtins of a module of facts": b"cros_lint.base.tree\nitemgetter\n" + _of_short("eval") + b"\x85R"
-    b"cros_lint.base.tree\n__builtins__\n\x85R" + _RUN + b"\x85R.",
-    "a name with dots": b"\x80\x04"
-    + b"".join(b"\x8c" + bytes([len(name)]) + name for name in (b"ros_lint.base.tree", b"os.system"))
-    + b"\x93" + _of_short('touch "$PLANTED"') + b"\x85R.",
-    "a class that has gone": b"cros_lint.facts.visibility\nGone\n)R.",
-    "a class of a module that has gone": b"cros_lint.facts.gone\nGone\n)R.",
-    "a text": pickle.dumps("text"),
-    "a list of numbers": pickle.dumps([1, 2, 3]),
-    "nothing": pickle.dumps(None),
-    "an empty dictionary": pickle.dumps({}),
-    "numbers by paths": pickle.dumps({"src/rover_driver/CMakeLists.txt": 5, 5: ((), 5)}),
-    "no lists": _NO_LISTS,
-    "an exabyte": b"\x80\x04\x8e" + (1 << 60).to_bytes(8, "little") + b"x.",
-    "depth": b"(" * 100_000 + b"t" * 100_000 + b".",
-    "an end in the middle": pickle.dumps(tuple(range(100)))[:-5],
-    "garbage": b"\x80\x05garbage",
-    "no bytes": b"",
-}  # fmt: skip
+def of_facts(name: str) -> bool:
+    return name.startswith("facts-")
 
 
-@pytest.mark.parametrize("suffix", [".report", ".facts"])
-@pytest.mark.parametrize("pickled", PLANTED.values(), ids=PLANTED)
-def test_a_manipulated_cache_file_causes_a_run_and_is_overwritten(
-    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pickled: bytes, suffix: str
+def cache_file(workspace: Path) -> Path:
+    (file,) = (workspace.parent / "cache" / "ros-lint").iterdir()
+    return file
+
+
+def records(workspace: Path) -> dict[str, bytes]:
+    return layout.read(str(cache_file(workspace)), lambda name: True)
+
+
+class Planted:
+    """Creates a folder when it is unpickled."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return os.mkdir, ("planted",)
+
+
+def _report(codec: Codec[_CachedReport], data: bytes, **changes: object) -> bytes:
+    """Return a report whose answers are changed."""
+    cached = codec.decode(data)
+    answers = cached.answers[0]._replace(**changes)
+    return codec.encode(cached._replace(answers=(answers, *cached.answers[1:])))
+
+
+_REPORTS: Codec[_CachedReport] = Codec(_CachedReport)
+_FACTS: Codec[tuple[CachedFacts, ...]] = Codec(tuple[CachedFacts, ...])
+DAMAGED: dict[str, Callable[[bytes], bytes]] = {
+    "a pickle": lambda data: pickle.dumps(Planted()),
+    "no bytes": lambda data: b"",
+    "garbage": lambda data: b"garbage" * 100,
+    "an end in the middle": lambda data: data[: len(data) // 2],
+    "further bytes": lambda data: data + b"0",
+    "an exabyte": lambda data: (1 << 60).to_bytes(8, "little") + data[8:],
+    "another type": lambda data: Codec(tuple[str, ...]).encode(("src", "x")),
+}
+PLANTED_REPORTS: dict[str, Callable[[bytes], bytes]] = {
+    "a path with NUL": lambda data: _report(_REPORTS, data, errors=(("a\0b", "stamp", 2),)),
+    "stamps without files": lambda data: _report(_REPORTS, data, files=()),
+    "files without stamps": lambda data: _report(_REPORTS, data, stamps=b""),
+    "half of a stamp": lambda data: _report(_REPORTS, data, stamps=b"12345678", files=("src",)),
+    "files without digests": lambda data: _report(_REPORTS, data, digests=b"", settled=b""),
+    "no trees": lambda data: _REPORTS.encode(_REPORTS.decode(data)._replace(answers=())),
+}
+
+
+def plant(workspace: Path, chosen: Callable[[str], bool], change: Callable[[bytes], bytes]) -> None:
+    """Change some records of the cache file, with correct checksums, and remove the report so that facts are read."""
+    changed = {name: change(data) if chosen(name) else data for name, data in records(workspace).items()}
+    file = cache_file(workspace)
+    file.write_bytes(layout._pack({name: data for name, data in changed.items() if chosen(name) or not of_reports(name)}))
+    file.chmod(0o600)
+
+
+@pytest.mark.parametrize("chosen", [of_reports, of_facts])
+@pytest.mark.parametrize("change", DAMAGED.values(), ids=DAMAGED)
+def test_damaged_records_cause_a_run_and_are_replaced(
+    workspace: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    change: Callable[[bytes], bytes],
+    chosen: Callable[[str], bool],
 ) -> None:
-    monkeypatch.setenv("PLANTED", str(tmp_path / "planted"))
+    monkeypatch.chdir(workspace.parent)
     runs = Runs(monkeypatch)
     expected = said(workspace)
-    files = list((tmp_path / "cache" / "ros-lint").iterdir())
-    for kept in files:
-        state = kept.read_bytes().partition(b"\n")[0].rpartition(b" ")[0].decode()
-        if kept.suffix == suffix:
-            kept.write_bytes(kept_files._head(state, pickled) + b"\n" + pickled)
-        elif kept.suffix == ".report":
-            kept.unlink()  # so that the facts are read
-    planted = {kept: kept.read_bytes() for kept in files if kept.suffix == suffix}
+    plant(workspace, chosen, change)
+    assert capsys.readouterr().err == ""
     assert (said(workspace), runs.count) == (expected, 2)
-    assert not (tmp_path / "planted").exists()
-    assert all(kept.read_bytes() != data for kept, data in planted.items())
+    assert (
+        capsys.readouterr().err
+        == f"ros-lint: the cached results are not used, so this run is slower: '{cache_file(workspace)}': damaged\n"
+    )
+    assert not (workspace.parent / "planted").exists()
     assert (said(workspace), runs.count) == (expected, 2)
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("change", PLANTED_REPORTS.values(), ids=PLANTED_REPORTS)
+def test_planted_reports_are_not_used(workspace: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[bytes], bytes]) -> None:
+    runs = Runs(monkeypatch)
+    expected = said(workspace)
+    plant(workspace, of_reports, change)
+    assert (said(workspace), runs.count) == (expected, 2)
+    assert (said(workspace), runs.count) == (expected, 2)
+
+
+def test_planted_facts_are_not_used(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def change(data: bytes) -> bytes:
+        facts = _FACTS.decode(data)
+        return _FACTS.encode((*facts, facts[0]._replace(path="a\0b"), facts[0]._replace(path="../../etc/passwd")))
+
+    runs = Runs(monkeypatch)
+    expected = said(workspace)
+    plant(workspace, of_facts, change)
+    assert (said(workspace), runs.count) == (expected, 2)
+
+
+def test_a_new_clone_with_the_same_contents_causes_no_run(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs = Runs(monkeypatch)
+    expected = said(workspace)
+    shutil.copytree(workspace, workspace.parent / "copy", symlinks=True, copy_function=shutil.copy)
+    shutil.rmtree(workspace)
+    (workspace.parent / "copy").rename(workspace)
+    assert (said(workspace), runs.count) == (expected, 1)
+
+
+def test_a_change_within_a_tick_of_the_clock_causes_a_run(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The test sets the modification time back and ignores the change time, as if both changes had the same times."""
+    stamp = DiskTree.stamp
+    monkeypatch.setattr(DiskTree, "stamp", lambda self, path: stamp(self, path)._replace(changed=0))
+    source = workspace / DRIVER / "src" / "driver_node.cpp"
+    source.write_text(source.read_text())
+    runs = Runs(monkeypatch)
+    said(workspace)
+    _same_stamp(workspace)
+    assert said(workspace) == said(workspace, "--no-cache")
+    assert runs.count == 3
+
+
+def test_contents_are_compared_only_until_the_stamps_are_settled(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    runs = Runs(monkeypatch)
+    for path in workspace.rglob("*"):
+        if path.is_file():
+            path.touch()
+    expected = said(workspace)
+    now = time.time_ns
+    monkeypatch.setattr(time, "time_ns", lambda: now() + 10_000_000_000)
+    before = records(workspace)
+    assert said(workspace) == expected
+    assert records(workspace) != before
+    monkeypatch.setattr("ros_lint.base.recorded_tree.has_contents", lambda *_: 1 / 0)
+    assert (said(workspace), runs.count) == (expected, 1)
 
 
 def test_a_cache_folder_that_others_can_write_is_not_used(
@@ -267,21 +361,35 @@ def test_a_cache_folder_that_others_can_write_is_not_used(
     assert (said(workspace), runs.count) == (expected, 3)
 
 
-def test_the_oldest_reports_are_removed(workspace: Path, tmp_path: Path) -> None:
+def test_the_oldest_reports_are_removed(workspace: Path) -> None:
     for number in range(12):
         said(workspace, "--exclude", f"nothing{number}")
-    kept = list((tmp_path / "cache" / "ros-lint").iterdir())
-    assert [path.suffix for path in kept].count(".report") == 8
+    assert sum(map(of_reports, records(workspace))) == 8
 
-    tree, folder = DiskTree(str(workspace)), str(tmp_path / "other")
-    source, new = f"{DRIVER}/src/driver_node.cpp", f"{DRIVER}/src/new.cpp"
-    collect_all(tree, [source], 1, FactCache(folder, "ws"), lambda done: None)
-    (facts,) = (tmp_path / "other").iterdir()
-    assert source.encode() in facts.read_bytes()
-    (workspace / source).rename(workspace / new)
-    collect_all(tree, [new], 1, FactCache(folder, "ws"), lambda done: None)
-    assert source.encode() not in facts.read_bytes()
-    assert new.encode() in facts.read_bytes()
+
+def test_reports_of_another_version_are_removed(workspace: Path) -> None:
+    said(workspace)
+    (report,) = filter(of_reports, records(workspace))
+    _write("data/ros-lint/index/new.txt", "")(workspace.parent)
+    said(workspace)
+    (other,) = filter(of_reports, records(workspace))
+    assert report != other
+
+
+def test_a_full_disk_is_noted(workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(layout, "replace", fail)
+    expected = said(workspace)
+    assert "ros-lint: the results are not cached, so the next run is slower: '" in capsys.readouterr().err
+    assert main(["graph", str(workspace), "--distro", "jazzy"]) == 0
+    assert main(["why", "rover_driver", "sensor_msgs", "-C", str(workspace), "--distro", "jazzy"]) == 1
+    assert capsys.readouterr().err.count("No space left on device") == 1
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(workspace.parent / "cache"))
+    monkeypatch.setenv("XDG_DATA_HOME", str(workspace.parent / "data"))
+    assert said(workspace) == expected
 
 
 def again(tree: RecordedTree) -> RecordedTree:
@@ -293,16 +401,20 @@ def test_a_report_is_not_cached_if_a_file_changes_during_the_run(tmp_path: Path)
     with pytest.raises(FileNotFoundError):
         recorded.read("a")
     assert recorded.list("") == []
-    assert again(recorded).is_unchanged(recorded.answers.items())
+    assert again(recorded).is_unchanged(recorded.answers)
     (tmp_path / "a").write_text("x")
-    assert not again(recorded).is_unchanged(recorded.answers.items())
+    assert not again(recorded).is_unchanged(recorded.answers)
     assert recorded.steady
     recorded.list("")
     assert not recorded.steady
     file = again(recorded)
     assert file.read("a") == b"x"
     os.utime(tmp_path / "a", ns=(1, 1))
-    assert not again(file).is_unchanged(file.answers.items())
+    assert again(file).is_unchanged(file.answers)
+    (tmp_path / "a").write_text("y")
+    assert not again(file).is_unchanged(file.answers)
+    file.read("a")
+    assert not file.steady
 
 
 def test_answers_of_the_comparison_are_reused_in_the_run(tmp_path: Path) -> None:
@@ -313,7 +425,7 @@ def test_answers_of_the_comparison_are_reused_in_the_run(tmp_path: Path) -> None
     (tmp_path / "gone").rmdir()
     second = again(first)
     assert second.identity("") == output[0]
-    assert not second.is_unchanged(first.answers.items())
+    assert not second.is_unchanged(first.answers)
     assert second.list("") != output[1]
     with pytest.raises(FileNotFoundError) as raised:
         second.list("gone")
@@ -322,4 +434,8 @@ def test_answers_of_the_comparison_are_reused_in_the_run(tmp_path: Path) -> None
     assert (raised.value.errno, raised.value.strerror) == (real.value.errno, real.value.strerror)
     assert second.stamp("a") == output[3]
     assert second.steady
-    assert set(second.answers) == {("identity", ""), ("list", ""), ("list", "gone"), ("stamp", "a")}
+    answers = second.answers
+    assert answers.lists == (("", "a/file"),)
+    assert answers.files == ("a",)
+    assert answers.identities == (("", str(tmp_path)),)
+    assert answers.errors == (("gone", "list", errno.ENOENT),)

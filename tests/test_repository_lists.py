@@ -85,7 +85,7 @@ def test_the_summary_names_repositories_that_are_not_cloned() -> None:
     def not_cloned(text: str, *others: str) -> str:
         files = {"car/package.xml": manifest_text("car"), "deps.repos": text, **dict.fromkeys(others, text)}
         rules = registry.load()
-        report = check(loaded(files), (), select(rules), ReportContext(rules, "", ("",), ()))
+        report = check((loaded(files),), (), select(rules), ReportContext(rules, "", ("",), ()))
         return next((sentence for sentence in limits(report) if "cloned" in sentence), "")
 
     names = "".join(f"  {name}:\n    type: git\n" for name in ("legs", "arm", "rclcpp", "ament-cmake"))

@@ -43,9 +43,9 @@ def test_a_safe_fix_declares_only_names_that_resolve(case: Case, told: bool) -> 
         for name in _declared(Text(path, text)) - _declared(text_of(tree, path))
     }
     own = {package.name for package in discover(tree, ("",)).packages}
-    own |= set(in_tree(tree, case.underlay, case.distro).packages) if case.underlay else set()
-    knowledge = Knowledge(case.distro)
-    for distro in (case.distro,) if told else knowledge.active:
+    own |= set(in_tree(tree, case.underlay, case.distros[0]).packages) if case.underlay else set()
+    knowledge = Knowledge(case.distros[0])
+    for distro in case.distros if told else knowledge.active:
         assert {name for name in new - own if not knowledge.rosdep_resolves(name, distro)} == set(), distro
 
 

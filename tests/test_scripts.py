@@ -66,7 +66,7 @@ def test_no_interpreter_is_found_whose_name_ends_with_a_carriage_return(end: str
     text = end.join(["#!/usr/bin/env python3", "if __name__ == '__main__':", "    print(1)", ""])
     workspace = load("install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})\nament_package()\n", p__a_dot_py=text)
     rules = [rule for rule in registry.load() if rule.name == "script-not-executable"]
-    issues = find_issues(workspace, rules, (), rules).issues
+    issues = find_issues((workspace,), rules, (), rules).issues
     assert [issue.finding.message.rpartition("; ")[2] for issue in issues if issue.finding.confidence == 3] == found
 
 

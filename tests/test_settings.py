@@ -26,14 +26,14 @@ def settings(
 
 def test_the_command_line_overrides_the_file_and_the_file_the_environment(tmp_path: Path) -> None:
     env = {"ROS_DISTRO": "kilted"}
-    assert settings(tmp_path, env=env)["distro"] == "kilted"
+    assert settings(tmp_path, env=env)["distro"] == ("kilted",)
     assert settings(tmp_path, env=env).origin("distro") == "ROS_DISTRO"
     result = settings(tmp_path, 'distro = "humble"', env=env)
-    assert (result["distro"], result.origin("distro")) == ("humble", "ros-lint.toml")
-    result = settings(tmp_path, env=env, said={"distro": "jazzy"})
-    assert (result["distro"], result.origin("distro")) == ("jazzy", "--distro")
+    assert (result["distro"], result.origin("distro")) == (("humble",), "ros-lint.toml")
+    result = settings(tmp_path, env=env, said={"distro": ("jazzy",)})
+    assert (result["distro"], result.origin("distro")) == (("jazzy",), "--distro")
     result = settings(tmp_path, env=env, said={"isolated": True})
-    assert (result["distro"], result.origin("distro")) == ("", "default")
+    assert (result["distro"], result.origin("distro")) == ((), "default")
 
 
 def test_the_nearest_file_with_settings_is_used(tmp_path: Path) -> None:
@@ -41,9 +41,9 @@ def test_the_nearest_file_with_settings_is_used(tmp_path: Path) -> None:
     inner.mkdir(parents=True)
     (tmp_path / "pyproject.toml").write_text('[tool.ros-lint]\ndistro = "humble"\n')
     (tmp_path / "ws" / "pyproject.toml").write_text("[tool.ruff]\n")
-    assert settle({}, str(inner), {})["distro"] == "humble"
+    assert settle({}, str(inner), {})["distro"] == ("humble",)
     (inner / "ros-lint.toml").write_text('distro = "jazzy"')
-    assert settle({}, str(inner), {})["distro"] == "jazzy"
+    assert settle({}, str(inner), {})["distro"] == ("jazzy",)
 
 
 def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
@@ -72,6 +72,8 @@ def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
         ('[severity]\ndependency-cycle = "fatal"', "ros-lint.toml:1: 'severity' of 'dependency-cycle' must be one of"),
         ('[per-path-ignores]\n"src/*" = "all"', "ros-lint.toml:1: 'per-path-ignores' must map patterns to lists"),
         ('format = "json"', "ros-lint.toml:1: 'format' is a command-line option"),
+        ("distro = 1", "ros-lint.toml:1: 'distro' must be a string or a list of strings"),
+        ('distro = ["humble", 1]', "ros-lint.toml:1: 'distro' must be a string or a list of strings"),
         ("distro = oops", r"ros-lint.toml: .*line 1"),
     ],
 )
@@ -100,23 +102,23 @@ def test_a_pyproject_with_values_in_place_of_tables_is_an_error(tmp_path: Path, 
 def test_a_pyproject_is_searched_in_linear_time(tmp_path: Path) -> None:
     (tmp_path / "pyproject.toml").write_text("\n" * 200_000)
     began = time.process_time()
-    assert settings(tmp_path)["distro"] == ""
+    assert settings(tmp_path)["distro"] == ()
     assert time.process_time() - began < 1
 
 
 def test_a_large_pyproject_is_an_error_only_if_it_has_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = f"[tool.ruff]\n{'#' * (256 << 10)}\n"
-    assert settings(tmp_path, text, name="pyproject.toml")["distro"] == ""
+    assert settings(tmp_path, text, name="pyproject.toml")["distro"] == ()
     with pytest.raises(ConfigError, match=r"pyproject.toml: .* is more than the limit of 256 KB"):
         settings(tmp_path, f"{text}[tool.ros-lint]\n", name="pyproject.toml")
     monkeypatch.setattr(config, "_MOST_SEARCHED", len(text))
-    assert settings(tmp_path)["distro"] == ""
+    assert settings(tmp_path)["distro"] == ()
 
 
 @pytest.mark.parametrize("value", ["true", "false", "1"])
 def test_a_file_cannot_enable_plugins(tmp_path: Path, value: str) -> None:
     result = settings(tmp_path, f'distro = "humble"\nplugins = {value}\n')
-    assert (result["plugins"], result.origin("plugins"), result["distro"]) == (False, "default", "humble")
+    assert (result["plugins"], result.origin("plugins"), result["distro"]) == (False, "default", ("humble",))
     place = f"{tmp_path}/ros-lint.toml:2"
     assert result.warnings == (
         f"{place}: plugins has no effect in a file because it loads code; use --plugins on the command line",
@@ -137,12 +139,15 @@ def test_the_schema_accepts_the_same_settings_as_the_table_of_options() -> None:
     validator = jsonschema.Draft7Validator(schema())
     good = {"distro": "humble", "select": ["all"], "severity": {"ROS2": "off"}, "per-path-ignores": {"a": ["all"]}, "jobs": 2}
     assert not list(validator.iter_errors(good))
+    assert not list(validator.iter_errors({"distro": ["humble", "jazzy"]}))
     for bad in (
         {"distor": "x"},
         {"fail-on": "eror"},
         {"jobs": -1},
         {"jobs": 10**18},
         {"pedantic": 1},
+        {"distro": 1},
+        {"distro": ["humble", 1]},
         {"severity": {"a": "fatal"}},
         {"format": "json"},
     ):
@@ -153,7 +158,7 @@ def test_show_settings_is_toml_with_origins(tmp_path: Path) -> None:
     import sys
 
     shown = settings(tmp_path, 'distro = "humble"').show()
-    assert 'distro           = "humble"  # ros-lint.toml\n' in shown
+    assert 'distro           = ["humble"]  # ros-lint.toml\n' in shown
     if sys.version_info >= (3, 11):
         import tomllib
 

@@ -31,8 +31,8 @@ from tests.setup_scripts import FILES, HEAD, script
         ("x = [1]\nfor i in x: x.append(i)\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "more steps"),
         ("def f(): return f()\nsetup(name='pkg', data_files=f())", Facet.SHARE | Facet.EXECUTABLES, "f() cannot be evaluated"),
         ("while True: pass\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "more steps"),
-        ("setup(name='pkg'", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no Python that can be read"),
-        ("print 'pkg'\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "no Python that can be read"),
+        ("setup(name='pkg'", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "the source is not valid Python 3"),
+        ("print 'pkg'\nsetup()", Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON, "the source is not valid Python 3"),
         (
             "from setuptools.command.install import install\nclass Mine(install): pass\n"
             "setup(name='pkg', cmdclass={'install': Mine})",

@@ -30,7 +30,7 @@ def severities(rule: str, files: dict[str, str], *depends: str) -> dict[str, str
     files["robot/package.xml"] = manifest_text("robot", [TOOL, *depends], build_type)
     loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "--distro", True))
     rules = registry.load()
-    report = check(loader.load(), (), select(rules, chosen=(rule,)), ReportContext(rules, "", ("",), ()))
+    report = check(loader.load_all(), (), select(rules, chosen=(rule,)), ReportContext(rules, "", ("",), ()))
     return {issue.finding.subject: str(issue.severity) for issue in report.issues}
 
 

@@ -6,11 +6,10 @@ from enum import IntEnum
 from typing import NamedTuple
 
 from ros_lint.base.edit import Edit
-from ros_lint.base.sealed import Sealed
 from ros_lint.base.text import Span
 
 
-class Severity(Sealed, IntEnum):
+class Severity(IntEnum):
     """The impact of a problem, provided that the finding about it is right."""
 
     INFO = 1
@@ -24,7 +23,7 @@ class Severity(Sealed, IntEnum):
         return self.name.lower()
 
 
-class Confidence(Sealed, IntEnum):
+class Confidence(IntEnum):
     """The probability that a finding is right."""
 
     LOW = 1

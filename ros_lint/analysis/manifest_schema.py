@@ -13,7 +13,7 @@ def violations(manifest: Manifest) -> tuple[validate.Violation, ...]:
 
 
 def named_schema(manifest: Manifest) -> named.NamedSchema | None:
-    """Return the schema that a manifest names for ament_xmllint, None if it names none or another address."""
+    """Return the published schema that a manifest names for ament_xmllint, None if it names no published schema."""
     return named.named_schema(_source(manifest))
 
 

@@ -12,7 +12,14 @@ from ros_lint.analysis.dependencies.find_package import (
 from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
 from ros_lint.analysis.dependencies.misplaced import Misplaced, misplaced
 from ros_lint.analysis.dependencies.needs import Need, is_found_by_cmake, needs, optional_needs
-from ros_lint.analysis.dependencies.remedy import Remedy, availability_remark, is_unresolvable_key, naming_fix, remedy
+from ros_lint.analysis.dependencies.remedy import (
+    Remedy,
+    availability_remark,
+    condition_for,
+    is_unresolvable_key,
+    naming_fix,
+    remedy,
+)
 from ros_lint.analysis.dependencies.tags import (
     TEST_LIBRARIES,
     TEST_MODULES,
@@ -68,6 +75,7 @@ __all__ = [
     "add_dependency",
     "availability_remark",
     "change_dependency",
+    "condition_for",
     "conditions",
     "declared_closure",
     "declared_names",

@@ -26,7 +26,7 @@ def read(place: str, most: int = MOST_BYTES, *, links: bool = True, private: boo
     * EFBIG for a file of more than ``most`` bytes,
     * EINVAL for a FIFO, socket or device,
     * ELOOP for a link, unless ``links``,
-    * EPERM, with ``private``, for a file that another user owns or can write.
+    * EPERM, with ``private``, for a file that another user owns or can write, or that has further hard links.
     """
     # os.open and one read of the right size are twice as fast as open() on the many small files of a workspace.
     handle = os.open(place, _FLAGS if links else _FLAGS | _NO_LINK)
@@ -35,16 +35,23 @@ def read(place: str, most: int = MOST_BYTES, *, links: bool = True, private: boo
         if not stat.S_ISREG(status.st_mode):
             raise _irregular(place, status.st_mode)
         if private and not _is_private(status):
-            raise PermissionError(errno.EPERM, "another user owns the file or can write it", place)
+            raise PermissionError(errno.EPERM, "another user owns the file or can write to it", place)
+        if private and status.st_nlink > 1:
+            raise PermissionError(errno.EPERM, "the file has further hard links", place)
         size = status.st_size
         if size > most:
-            raise OSError(errno.EFBIG, f"{_amount(size)} is more than the limit of {_amount(most)}", place)
+            raise too_large(size, most, place)
         data = os.read(handle, size)
         while len(data) < size and (chunk := os.read(handle, size - len(data))):
             data += chunk
         return data
     finally:
         os.close(handle)
+
+
+def too_large(size: int, most: int, place: str) -> OSError:
+    """Return the error for a file of more than ``most`` bytes."""
+    return OSError(errno.EFBIG, f"{_amount(size)} is more than the limit of {_amount(most)}", place)
 
 
 def is_private(folder: str) -> bool:

@@ -53,6 +53,11 @@ def _quoted(name: str) -> str:
     return name if name.startswith("<") else f"'{name}'"
 
 
+def and_list(words: Sequence[str]) -> str:
+    """Return words as a list in a sentence: "a, b and c"."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
+
+
 _MOST_NAMES = 3
 
 

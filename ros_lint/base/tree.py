@@ -46,6 +46,18 @@ class Stamp(NamedTuple):
         """True if the owner, the group or others may execute the file."""
         return bool(self.mode & 0o111)
 
+    def is_settled(self, time: int) -> bool:
+        """Return whether each change of the file after ``time``, in nanoseconds since the epoch, results in another stamp.
+
+        A file system counts time in ticks: two changes within one tick have the same times. The coarsest tick is that of
+        FAT, two seconds.
+        """
+        return max(self.time, self.changed) + _COARSEST_TICK < time
+
+
+_COARSEST_TICK = 2_000_000_000
+"""In nanoseconds."""
+
 
 class Tree(Protocol):
     """Files to read. Each method may raise OSError for the given path."""
@@ -164,7 +176,8 @@ class DiskTree:
 
     def stamp(self, path: str) -> Stamp:
         status = os.stat(self.place(path))
-        return Stamp(status.st_mtime_ns, status.st_size, status.st_mode & 0o777, status.st_ctime_ns, status.st_ino)
+        inode = status.st_ino & _INODE_BITS
+        return Stamp(status.st_mtime_ns, status.st_size, status.st_mode & 0o777, status.st_ctime_ns, inode)
 
     def identity(self, path: str) -> str:
         return os.path.realpath(os.path.join(self._base, path))
@@ -172,6 +185,9 @@ class DiskTree:
     def is_untracked(self, path: str) -> bool:  # noqa: ARG002  (of a Tree)
         return False
 
+
+_INODE_BITS = (1 << 63) - 1
+"""The bits of an inode that a stamp has. Some file systems have inodes of 64 and 128 bits."""
 
 _IS_LINK = (errno.ELOOP, errno.EMLINK)
 """Errors of O_NOFOLLOW for a link: ELOOP on Linux and macOS, EMLINK on FreeBSD."""
@@ -190,93 +206,6 @@ class MachineTree(DiskTree):
 
     def read(self, path: str) -> bytes:
         return files.read(path)
-
-
-TreeAnswer = list[Entry] | Stamp | str | int
-"""The answer of a tree to a query, or the errno of the error."""
-
-
-class RecordedTree:
-    """A disk that records queries and answers, so that a later run can repeat the queries.
-
-    ``answers`` has them by query and path. ``steady`` becomes False if a query has two different answers, because a
-    file changed during the run.
-    """
-
-    def __init__(self, disk: DiskTree) -> None:
-        self.disk = disk
-        self.answers: dict[tuple[str, str], TreeAnswer] = {}
-        self.steady = True
-        self._known: dict[tuple[str, str], TreeAnswer] = {}
-
-    def is_unchanged(self, answers: Iterable[tuple[tuple[str, str], TreeAnswer]]) -> bool:
-        """Return whether the disk still gives these recorded answers. Keeps the current answers for reuse."""
-        for (query, path), answer in answers:
-            current = self._ask(query, path)
-            self._known[query, path] = current
-            if current != answer:
-                return False
-        return True
-
-    def list(self, path: str) -> list[Entry]:
-        answer = self._answer("list", path)
-        assert isinstance(answer, list)
-        return answer
-
-    def read(self, path: str) -> bytes:
-        try:
-            self.stamp(path)  # before reading, so that a file that changes meanwhile counts as changed
-            return self.disk.read(path)
-        except OSError as error:
-            self._note("read", path, error.errno or 0)
-            raise
-
-    def stamp(self, path: str) -> Stamp:
-        answer = self.answers.get(("stamp", path)) or self._answer("stamp", path)
-        if not isinstance(answer, Stamp):
-            raise self._error(answer, path)
-        return answer
-
-    def identity(self, path: str) -> str:
-        answer = self._answer("identity", path)
-        assert isinstance(answer, str)
-        return answer
-
-    def is_untracked(self, path: str) -> bool:
-        return bool(self._answer("untracked", path))
-
-    def _answer(self, query: str, path: str) -> TreeAnswer:
-        answer = self._known.pop((query, path), None)
-        if answer is None:
-            answer = self._ask(query, path)
-        self._note(query, path, answer)
-        if isinstance(answer, int):
-            raise self._error(answer, path)
-        return answer
-
-    def _ask(self, query: str, path: str) -> TreeAnswer:
-        disk = self.disk
-        try:
-            if query == "list":
-                return disk.list(path)
-            if query == "stamp":
-                return disk.stamp(path)
-            if query == "identity":
-                return disk.identity(path)
-            if query == "untracked":
-                return "untracked" if disk.is_untracked(path) else ""
-            disk.read(path)
-        except OSError as error:
-            return error.errno or 0
-        return "read"
-
-    def _note(self, query: str, path: str, answer: TreeAnswer) -> None:
-        if self.answers.setdefault((query, path), answer) != answer:
-            self.steady = False
-
-    def _error(self, answer: object, path: str) -> OSError:
-        number = answer if isinstance(answer, int) else 0
-        return OSError(number, os.strerror(number), self.disk.place(path))
 
 
 class MemoryTree:

@@ -15,7 +15,8 @@ MOST = 1_000_000
 class CliOption(NamedTuple):
     """An option of the command line, a setting of configuration files, or both.
 
-    The type ``table`` maps patterns or rules to words; only files can have it.
+    The types ``words`` and ``paths`` have tuples as values. The type ``table`` maps patterns or rules to words; only files can
+    have it.
     """
 
     name: str
@@ -30,6 +31,8 @@ class CliOption(NamedTuple):
     """The environment variable that is read if neither the command line nor the file sets the option."""
     short: str = ""
     """Short form of the flag, such as "-q"; "" if there is none."""
+    single: bool = False
+    """True if a file may set the type ``words`` to a string, too, which is a single word."""
     loads_code: bool = False
     """True if the option loads code. Files cannot set it, because they can be part of the checked workspace."""
 
@@ -37,11 +40,12 @@ class CliOption(NamedTuple):
 OPTIONS: tuple[CliOption, ...] = (
     CliOption(
         "distro",
-        "word",
-        "",
-        "ROS distribution to check for; if unset, the newest LTS release",
-        metavar="NAME",
+        "words",
+        (),
+        "ROS distribution to check for, or several, such as humble,jazzy; if unset, the newest LTS release",
+        metavar="NAMES",
         environment="ROS_DISTRO",
+        single=True,
     ),
     CliOption(
         "underlay",
@@ -143,7 +147,7 @@ def _property(option: CliOption) -> dict[str, Any]:
     shapes: dict[Type, dict[str, Any]] = {
         "flag": {"type": "boolean"},
         "word": word,
-        "words": words,
+        "words": {**words, "type": ["string", "array"]} if option.single else words,
         "number": {"type": "integer", "minimum": 0, "maximum": MOST},
         "path": {"type": "string"},
         "paths": words,

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.base.suggestions import and_list, did_you_mean, similar_names
 from ros_lint.base.tracked_tree import TrackedTree
 from ros_lint.base.tree import DiskTree, repository_of
 from ros_lint.cli.context import context_of, requested_folder
@@ -17,14 +17,16 @@ from ros_lint.engine.report_cache import ReportCache
 from ros_lint.errors import UserError
 from ros_lint.knowledge import Knowledge, distros, newest_lts
 from ros_lint.knowledge.store import user_directory
-from ros_lint.workspace import fact_cache
+from ros_lint.workspace.cache.file import NO_CACHE, CacheFile, files_below
+from ros_lint.workspace.cache.folder import folder as cache_folder
 from ros_lint.workspace.target import TargetDistro
 
 if TYPE_CHECKING:
     from ros_lint.base.git_index import Tracked
     from ros_lint.base.tree import Tree
     from ros_lint.knowledge.underlays import Underlay
-    from ros_lint.workspace.loader import Loader, Progress
+    from ros_lint.workspace.join import Progress
+    from ros_lint.workspace.loader import Loader
 
 
 class UsageError(UserError):
@@ -45,11 +47,12 @@ class Request(NamedTuple):
     """Absolute folders that links in the workspace may lead into: the repository, or the requested paths."""
     tracked: Tracked | None
     """What git tracks, if other files are left out; None if all files are read."""
-    target: TargetDistro
+    targets: tuple[TargetDistro, ...]
+    """The distributions to check for, at least one."""
     places: tuple[str, ...]
     """Folders with data about released packages that override the shipped data."""
-    cache: str
-    """The cache folder, or "" if nothing is cached."""
+    cache: CacheFile
+    """The cached results of the workspace."""
     warnings: tuple[str, ...]
     """Warnings about the settings."""
 
@@ -65,20 +68,37 @@ class Session(NamedTuple):
     loader: Loader
     settings: Settings
     knowledge: Knowledge
+    """The data about the first distribution."""
     base: str
     """As in :class:`Request`."""
     roots: tuple[str, ...]
     """As in :class:`Request`."""
     warnings: tuple[str, ...]
+    cache: CacheFile
+    """As in :class:`Request`."""
 
 
 def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
-    """Return a session for the workspace that the options name. The workspace is not loaded yet.
+    """Return a session of one distribution for the workspace that the options name. The workspace is not loaded yet.
 
+    If a configuration file lists several distributions, the session is of the first of them, and a warning names it.
     ``options`` is the result of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
     :meth:`ros_lint.cli.progress.Progress.update`. Raises UsageError, ConfigError and KnowledgeError.
     """
-    return open_session(parse_request(options, environment, with_context=False), progress)
+    request = parse_request(options, environment, with_context=False)
+    return open_session(_for_one_distro(request), progress)
+
+
+def _for_one_distro(request: Request) -> Request:
+    """Return the request for the first of its distributions. Raises UsageError if the command line names several."""
+    first, *others = request.targets
+    if not others:
+        return request
+    named = and_list(first.distros)
+    if first.source == "--distro":
+        raise UsageError(f"--distro: this command answers for one distribution, not for {named}; use --distro {first.distro}")
+    warning = f"{first.source}: distro lists {named}; the answer is for {first.distro} (set with --distro)"
+    return request._replace(targets=(first._replace(others=()),), warnings=(*request.warnings, warning))
 
 
 def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *, with_context: bool = True) -> Request:
@@ -93,7 +113,7 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
     base = _base(around)
     settings = settle(given, os.path.commonpath(paths), environment, base)
     inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in around)
-    target, warnings = _target(settings, places)
+    targets, warnings = _targets(settings, places)
     return Request(
         settings,
         base,
@@ -101,9 +121,9 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
         _relative(around, base) if around != paths else (),
         inside,
         _tracked(base, environment),
-        target,
+        targets,
         places,
-        fact_cache.folder(environment) if settings["cache"] else "",
+        CacheFile(cache_folder(environment) if settings["cache"] else "", base),
         warnings,
     )
 
@@ -136,32 +156,31 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
     Raises UsageError and KnowledgeError.
     """
-    from ros_lint.workspace.loader import Loader  # noqa: PLC0415  (not needed for a cached report)
+    # Not needed for a cached report.
+    from ros_lint.workspace.cache.facts import FactCache  # noqa: PLC0415
+    from ros_lint.workspace.loader import DistroData, Loader  # noqa: PLC0415
 
     settings, base = request.settings, request.base
-    knowledge = Knowledge(request.target.distro, request.places)
-    underlays, unread = _underlays(settings, request.target.distro, base, machine)
+    knowledge = Knowledge(request.targets[0].distro, request.places)
+    underlays, unread = _underlays(settings, request.targets[0].distro, base, machine)
+    others = [
+        DistroData(target, knowledge.of(target.distro), _underlays(settings, target.distro, base, machine)[0])
+        for target in request.targets[1:]
+    ]
     loader = Loader(
         workspace or request.disk,
         request.roots,
-        request.target,
+        request.targets[0],
         context=request.context,
         underlays=underlays,
         knowledge=knowledge,
+        others=others,
         exclude=_excluder(settings["exclude"]),
         jobs=settings["jobs"],
-        cache=fact_cache.FactCache(request.cache, _fact_cache_key(request)),
+        cache=FactCache(request.cache, () if request.inside == (request.base,) else request.inside),
         progress=progress,
     )
-    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread))
-
-
-def _fact_cache_key(request: Request) -> str:
-    """Return the cache key of the facts: the base, followed by the folders that links may lead into.
-
-    If links may lead into the base only, the key is the base alone.
-    """
-    return request.base if request.inside == (request.base,) else os.pathsep.join((request.base, *request.inside))
+    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread), request.cache)
 
 
 _WITHOUT_EFFECT = frozenset((
@@ -182,21 +201,21 @@ def report_cache(request: Request) -> ReportCache:
     """
     settings = request.settings
     if not request.cache or settings["plugins"]:
-        return ReportCache("", request.base, "", ())
+        return ReportCache(NO_CACHE, "", ())
     from importlib.util import find_spec  # noqa: PLC0415
 
     values = [(option.name, settings[option.name]) for option in OPTIONS if option.name not in _WITHOUT_EFFECT]
     rules = find_spec(BUILTIN)
     folders = [*(rules.submodule_search_locations or () if rules else ()), *request.places]
     libraries = [spec.origin or "" for name in _LIBRARIES if (spec := find_spec(name))]
-    data = [*libraries, *(file for folder in folders for file in fact_cache.files_below(folder))]
+    data = [*libraries, *(file for folder in folders for file in files_below(folder))]
     prefixes = [os.path.abspath(prefix) for prefix in settings["underlay"] if prefix]
     request_key = repr(
-        (request.roots, request.context, request.inside, request.target, values, prefixes, settings.origin("underlay"))
+        (request.roots, request.context, request.inside, request.targets, values, prefixes, settings.origin("underlay"))
     )
     if request.tracked:
         request_key += repr([sorted(paths) for paths in request.tracked])
-    return ReportCache(request.cache, request.base, request_key, data)
+    return ReportCache(request.cache, request_key, data)
 
 
 def _underlays(settings: Settings, distro: str, base: str, machine: Tree | None) -> tuple[tuple[Underlay, ...], tuple[str, ...]]:
@@ -256,22 +275,26 @@ def _base(paths: Sequence[str]) -> str:
     return repository_of(common) or common
 
 
-def _target(settings: Settings, places: Sequence[str]) -> tuple[TargetDistro, tuple[str, ...]]:
-    distro = settings["distro"]
-    if not distro:
-        return TargetDistro(newest_lts(places), "newest LTS", explicit=False), ()
-    available_names = [available_names.name for available_names in distros(places)]
-    if distro in available_names:
-        return TargetDistro(distro, settings.origin("distro")), ()
-    if settings.origin("distro") == "ROS_DISTRO":
-        return TargetDistro(distro, "ROS_DISTRO"), (
-            f"unknown distribution '{distro}' in ROS_DISTRO; available: {', '.join(available_names)}",
-        )
+def _targets(settings: Settings, places: Sequence[str]) -> tuple[tuple[TargetDistro, ...], tuple[str, ...]]:
+    """Return the distributions to check for, and warnings. Raises UsageError for an unknown one."""
+    names = list(dict.fromkeys(name for name in settings["distro"] if name))
+    origin = settings.origin("distro")
+    if not names:
+        return (TargetDistro(newest_lts(places), "newest LTS", explicit=False),), ()
+    available = [distro.name for distro in distros(places)]
+    unknown = next((name for name in names if name not in available), "")
+    if unknown and origin != "ROS_DISTRO":
+        raise UsageError(f"{origin}: {_unknown_distro(unknown, available)}")
+    warning = f"unknown distribution '{unknown}' in ROS_DISTRO; available: {', '.join(available)}"
+    targets = [TargetDistro(name, origin, others=tuple(other for other in names if other != name)) for name in names]
+    return tuple(targets), (warning,) if unknown else ()
+
+
+def _unknown_distro(name: str, available: Sequence[str]) -> str:
     from ros_lint.knowledge.names import has_ended  # noqa: PLC0415
 
-    kind, hint = ("end-of-life", "") if has_ended(distro) else ("unknown", did_you_mean(similar_names(distro, available_names)))
-    available = f"(available: {', '.join(available_names)})"
-    raise UsageError(f"{settings.origin('distro')}: {kind} distribution '{distro}'{hint} {available}")
+    kind, hint = ("end-of-life", "") if has_ended(name) else ("unknown", did_you_mean(similar_names(name, available)))
+    return f"{kind} distribution '{name}'{hint} (available: {', '.join(available)})"
 
 
 def _excluder(patterns: Sequence[str]) -> Callable[[str], bool]:

@@ -163,7 +163,7 @@ def _checked(path: str, text: str, name: str, value: Any) -> Any:
     if error := _error_in(option, value):
         raise ConfigError(f"{_place(path, text, name)}: '{name}' {error}")
     if option.type in ("words", "paths"):
-        return tuple(value)
+        return (value,) if isinstance(value, str) else tuple(value)
     return value
 
 
@@ -177,6 +177,8 @@ def _error_in(option: CliOption, value: Any) -> str:
         case "word" | "path":
             return _word_error_in(option, value)
         case "words" | "paths":
+            if option.single:
+                return "" if isinstance(value, str) or _is_words(value) else "must be a string or a list of strings"
             return "" if _is_words(value) else "must be a list of strings"
         case "table":
             if not isinstance(value, dict):
@@ -217,7 +219,7 @@ def _relative(option: CliOption, value: Any, path: str) -> Any:
 def _from_environment(option: CliOption, value: str) -> Any:
     if option.type == "paths":
         return tuple(entry for entry in value.split(os.pathsep) if entry)
-    return value
+    return (value,) if option.type == "words" else value
 
 
 def toml(value: Any) -> str:

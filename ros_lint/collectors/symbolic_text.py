@@ -314,7 +314,7 @@ def negated(text: str) -> str:
 def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
     """Return whether conditions can hold together.
 
-    False for a condition and its negation, and for two conditions that want a text to equal different values.
+    False for a condition and its negation, and for two conditions that require different values of one text.
     """
     truths: dict[tuple[tuple[str, ...], str | None], bool] = {}
     values: dict[tuple[str, ...], str] = {}

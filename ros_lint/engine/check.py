@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ros_lint import __version__
 from ros_lint.base.paths import is_below_any
@@ -20,9 +20,11 @@ if TYPE_CHECKING:
     from ros_lint.facts.suppressions import Suppression
     from ros_lint.workspace.model import Package, Workspace
 
+T = TypeVar("T")
+
 
 class ReportContext(NamedTuple):
-    """Data about the run that its report contains, and the rules that suppressions may name."""
+    """Data about a run for its report, and the rules that suppressions may name."""
 
     rules: tuple[Rule, ...]
     """All rules, selected or not."""
@@ -34,37 +36,49 @@ class ReportContext(NamedTuple):
     """Warnings about the command line and the settings."""
 
 
-def check(workspace: Workspace, suppressions: Iterable[Suppression], selection: Selection, context: ReportContext) -> Report:
-    """Return the report of the selected rules, with suppressions and settings applied."""
+def check(
+    workspaces: Sequence[Workspace], suppressions: Iterable[Suppression], selection: Selection, context: ReportContext
+) -> Report:
+    """Return the report of the selected rules, with suppressions and settings applied.
+
+    ``workspaces`` are the workspace for each distribution of the run. The report has the union of their findings and limits.
+    """
     suppressions = tuple(suppressions)
-    checked = find_issues(workspace, selection.rules, suppressions, context.rules, context.folders)
+    checked = find_issues(workspaces, selection.rules, suppressions, context.rules, context.folders)
     shown, hidden = show(checked.issues, selection)
-    of_others = find_issues(workspace, selection.off, suppressions, context.rules, context.folders).issues
+    of_others = find_issues(workspaces, selection.off, suppressions, context.rules, context.folders).issues
     if off := [issue for issue in of_others if not selection.ignores_path(issue) and selection.is_severe(issue)]:
         hidden = (*hidden, HiddenCount.of(OFF, off))
     if checked.suppressed:
         hidden = (*hidden, HiddenCount("suppressed by comments", len(checked.suppressed)))
-    packages = [package for package in workspace.packages if is_below_any(package.path, context.folders)]
-    unusable = [package for package in workspace.unusable if is_below_any(package.path, context.folders)]
-    checked_packages = len(packages) + len(unusable)
+    packages = [
+        package for workspace in workspaces for package in workspace.packages if is_below_any(package.path, context.folders)
+    ]
+    paths = {package.path for workspace in workspaces for package in (*workspace.packages, *workspace.unusable)}
+    checked_packages = sum(is_below_any(path, context.folders) for path in paths)
     return Report(
         issues=shown,
         rules=selection.rules,
         packages=checked_packages,
-        context_packages=len(workspace.packages) + len(workspace.unusable) - checked_packages,
-        target=workspace.target,
-        named_distros=workspace.named_distros,
+        context_packages=len(paths) - checked_packages,
+        target=workspaces[0].target,
+        named_distros=workspaces[0].named_distros,
         data_date=context.data_date,
         version=__version__,
         hidden=hidden,
-        not_checked=workspace.not_checked,
-        not_cloned=tuple(_not_cloned(workspace)),
+        not_checked=_union(workspace.not_checked for workspace in workspaces),
+        not_cloned=_union(_not_cloned(workspace) for workspace in workspaces),
         blind_spots=_blind_spots(packages),
-        ros1=tuple([_name(package) for package in packages if package.is_ros1]),
+        ros1=_union([[_name(package) for package in packages if package.is_ros1]]),
         crashes=tuple([crash._replace(plugin=plugin_of(crash.rule)) for crash in checked.crashes]),
         workspace=context.folders[0] if len(context.folders) == 1 else "",
         warnings=context.warnings,
     )
+
+
+def _union(parts: Iterable[Iterable[T]]) -> tuple[T, ...]:
+    """Return the members of all parts without duplicates."""
+    return tuple(dict.fromkeys([member for part in parts for member in part]))
 
 
 def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
@@ -89,7 +103,7 @@ def _blind_spots(packages: Sequence[Package]) -> tuple[BlindSpot, ...]:
         Facet.EXPORTS: "exported dependencies",
     }
     names_by_word = {
-        word: tuple([_name(package) for package in packages if package.hidden(facet) and not package.is_ros1])
+        word: _union([[_name(package) for package in packages if package.hidden(facet) and not package.is_ros1]])
         for facet, word in words.items()
     }
     return tuple(BlindSpot(word, packages) for word, packages in names_by_word.items() if packages)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] = ()) -> tuple[Issue, ...]:
     """Return the issues that no other issue explains. Each has the findings that it explains in ``explained``.
 
-    - A cause explains findings of its own package with at most its own confidence.
+    - A cause explains findings of its own package with at most its own confidence, if all their distributions have the cause.
     - A cause has the severity of the gravest finding that it explains, except for the rules in ``fixed_severities``.
     - If issues only explain each other, all of them stay.
     """
@@ -41,7 +41,7 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
 
 
 def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
-    """Return the members of ``issues``, which are of one package, that the issue ``cause`` explains."""
+    """Return the elements of ``issues`` that the issue ``cause`` explains. All of them are about one package."""
     keys = {(consequence.rule, consequence.subject) for consequence in cause.finding.explains}
     return [
         issue
@@ -49,7 +49,13 @@ def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
         if issue is not cause
         and not keys.isdisjoint([(issue.rule.name, issue.finding.subject), (issue.rule.name, "")])
         and issue.finding.confidence <= cause.finding.confidence
+        and _in_all_distros_of(issue, cause)
     ]
+
+
+def _in_all_distros_of(issue: Issue, cause: Issue) -> bool:
+    """Return whether all distributions with an issue have its cause."""
+    return not cause.distros or (bool(issue.distros) and set(issue.distros) <= set(cause.distros))
 
 
 def _with_explained(cause: Issue, explained: Sequence[Issue], fixed_severities: Container[str]) -> Issue:

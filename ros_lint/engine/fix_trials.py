@@ -27,14 +27,25 @@ if TYPE_CHECKING:
 _MOST_TRIALS = 2
 """Number of trials to keep in memory, because a successful trial is needed again at once."""
 
+DistroIdentity = tuple[str, str]
+"""A distribution and the identity of an issue in it."""
+
 
 class Trial(NamedTuple):
-    """A workspace loaded with changed files, and its issues."""
+    """A workspace loaded with changed files, for each distribution of the run, and its issues."""
 
     changed: Mapping[str, bytes]
     """New content of files by path."""
-    workspace: Workspace
+    workspaces: tuple[Workspace, ...]
     issues: tuple[Issue, ...]
+
+    def identity_counts(self) -> Counter[DistroIdentity]:
+        """Return the number of issues with the same identity in the same distribution."""
+        return Counter(identity for issue in self.issues for identity in self.identities(issue))
+
+    def identities(self, issue: Issue) -> list[DistroIdentity]:
+        """Return the identity of an issue in each distribution that has it."""
+        return [(distro, issue.identity) for distro in issue.distros or self.workspaces[0].target.distros]
 
 
 class FixTrials:
@@ -59,19 +70,19 @@ class FixTrials:
 
     @cached_property
     def _writable(self) -> Writable:
-        workspace = self.trial({}).workspace
-        manifests = [package.manifest.path for package in workspace.unusable if package.manifest]
-        package_files = [join(package.path, file) for package in workspace.packages for file in package.files]
-        return Writable(self._loader.tree, self._roots, [*package_files, *manifests])
+        workspaces = self.trial({}).workspaces
+        manifests = [package.manifest.path for space in workspaces for package in space.unusable if package.manifest]
+        package_files = [join(package.path, file) for space in workspaces for package in space.packages for file in package.files]
+        return Writable(self._loader.tree, self._roots, list(dict.fromkeys([*package_files, *manifests])))
 
     def trial(self, changed: Mapping[str, bytes]) -> Trial:
         """Return the workspace with changed files, loaded and checked."""
         for trial in self._trials:
             if trial.changed == changed:
                 return trial
-        workspace = self._loader.load(changed)
-        issues = find_issues(workspace, self._run, self._loader.suppressions(changed), self._rules).issues
-        trial = Trial(changed, workspace, issues)
+        workspaces = self._loader.load_all(changed)
+        issues = find_issues(workspaces, self._run, self._loader.suppressions(changed), self._rules).issues
+        trial = Trial(changed, workspaces, issues)
         self._trials = [*self._trials[:1], *self._trials[1:][1 - _MOST_TRIALS :], trial]
         return trial
 
@@ -109,8 +120,8 @@ class FixTrials:
             new = self.applied(changed, group)
         except edits.EditError as error:
             return (Regression(str(error)),)
-        before = Counter(issue.identity for issue in self.trial(changed).issues)
-        after = self.trial(new).issues
+        before = self.trial(changed).identity_counts()
+        after = self.trial(new)
         unresolved = _unresolved(before, after, group)
         new_findings = _new_findings(before, after)
         if new_findings and not unresolved and self._recovers_next_round(before, new, group, new_findings):
@@ -146,7 +157,7 @@ class FixTrials:
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or self._unsafe)]
 
     def _recovers_next_round(
-        self, before: Counter[str], changed: Mapping[str, bytes], group: Sequence[Issue], new_findings: Sequence[Issue]
+        self, before: Counter[DistroIdentity], changed: Mapping[str, bytes], group: Sequence[Issue], new_findings: Sequence[Issue]
     ) -> bool:
         """Return whether fixes of the next round resolve all findings that the fixes of a group cause."""
         names = {issue.identity for issue in new_findings}
@@ -155,7 +166,7 @@ class FixTrials:
         if {issue.identity for issue in issues} != names or len(edits.choose(fixes)) < len(fixes):
             return False
         try:
-            after = self.trial(self.applied(changed, issues)).issues
+            after = self.trial(self.applied(changed, issues))
         except edits.EditError:
             return False
         return not _new_findings(before, after) and not _unresolved(before, after, group)
@@ -172,17 +183,17 @@ def _edited_files(issue: Issue) -> Iterable[str]:
     return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
-def _new_findings(before: Counter[str], after: Sequence[Issue]) -> list[Issue]:
-    """Return the new findings of high confidence and of rules that are on by default.
+def _new_findings(before: Counter[DistroIdentity], after: Trial) -> list[Issue]:
+    """Return the findings of high confidence and of rules that are on by default that are new in any distribution.
 
     Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
     """
-    count = Counter(issue.identity for issue in after)
-    serious = [issue for issue in after if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
-    return [issue for issue in serious if count[issue.identity] > before[issue.identity]]
+    count = after.identity_counts()
+    serious = [issue for issue in after.issues if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
+    return [issue for issue in serious if any(count[name] > before[name] for name in after.identities(issue))]
 
 
-def _unresolved(before: Counter[str], after: Sequence[Issue], group: Sequence[Issue]) -> list[Issue]:
-    """Return the issues of a group that their fixes do not resolve."""
-    count = Counter(issue.identity for issue in after)
-    return [issue for issue in group if count[issue.identity] >= before[issue.identity]]
+def _unresolved(before: Counter[DistroIdentity], after: Trial, group: Sequence[Issue]) -> list[Issue]:
+    """Return the issues of a group that their fixes do not resolve in all their distributions."""
+    count = after.identity_counts()
+    return [issue for issue in group if any(count[name] >= before[name] for name in after.identities(issue))]

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
+# The cache derives the encoding of a report from these annotations, so the types are imported in each run.
+from ros_lint.analysis.finding import Finding, Severity
+from ros_lint.analysis.rule import Rule
+from ros_lint.base.text import Span
+from ros_lint.facts.repositories import UnclonedRepositories
 from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    from ros_lint.analysis.finding import Finding, Severity
-    from ros_lint.analysis.rule import Rule
-    from ros_lint.base.text import Span
-    from ros_lint.facts.repositories import UnclonedRepositories
 
 
 class ExplainedFinding(NamedTuple):
@@ -34,6 +34,10 @@ class Issue(NamedTuple):
     finding: Finding
     explained: tuple[ExplainedFinding, ...] = ()
     """Findings that are not shown, because this finding explains them."""
+    distros: tuple[str, ...] = ()
+    """The distributions that have the finding; () if all distributions of the run have it."""
+    other_messages: tuple[tuple[str, str], ...] = ()
+    """Pairs of a distribution and its message, for distributions whose message differs from that of the finding."""
 
     @property
     def severity(self) -> Severity:
@@ -103,6 +107,7 @@ class Report(NamedTuple):
     packages: int
     """Number of packages checked; 0 if no package was found."""
     target: TargetDistro
+    """The distribution of the run, with the others if there are several."""
     data_date: str
     """The date of the package index, as YYYY-MM-DD."""
     version: str

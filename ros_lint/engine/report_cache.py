@@ -1,36 +1,43 @@
-"""Cache of the last reports of a workspace, in the user's cache folder."""
+"""Cache of the last reports of a workspace."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.workspace import cache_files
-from ros_lint.workspace.fact_cache import SOURCES, digest, files_below, state_of
+from ros_lint.base.columns import Codec
+from ros_lint.base.recorded_tree import Answers
+from ros_lint.engine.report import Report
+from ros_lint.workspace.cache.file import SOURCES, digest, files_below, state_of
 
 if TYPE_CHECKING:
-    from ros_lint.base.tree import RecordedTree
-    from ros_lint.engine.report import Report
-
+    from ros_lint.base.recorded_tree import RecordedTree
+    from ros_lint.workspace.cache.file import CacheFile
 
 _MOST_REPORTS = 8
 """Number of reports cached for a workspace, which may be checked with several sets of options."""
 
 
+class _CachedReport(NamedTuple):
+    """A report with the answers of each tree that it depends on."""
+
+    report: Report
+    answers: tuple[Answers, ...]
+
+
 class ReportCache:
-    """The last reports of a workspace, as files in ``folder``; nothing is cached if ``folder`` is "".
+    """The last reports of a workspace in its cache file.
 
     A report depends on ``options`` (as text), the state of the files in ``data``, the code of ros-lint and the trees,
-    and on nothing else. ``base`` is the folder of the workspace.
+    and on nothing else.
     """
 
-    def __init__(self, folder: str, base: str, options: str, data: Iterable[str]) -> None:
-        self._start = f"{digest(os.path.realpath(base))}-" if folder else ""
-        self._folder = folder
-        self._file = os.path.join(folder, f"{self._start}{digest(options)}.report") if folder else ""
-        source_files = files_below(SOURCES)
-        self._state = state_of([*source_files, *data]) if folder else ""
+    def __init__(self, file: CacheFile, options: str, data: Iterable[str]) -> None:
+        self._file = file
+        if file:
+            self._codec: Codec[_CachedReport] = Codec(_CachedReport)
+            self._prefix = f"report-{state_of([*files_below(SOURCES), *data], self._codec.schema)}-"
+            self._name = self._prefix + digest(options)
 
     def __bool__(self) -> bool:
         """Return whether reports are cached at all."""
@@ -38,16 +45,20 @@ class ReportCache:
 
     def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
         """Return the cached report if the trees still give the answers that it depends on, else None."""
-        from ros_lint.engine.report import Report  # noqa: PLC0415  (the command has imported it)
-
-        cached = cache_files.load(self._file, self._state) if self._file else None
-        if not isinstance(cached, tuple) or len(cached) != 1 + len(trees) or not isinstance(cached[0], Report):
+        cached = self._file.read(lambda name: name == self._name, self._codec).get(self._name) if self._file else None
+        if cached is None or len(cached.answers) != len(trees):
             return None
-        report, *answers = cached
+        pairs = list(zip(trees, cached.answers, strict=True))
         try:
-            return report if all(tree.is_unchanged(recorded) for tree, recorded in zip(trees, answers, strict=True)) else None
-        except (TypeError, ValueError):  # not a list of queries, paths and answers
+            if not all(tree.is_unchanged(answers) for tree, answers in pairs):
+                return None
+        except ValueError:  # a path of a crafted file contains NUL
             return None
+        renewed = [tree.renewed(answers) for tree, answers in pairs]
+        if any(renewed):
+            answers = tuple([new or old for new, old in zip(renewed, cached.answers, strict=True)])
+            self._write(cached._replace(answers=answers))
+        return cached.report
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
         """Store a report with the answers of the trees that it depends on.
@@ -59,23 +70,13 @@ class ReportCache:
         bare_rules = {rule.name: rule._replace(package=None, workspace=None, suppressions=None) for rule in report.rules}
         issues = tuple([issue._replace(rule=bare_rules[issue.rule.name]) for issue in report.issues])
         bare_report = report._replace(issues=issues, rules=tuple(bare_rules.values()))
-        answers = ([(query, _as_tuples(answer)) for query, answer in tree.answers.items()] for tree in trees)
-        if cache_files.save(self._file, self._state, (bare_report, *answers)):
-            self._clear()
+        self._write(_CachedReport(bare_report, tuple([tree.answers for tree in trees])))
 
-    def _clear(self) -> None:
-        """Remove the oldest reports of the workspace, except for the last ones."""
-        try:
-            with os.scandir(self._folder) as entries:
-                reports = [(entry.stat().st_mtime_ns, entry.path) for entry in entries if entry.name.startswith(self._start)]
-            for _, path in sorted(reports)[:-_MOST_REPORTS]:
-                os.unlink(path)
-        except OSError:
-            return
+    def _write(self, cached: _CachedReport) -> None:
+        self._file.write({self._name: cached}, self._codec, self._obsolete)
 
-
-def _as_tuples(answer: Any) -> Any:
-    """Return stamps and directory entries as plain tuples, which are equal to them and load faster."""
-    if isinstance(answer, list):
-        return [tuple(entry) for entry in answer]
-    return tuple(answer) if isinstance(answer, tuple) else answer
+    def _obsolete(self, names: Sequence[str]) -> list[str]:
+        """Return the names of reports of other versions, and of the oldest reports of this one."""
+        reports = [name for name in names if name.startswith("report-") and name != self._name]
+        current = [name for name in reports if name.startswith(self._prefix)]
+        return [name for name in reports if name not in current[1 - _MOST_REPORTS :]]

@@ -9,6 +9,7 @@ from ros_lint.analysis.finding import Finding
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.paths import is_below_any
 from ros_lint.base.text import Span
+from ros_lint.engine.merge import merge
 from ros_lint.engine.report import Crash, Issue
 from ros_lint.engine.suppressions import apply_suppressions
 from ros_lint.facts.suppressions import Suppression
@@ -79,7 +80,7 @@ class CheckedIssues(NamedTuple):
 
 
 def find_issues(
-    workspace: Workspace,
+    workspaces: Sequence[Workspace],
     rules: Sequence[Rule],
     suppressions: Iterable[Suppression],
     all_rules: Sequence[Rule],
@@ -87,14 +88,17 @@ def find_issues(
 ) -> CheckedIssues:
     """Return the issues of ``rules`` about packages and files below ``folders``, after suppression.
 
-    ``all_rules`` are the rules that suppression comments may name.
+    ``workspaces`` are the workspace for each distribution of the run; their issues are merged, so a suppression is unused only
+    if it is unused in all of them. ``all_rules`` are the rules that suppression comments may name.
     """
     comments = tuple(suppressions)
-    issues, crashes = run_rules(workspace, rules, folders)
+    results = [run_rules(workspace, rules, folders) for workspace in workspaces]
+    issues = merge([(workspace.target.distro, result[0]) for workspace, result in zip(workspaces, results, strict=True)])
+    crashes = tuple(dict.fromkeys([crash for result in results for crash in result[1]]))
     ran = {rule.name for rule in rules} - {crash.rule for crash in crashes}
-    outcome = apply_suppressions(issues, comments, all_rules, ran)
+    outcome = apply_suppressions(sorted(issues, key=sort_key), comments, all_rules, ran)
     about_comments = [
-        Issue(rule, owning_package(workspace, finding.span.path), finding)
+        Issue(rule, _owning_package(workspaces, finding.span.path), finding)
         for rule in rules
         if rule.suppressions
         for finding in rule.suppressions(outcome.use)
@@ -103,6 +107,10 @@ def find_issues(
     about_outcome = apply_suppressions(about_comments, comments, all_rules, ran)  # a comment can suppress findings about itself
     kept = tuple(sorted((*outcome.kept, *about_outcome.kept), key=sort_key))
     return CheckedIssues(kept, tuple(issue for issue, _ in (*outcome.suppressed, *about_outcome.suppressed)), crashes)
+
+
+def _owning_package(workspaces: Iterable[Workspace], path: str) -> str:
+    return next(filter(None, (owning_package(workspace, path) for workspace in workspaces)), "")
 
 
 def sort_key(issue: Issue) -> tuple[object, ...]:

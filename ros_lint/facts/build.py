@@ -311,6 +311,8 @@ class BuildScript(NamedTuple):
     """Places that could not be evaluated."""
     problems: tuple[Problem, ...] = ()
     """Errors of the script."""
+    distros: frozenset[str] | None = None
+    """The distributions for which the script has this result; None if it does not depend on the distribution."""
 
     @property
     def of_cmake(self) -> bool:

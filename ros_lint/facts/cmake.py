@@ -48,7 +48,7 @@ class CommandPlace(NamedTuple):
 
 
 class UnsetVariable(NamedTuple):
-    """A reference to a variable that nothing sets, as an argument of a command that certainly runs."""
+    """A reference to an unset variable, as an argument of a command that certainly runs."""
 
     name: str
     """Name of the variable."""

@@ -8,7 +8,7 @@ from ros_lint.base.text import Span
 
 
 class InterfaceProblem(NamedTuple):
-    """A place in a definition that rosidl rejects, or for which it generates code that does not compile."""
+    """A place in a definition because of which rosidl fails, or the generated code does not compile."""
 
     message: str
     """Text in lower case without a final full stop."""

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from enum import Flag, auto
 from typing import Final, NamedTuple
 
-from ros_lint.base.sealed import Sealed
 from ros_lint.base.text import Span
 from ros_lint.facts.visibility import Problem
 
 
-class Role(Sealed, Flag):
+class Role(Flag):
     """A purpose for which a package needs another package."""
 
     BUILD = auto()

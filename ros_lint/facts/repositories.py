@@ -15,7 +15,7 @@ class UnclonedRepositories(NamedTuple):
 
 
 class ExpectedRepositories(NamedTuple):
-    """Repositories that may be added to a workspace, by folder name, which is mostly also a package name."""
+    """Repositories that may be added to a workspace, by folder name. Mostly a package has the same name."""
 
     uncloned: frozenset[str] = frozenset()
     """Submodules and listed repositories that are not in the workspace: what they may contain counts as not missing.

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.edit import Edit
+from ros_lint.base.text import Span
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    from ros_lint.base.text import Span
 
 
 MARKER = "ros-lint:"

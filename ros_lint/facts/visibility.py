@@ -5,11 +5,10 @@ from __future__ import annotations
 from enum import Flag, auto
 from typing import NamedTuple
 
-from ros_lint.base.sealed import Sealed
 from ros_lint.base.text import Span
 
 
-class Facet(Sealed, Flag):
+class Facet(Flag):
     """A part of a package that a place without a known value can hide.
 
     Example: ``install(FILES ${UNKNOWN} DESTINATION lib/robot)`` hides EXECUTABLES.

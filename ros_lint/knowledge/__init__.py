@@ -52,6 +52,38 @@ def _is_long_term(name: str) -> bool:
     return name in _LONG_TERM or (name[0] > "l" and (ord(name[0]) - ord("l")) % 2 == 0)
 
 
+class _DataFiles:
+    """The contents of the data files about all distributions. Each file is read at its first use."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._indexes: dict[str, Index] = {}
+        self._contents: dict[str, Provides] = {}
+
+    def index(self, distro: str) -> Index:
+        if distro not in self._indexes:
+            self._indexes[distro] = index.load(self._store, distro)
+        return self._indexes[distro]
+
+    def provides(self, distro: str) -> Provides:
+        if distro not in self._contents:
+            self._contents[distro] = provides.load(self._store, distro)
+        return self._contents[distro]
+
+    @cached_property
+    def rosdep(self) -> Rosdep:
+        return rosdep.load(self._store)
+
+    @cached_property
+    def names(self) -> Names:
+        return names.Names(self._store)
+
+    @cached_property
+    def distros(self) -> tuple[str, ...]:
+        """All distributions with an index, oldest first."""
+        return tuple(distro.name for distro in distros(self._store.places))
+
+
 class Knowledge:
     """The data about one distribution, with look-ups in the data about other distributions.
 
@@ -61,11 +93,16 @@ class Knowledge:
 
     def __init__(self, distro: str, places: Sequence[str] = ()) -> None:
         self.distro = distro
-        self._store = Store(places)
+        self._data = _DataFiles(Store(places))
         self._elsewhere: dict[str, frozenset[str]] = {}
         self._distros_with: dict[str, tuple[Index, ...]] = {}
-        self._contents: dict[str, Provides] = {}
         self._supplemented: dict[tuple[str, str, ContentKind], Known] = {}
+
+    def of(self, distro: str) -> Knowledge:
+        """Return the data about another distribution. Files that are read for both are read once."""
+        other = Knowledge(distro)
+        other._data = self._data
+        return other
 
     @property
     def covered(self) -> bool:
@@ -86,7 +123,7 @@ class Knowledge:
 
     @cached_property
     def index(self) -> Index:
-        return index.load(self._store, self.distro)
+        return self._data.index(self.distro)
 
     def provided(self, package: str, kind: ContentKind) -> Known:
         """Return the names of one kind, such as executables, that a released package provides, as far as they are known.
@@ -115,27 +152,25 @@ class Knowledge:
         return before, after
 
     def _provides(self, distro: str) -> Provides:
-        if distro not in self._contents:
-            self._contents[distro] = provides.load(self._store, distro)
-        return self._contents[distro]
+        return self._data.provides(distro)
 
     @cached_property
     def rosdep(self) -> Rosdep:
-        return rosdep.load(self._store)
+        return self._data.rosdep
 
     @cached_property
     def names(self) -> Names:
-        return names.Names(self._store)
+        return self._data.names
 
     @cached_property
     def others(self) -> tuple[Index, ...]:
         """Indexes of the other distributions, oldest first."""
-        return tuple(index.load(self._store, distro) for distro in self._order if distro != self.distro)
+        return tuple(self._data.index(distro) for distro in self._order if distro != self.distro)
 
-    @cached_property
+    @property
     def _order(self) -> tuple[str, ...]:
         """All distributions with an index, oldest first."""
-        return tuple(distro.name for distro in distros(self._store.places))
+        return self._data.distros
 
     def _index(self, distro: str) -> Index:
         return self.index if distro == self.distro else next(entry for entry in self.others if entry.distro == distro)
@@ -203,8 +238,7 @@ class Knowledge:
 
     def distros_resolving(self, key: str) -> tuple[str, ...]:
         """Return the distributions for which a rosdep key resolves, oldest first."""
-        distributions = distros(self._store.places)
-        return tuple(distro.name for distro in distributions if self.rosdep.resolves(key, distro.name))
+        return tuple(distro for distro in self._data.distros if self.rosdep.resolves(key, distro))
 
     def resolves(self, key: str) -> bool | None:
         """Return whether a rosdep key has a rule for a platform of the distribution; None if unknown."""

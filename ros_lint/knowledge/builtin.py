@@ -17,7 +17,7 @@ _REMOVED_MODULES = {"distutils": ((3, 12), "python3-setuptools")}
 
 
 def replacement_key(module: str, distro: str) -> str:
-    """Return the rosdep key that provides a top-level module which the Python of a distribution no longer has, else ""."""
+    """Return the rosdep key for a top-level module that was removed from the Python of a distribution, else ""."""
     version, key = _REMOVED_MODULES.get(module, ((0, 0), ""))
     return key if key and PYTHON_OF.get(distro, (0, 0)) >= version else ""
 

@@ -158,7 +158,7 @@ class Names:
         return tuple(package for package, distros in self._py_ros.get(top, ()) if distro in distros)
 
     def successor(self, name: str) -> str:
-        """Return the ROS 2 successor of a ROS 1 package, or ""."""
+        """Return the successor of a package of ROS 1 or of a former ROS 2 distribution, or ""."""
         return self._successors.get(name, "")
 
     def end_of_life(self, name: str) -> tuple[str, ...]:
@@ -285,14 +285,14 @@ class Names:
 
     @cached_property
     def _successors(self) -> Mapping[str, str]:
-        return dict(self._rows("ros1_successors.tsv"))
+        return dict(self._rows("successors.tsv"))
 
     @cached_property
     def _end_of_life(self) -> Table:
         return self._store.table("eol_names.tsv")[1]
 
     def _doubtful_names(self, file: str) -> frozenset[str]:
-        """Return the names in a map whose providers are entered by hand or are rarely declared by packages that use the name."""
+        """Return the names in a map whose providers are entered manually, or are rarely declared where the name is used."""
         doubtful = self._doubtful.get(file)
         if doubtful is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])

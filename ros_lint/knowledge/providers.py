@@ -325,7 +325,7 @@ def _has_module(world: Layers, package: str) -> bool:
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the packages of the topmost underlay that has any, without packages that the workspace hides.
+    """Return the packages of the topmost underlay with any of them. Packages that the workspace hides do not count.
 
     ``owners`` has the packages of each underlay, the topmost first.
     """

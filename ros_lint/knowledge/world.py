@@ -143,7 +143,7 @@ class World:
         return tuple([f"{package_name(name)}_" for name in self.awaited.uncloned])
 
     def successor(self, name: str) -> str:
-        """Return the ROS 2 successor of a ROS 1 package, or ""."""
+        """Return the successor of a package of ROS 1 or of a former ROS 2 distribution, or ""."""
         successor = self.knowledge.names.successor(name)
         return successor if self.is_package(successor) else ""
 

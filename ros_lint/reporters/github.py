@@ -6,8 +6,9 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Severity
+from ros_lint.base.suggestions import and_list
 from ros_lint.reporters.ansi import Style, safe
-from ros_lint.reporters.summary import and_list, count, crashed, summary, unread_file
+from ros_lint.reporters.summary import count, crashed, summary, unread_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,6 +8,8 @@ from ros_lint.analysis.finding import Severity
 from ros_lint.base.json_text import encode
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ros_lint.analysis.finding import Fix
     from ros_lint.base.text import Span
     from ros_lint.engine.report import Issue, Report
@@ -25,13 +27,14 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "tool": "ros-lint",
         "version": report.version,
         "distro": report.target.distro,
+        "distros": list(report.target.distros),
         "distro_source": report.target.source,
         "named_distros": [{"distro": named.distro, "path": named.path, "line": named.line} for named in report.named_distros],
         "data_date": report.data_date,
         "workspace": report.workspace,
         "packages": report.packages,
         "context_packages": report.context_packages,
-        "findings": [_finding(issue) for issue in report.issues],
+        "findings": [_finding(issue, report.target.distros) for issue in report.issues],
         "hidden": [{"reason": hidden.reason, "count": hidden.count, "rules": dict(hidden.rules)} for hidden in report.hidden],
         "not_checked": [
             {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NO_PLACE)}
@@ -52,7 +55,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
     return encode(document, 2)
 
 
-def _finding(issue: Issue) -> dict[str, Any]:
+def _finding(issue: Issue, distros: Sequence[str]) -> dict[str, Any]:
     finding = issue.finding
     return {
         "rule": issue.rule.name,
@@ -61,6 +64,8 @@ def _finding(issue: Issue) -> dict[str, Any]:
         "subject": finding.subject,
         **_place(finding.span),
         "message": finding.message,
+        "distros": list(issue.distros or distros),
+        "other_messages": [{"distro": distro, "message": message} for distro, message in issue.other_messages],
         "severity": str(issue.severity),
         "confidence": str(finding.confidence),
         "related": [{"message": related.message, **_place(related.span)} for related in finding.related],

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from ros_lint.base.json_text import encode
+from ros_lint.base.suggestions import and_list
 from ros_lint.base.text import Span, Text, to_bytes
 from ros_lint.reporters.fingerprint import line_hashes
 from ros_lint.reporters.sarif_rules import LEVELS, TOPICS, capital, descriptor, sentence, topic
-from ros_lint.reporters.summary import and_list, crashed, hidden_findings, name_or_count, unread_file
+from ros_lint.reporters.summary import crashed, hidden_findings, name_or_count, unread_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -81,11 +82,12 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         ],
         "properties": {
             "distro": report.target.distro,
+            "distros": list(report.target.distros),
             "distroSource": report.target.source,
             "dataDate": report.data_date,
             "packages": report.packages,
         },
-        "results": [_result(group, codes, texts, hashes) for group in kept],
+        "results": [_result(group, report.target.distros, codes, texts, hashes) for group in kept],
     }
     schema = "https://json.schemastore.org/sarif-2.1.0.json"
     return encode({"$schema": schema, "version": "2.1.0", "runs": [run]}, 4)
@@ -126,7 +128,13 @@ def _hashes(groups: Sequence[IssueGroup], texts: SourceTexts) -> dict[tuple[str,
     }
 
 
-def _result(group: IssueGroup, codes: dict[str, int], texts: SourceTexts, hashes: dict[tuple[str, int], str]) -> JsonObject:
+def _result(
+    group: IssueGroup,
+    distros: Sequence[str],
+    codes: dict[str, int],
+    texts: SourceTexts,
+    hashes: dict[tuple[str, int], str],
+) -> JsonObject:
     first = group[0]
     finding = first.finding
     repeated = [(issue.finding.message, issue.finding.span) for issue in group[1:]]
@@ -144,6 +152,7 @@ def _result(group: IssueGroup, codes: dict[str, int], texts: SourceTexts, hashes
         "properties": {
             "package": first.package,
             "subject": finding.subject,
+            "distros": [distro for distro in distros if any(distro in (issue.distros or distros) for issue in group)],
             "confidence": str(min(issue.finding.confidence for issue in group)),
         },
     }

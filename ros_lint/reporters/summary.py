@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Severity
+from ros_lint.base.suggestions import and_list
 from ros_lint.reporters.ansi import Style, paint, safe
 
 if TYPE_CHECKING:
@@ -32,11 +33,6 @@ def summary(report: Report, style: Style) -> str:
 def count(number: int, noun: str) -> str:
     """Return a number with its noun in singular or plural: "1 error", "2 errors"."""
     return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
-def and_list(words: Sequence[str]) -> str:
-    """Return words as a list in a sentence: "a, b and c"."""
-    return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
 def name_or_count(names: Sequence[str], noun: str = "packages") -> str:
@@ -79,14 +75,12 @@ def limits(report: Report) -> Iterator[str]:
 
 def _proposed_distros(report: Report) -> str:
     """Return a sentence about the distributions that the repository builds for, "" if the run was for one of them."""
-    distro = report.target.distro
-    if distro in [named.distro for named in report.named_distros]:
+    if report.target.distro in [named.distro for named in report.named_distros]:
         return ""
     named = [named for named in report.named_distros if named.indexed]
-    options = " or ".join(f"--distro {known.distro}" for known in named)
     places = and_list([f"{known.distro} ({known.path}:{known.line})" for known in named or report.named_distros])
     if named:
-        return f"This repository builds for {places}: pass {options}"
+        return f"This repository builds for {places}: pass --distro {','.join(known.distro for known in named)}"
     return f"This repository builds for {places}, which has no package index here" if places else ""
 
 
@@ -155,7 +149,7 @@ def _by_rule(report: Report, style: Style) -> Iterator[str]:
 def _verdict(report: Report, style: Style) -> str:
     data = f"; package index of {report.data_date}" if report.data_date else ""
     origin = report.target.source if report.target.explicit else f"assumed: {report.target.source}; set with --distro"
-    target = f"for {report.target.distro} ({origin}){data}"
+    target = f"for {and_list(report.target.distros)} ({origin}){data}"
     if not report.packages:
         return f"{paint(style, 'error', 'No package found')}, so nothing was checked {target}."
     numbers = {severity: report.count(severity) for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)}

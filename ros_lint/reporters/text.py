@@ -6,10 +6,10 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Confidence, Severity
-from ros_lint.base.suggestions import shorten_list
+from ros_lint.base.suggestions import and_list, shorten_list
 from ros_lint.reporters.ansi import Style, paint, safe
 from ros_lint.reporters.frames import Mark, frame
-from ros_lint.reporters.summary import and_list, count, summary
+from ros_lint.reporters.summary import count, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -92,6 +92,7 @@ def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
         notes.append(f"note: and {count(len(finding.related) - _RELATED, 'more place')}")
     if finding.confidence is not Confidence.HIGH:
         notes.append(f"note: {finding.confidence} confidence")
+    notes += [f"note: in {distro}: {safe(message, style)}" for distro, message in issue.other_messages]
     if issue.explained:
         notes.append(f"note: {safe(_explanation(issue.explained), style)}")
     if finding.fix:

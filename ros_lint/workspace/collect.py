@@ -11,19 +11,20 @@ import gc
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NamedTuple
 
+from ros_lint.base.recorded_tree import NOT_READ, RecordedTree, content_digest
 from ros_lint.base.text import Text, file_start, read
-from ros_lint.base.tree import DiskTree, RecordedTree, Tree
+from ros_lint.base.tree import DiskTree, Tree
 from ros_lint.collectors import machine_paths
 from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.collectors.file_types import _SUFFIXES, Kind, kind_of
 from ros_lint.collectors.suffixes import HEADERS, INTERFACES, SOURCES
 from ros_lint.facts.launch import LaunchFile
-from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.sources import FileFacts
 from ros_lint.facts.suppressions import MARKER, Suppression
 from ros_lint.facts.visibility import ALL_FACETS, Facet, Opaque
-from ros_lint.workspace.fact_cache import FactCache
+from ros_lint.workspace.cache.facts import FactCache
+from ros_lint.workspace.collected import Collected, ReadFile
 
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
@@ -53,18 +54,6 @@ _HIDDEN_FACETS: dict[Kind, Facet] = {
     "xml": Facet.USES | Facet.COMPONENTS,
 }
 """Facets that an unreadable file hides, by kind of file; the default is ``Facet.USES``."""
-
-
-class Collected(NamedTuple):
-    """The facts of one file."""
-
-    facts: FileFacts | None = None
-    launch: LaunchFile | None = None
-    commands: ParsedScript | None = None
-    suppressions: tuple[Suppression, ...] = ()
-    machine_paths: tuple[MachinePath, ...] = ()
-    unreadable: str = ""
-    """Reason why the file was not read, or ""."""
 
 
 def collect(text: Text, kind: Kind) -> Collected:
@@ -129,29 +118,32 @@ def collect_all(
     finished files.
     """
     files = [(path, kind) for path in paths if (kind := kind_of(path))]
-    collected = cache.fetch(tree, [path for path, _ in files], Collected)
-    tick(len(collected))
-    uncached = [(path, kind) for path, kind in files if path not in collected]
-    fresh: dict[str, Collected] = {}
-    processes = _processes(jobs, len(uncached))
-    chunks: Iterable[dict[str, Collected]]
     disk = tree.disk if isinstance(tree, RecordedTree) else tree
+    read_files = cache.fetch(tree, disk, [path for path, _ in files])
+    tick(len(read_files))
+    uncached = [(path, kind) for path, kind in files if path not in read_files]
+    fresh: dict[str, ReadFile] = {}
+    processes = _processes(jobs, len(uncached))
+    chunks: Iterable[dict[str, ReadFile]]
     if processes > 1 and uncached and isinstance(disk, DiskTree):
         chunks = _in_processes(disk, uncached, processes)
     else:
-        chunks = (_collect_chunk(tree, uncached[at : at + 100]) for at in range(0, len(uncached), 100))
+        chunks = (_collect_chunk(disk, uncached[at : at + 100]) for at in range(0, len(uncached), 100))
     enabled = gc.isenabled()
     gc.disable()  # facts have no cycles, and the garbage collector would traverse all of them repeatedly
     try:
         for chunk in chunks:
             fresh.update(chunk)
-            tick(len(collected) + len(fresh))
+            tick(len(read_files) + len(fresh))
     finally:
         if enabled:
             gc.enable()
-    cache.store(tree, fresh)
-    collected.update(fresh)
-    return {path: collected[path] for path, _ in files}
+    cache.store(disk, fresh)
+    read_files.update(fresh)
+    if isinstance(tree, RecordedTree):
+        for path, file in read_files.items():
+            tree.note_contents(path, file.digest)
+    return {path: read_files[path].collected for path, _ in files}
 
 
 def _processes(jobs: int, files: int) -> int:
@@ -160,7 +152,7 @@ def _processes(jobs: int, files: int) -> int:
     return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_PER_PROCESS)
 
 
-def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int) -> Iterator[dict[str, Collected]]:
+def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int) -> Iterator[dict[str, ReadFile]]:
     from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415
 
     size = max(20, min(200, len(files) // (processes * 4)))
@@ -169,17 +161,21 @@ def _in_processes(tree: DiskTree, files: list[tuple[str, Kind]], processes: int)
         yield from pool.map(_collect_chunk, [tree] * len(chunks), chunks)
 
 
-def _collect_chunk(tree: Tree, files: Sequence[tuple[str, Kind]]) -> dict[str, Collected]:
+def _collect_chunk(tree: Tree, files: Sequence[tuple[str, Kind]]) -> dict[str, ReadFile]:
     return {path: _read_and_collect(tree, path, kind) for path, kind in files}
 
 
-def _read_and_collect(tree: Tree, path: str, kind: Kind) -> Collected:
+def _read_and_collect(tree: Tree, path: str, kind: Kind) -> ReadFile:
     try:
         data = tree.read(path)
     except OSError as error:
         if kind == "program" and error.errno == errno.EFBIG:
-            return Collected()  # too large for a script: it is a compiled program
-        return _unreadable(path, kind, error.strerror or str(error))
+            return ReadFile(NOT_READ, Collected())  # too large for a script: it is a compiled program
+        return ReadFile(NOT_READ, _unreadable(path, kind, error.strerror or str(error)))
+    return ReadFile(content_digest(data), _collected(path, kind, data))
+
+
+def _collected(path: str, kind: Kind, data: bytes) -> Collected:
     if kind == "program":
         if not _PYTHON_SHEBANG.match(data):
             return Collected()

@@ -36,18 +36,19 @@ class LaunchPackage(NamedTuple):
     launch: tuple[LaunchFile, ...]
 
 
-def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage], distro: str) -> list[tuple[LaunchFile, ...]]:
-    """Return the launch files of each package, interpreted again if the workspace has their missing inputs.
-
-    If ``distro`` is a maintained distribution, references that apply only to other distributions are removed.
-    """
+def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage]) -> list[tuple[LaunchFile, ...]]:
+    """Return the launch files of each package, interpreted again if the workspace has their missing inputs."""
     if not any(_needs_inputs(file) for package in packages for file in package.launch):
-        return [tuple([_for_distro(distro, file) for file in package.launch]) for package in packages]
+        return [package.launch for package in packages]
     inputs = _InputFinder(tree, packages)
-    return [tuple([_for_distro(distro, inputs.with_inputs(file, package)) for file in package.launch]) for package in packages]
+    return [tuple([inputs.with_inputs(file, package) for file in package.launch]) for package in packages]
 
 
-def _for_distro(distro: str, file: LaunchFile) -> LaunchFile:
+def for_distro(distro: str, file: LaunchFile) -> LaunchFile:
+    """Return a launch file without references that apply only to other distributions.
+
+    The file is unchanged if ``distro`` is not a maintained distribution.
+    """
     if distro not in DISTRIBUTIONS or not any(reference.distros for reference in file.references):
         return file
     return file._replace(references=tuple([use for use in file.references if not use.distros or distro in use.distros]))

@@ -17,11 +17,9 @@ from ros_lint.base.text import Text, file_start
 from ros_lint.base.tree import OverlayTree, Tree, text_of
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.manifest import conditions
-from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import DEPENDENCY_KINDS, ROLES, Manifest, Role
 from ros_lint.facts.repositories import ExpectedRepositories
-from ros_lint.facts.sources import FileFacts, MachinePath, Use
 from ros_lint.facts.suppressions import Suppression
 from ros_lint.facts.visibility import Opaque
 from ros_lint.knowledge import Knowledge
@@ -31,22 +29,18 @@ from ros_lint.knowledge.world import Member, World
 from ros_lint.workspace import launch_modules
 from ros_lint.workspace.build_scripts import evaluate as build_scripts
 from ros_lint.workspace.build_scripts.sources import Parts
-from ros_lint.workspace.collect import Collected, collect_all
+from ros_lint.workspace.cache.facts import FactCache
+from ros_lint.workspace.cache.file import NO_CACHE
+from ros_lint.workspace.collect import collect_all
+from ros_lint.workspace.collected import Collected
 from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import find_ignores
 from ros_lint.workspace.discovery.named_distros import named_distros
-from ros_lint.workspace.fact_cache import FactCache
+from ros_lint.workspace.join import Progress, ReadPackage, join_packages, unusable_package
 from ros_lint.workspace.model import Declared, Package, Workspace
 from ros_lint.workspace.side_by_side import hidden_namesakes, workspace_of
 from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
-from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
-from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
-from ros_lint.workspace.usage.resolve import Resolver, resolve
-from ros_lint.workspace.usage.unreached_modules import unreached_modules
-
-Progress = Callable[[str, int, int], None]
-"""Called with the current step, the number of finished items and the number of all items."""
 
 _NO_ROLE = Role(0)
 
@@ -54,28 +48,49 @@ _MOST_CONTEXT = 20_000
 """Maximum number of folders outside packages that are searched for the packages of the context."""
 
 
-class _ReadPackage(NamedTuple):
-    """A package with the facts of its files."""
+class DistroData(NamedTuple):
+    """A distribution to check for, with the data about its packages."""
 
-    discovered: DiscoveredPackage
-    declared: tuple[Declared, ...]
-    script: BuildScript | None
-    facts: Mapping[str, FileFacts]
-    launch: tuple[LaunchFile, ...]
-    machine_paths: tuple[MachinePath, ...] = ()
+    target: TargetDistro
+    knowledge: Knowledge
+    underlays: tuple[Underlay, ...] = ()
+
+
+class _Found(NamedTuple):
+    """The packages of a tree with their manifests. No other files are read."""
+
+    roots: tuple[str, ...]
+    """The folders that are read."""
+    discovery: Discovery
+    packages: list[DiscoveredPackage]
+    """The packages of the discovery without excluded files and submodules that are not cloned."""
+    lists: tuple[str, ...]
+    """Files that list repositories."""
+    unread_lists: tuple[UnreadFile, ...]
+    expected: ExpectedRepositories
 
     @property
-    def source(self) -> PackageSource:
-        """The package as the resolution of names needs it."""
-        package = self.discovered
-        builds_with = package.type.removeprefix("ros.")
-        return PackageSource(package.name, package.path, package.files, self.script, self.facts, self.launch, builds_with)
+    def depends_on_distro(self) -> bool:
+        """True if a condition chooses the build type of a package, so that colcon may find other packages elsewhere."""
+        manifests = [*(package.manifest for package in self.discovery.packages), *self.discovery.rejected]
+        exports = [export for manifest in manifests if manifest for export in manifest.exports]
+        return any(export.tag == "build_type" and conditions.of(export) for export in exports)
+
+
+class _Read(NamedTuple):
+    """The packages of a tree with the facts of their files, for one distribution."""
+
+    packages: list[ReadPackage]
+    evaluation: build_scripts.Evaluation
+    launch: list[tuple[LaunchFile, ...]]
+    """The launch files of each package, for all distributions."""
 
 
 class Loader:
     """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
 
-    Paths are relative to the base of the tree.
+    Paths are relative to the base of the tree. ``others`` are further distributions to check for: :meth:`load_all` reads and
+    evaluates only once everything that is independent of the distribution.
     """
 
     def __init__(
@@ -87,6 +102,7 @@ class Loader:
         context: Sequence[str] = (),
         underlays: Sequence[Underlay] = (),
         knowledge: Knowledge | None = None,
+        others: Sequence[DistroData] = (),
         exclude: Callable[[str], bool] = lambda path: False,
         jobs: int = 0,
         cache: FactCache | None = None,
@@ -96,76 +112,103 @@ class Loader:
         self.pinned: dict[str, bytes] = {}
         """Contents of files as read by :meth:`pin`."""
         self._original_tree = tree
-        self.target = target
-        self._context = target.context
         self._roots = tuple(roots)
         self._around = tuple(context)
-        self._underlays = tuple(underlays)
-        self._knowledge = knowledge or Knowledge(target.distro)
+        self._distros = (DistroData(target, knowledge or Knowledge(target.distro), tuple(underlays)), *others)
         self._exclude = exclude
         self._jobs = jobs
-        self._cache = cache or FactCache("", "")
+        self._cache = cache or FactCache(NO_CACHE)
         self._progress = progress
         self._collected: dict[str, Collected] = {}
         self._named_distros: tuple[NamedDistro, ...] | None = None
 
     def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
-        """Return the workspace, with the contents of some files replaced.
+        """Return the workspace for the first distribution, with the contents of some files replaced.
 
         Without ``sources`` only manifests are read, which suffices for questions about the graph. Scripts, launch
         files and uses are then missing, so rules must not run.
         """
+        return next(self._load(changed or {}, sources))
+
+    def load_all(self, changed: Mapping[str, bytes] | None = None) -> tuple[Workspace, ...]:
+        """Return the workspace for each distribution, with the contents of some files replaced."""
+        return tuple(self._load(changed or {}, sources=True))
+
+    def _load(self, changed: Mapping[str, bytes], sources: bool) -> Iterator[Workspace]:
+        """Yield the workspace for each distribution."""
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
-        roots, discovery = self._discover(tree)
-        discovered = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
-        files = [join(package.path, file) for package in discovered for file in package.files]
+        found: _Found | None = None
+        collected: Mapping[str, Collected] = {}
+        read: _Read | None = None
+        for data in self._distros:
+            if found is None or found.depends_on_distro:
+                found = self._find(tree, data.target)
+                collected = self._collect(found.packages, changed) if sources else {}
+            if sources:
+                read = self._read(tree, found.packages, collected, data.target, read)
+            packages = read.packages if read else [_manifest_only(package, data.target) for package in found.packages]
+            yield self._join(tree, found, collected, packages, data, sources)
+
+    def _find(self, tree: Tree, target: TargetDistro) -> _Found:
+        """Return the packages that colcon finds for a distribution."""
+        roots, discovery = self._discover(tree, target)
+        packages = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
+        files = [join(package.path, file) for package in packages for file in package.files]
         lists = repository_lists.find_lists(tree, roots, (*files, *discovery.repository_lists))
         submodules = repository_lists.submodules(tree, lists)
-        discovered = _without_submodules(discovered, submodules)
-        collected = self._collect(discovered, changed or {}) if sources else {}
-        read_packages = (
-            self._read(tree, discovered, collected)
-            if sources
-            else [_ReadPackage(package, self._declared(package.manifest), None, {}, ()) for package in discovered]
-        )
+        packages = _without_submodules(packages, submodules)
+        places = [(package.name, package.path) for package in packages]
         unread_lists = tuple(repository_lists.unreadable_lists(tree, lists))
-        expected = repository_lists.expected_repositories(
-            tree, lists, submodules, [(package.name, package.path) for package in discovered]
-        )._replace(complete=not unread_lists)
-        world = self._world(read_packages, discovery.rejected, expected)
+        expected = repository_lists.expected_repositories(tree, lists, submodules, places)._replace(complete=not unread_lists)
+        return _Found(roots, discovery, packages, lists, unread_lists, expected)
+
+    def _join(
+        self,
+        tree: Tree,
+        found: _Found,
+        collected: Mapping[str, Collected],
+        read_packages: Sequence[ReadPackage],
+        data: DistroData,
+        sources: bool,
+    ) -> Workspace:
+        """Return the workspace of the read packages. If it has several workspaces side by side, it contains a view for each."""
+        rejected_manifests = found.discovery.rejected
+        world = _world(read_packages, rejected_manifests, data, found.expected)
         hidden = hidden_namesakes(
             [
-                *((package.name, package.path) for package in discovered),
-                *((manifest.name, parent(manifest.path)) for manifest in discovery.rejected),
+                *((package.name, package.path) for package in found.packages),
+                *((manifest.name, parent(manifest.path)) for manifest in rejected_manifests),
             ]
         )
         shared = [read for read in read_packages if not hidden or workspace_of(read.discovered.path) not in hidden]
-        packages = tuple(self._join(tree, read_packages, shared, world, sources))
+        packages = tuple(join_packages(tree, read_packages, shared, world, self._progress, search=sources))
         worlds: dict[str, World] = {}
         for folder, paths in hidden.items():
             visible = [read for read in read_packages if read.discovered.path not in paths]
             own = [read for read in visible if workspace_of(read.discovered.path) == folder]
-            rejected = [manifest for manifest in discovery.rejected if parent(manifest.path) not in paths]
-            worlds[folder] = self._world(visible, rejected, expected)
-            packages += tuple(self._join(tree, visible, own, worlds[folder], sources))
+            rejected = [manifest for manifest in rejected_manifests if parent(manifest.path) not in paths]
+            worlds[folder] = _world(visible, rejected, data, found.expected)
+            packages += tuple(join_packages(tree, visible, own, worlds[folder], self._progress, search=sources))
         packages = tuple(sorted(packages, key=lambda package: package.path)) if hidden else packages
-        unusable = tuple(self._unusable(manifest) for manifest in discovery.rejected if not self._exclude(manifest.path))
-        ignores = find_ignores(tree, ((package.path, package.files) for package in discovered))
+        unusable = tuple(unusable_package(manifest) for manifest in rejected_manifests if not self._exclude(manifest.path))
+        ignores = find_ignores(tree, ((package.path, package.files) for package in found.packages))
         unread_files = (
-            *discovery.not_checked,
-            *unread_lists,
+            *found.discovery.not_checked,
+            *found.unread_lists,
             *ignores.not_checked,
             *_unreadable(collected),
         )
         not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
 
-        named = self._distros_named_in(tree, roots)
+        named = self._distros_named_in(tree, found.roots)
         untracked = frozenset(_untracked(tree, packages))
 
         def seen(world: World, without: Container[str] = (), views: Mapping[str, Workspace] = MappingProxyType({})) -> Workspace:
             kept = [tuple([package for package in group if package.path not in without]) for group in (packages, unusable)]
-            return Workspace(kept[0], kept[1], world, self.target, not_checked, lists, ignores.patterns, views, named, untracked)
+            return Workspace(
+                kept[0], kept[1], world, data.target, not_checked, found.lists, ignores.patterns, views, named, untracked
+            )
 
         return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
 
@@ -190,27 +233,28 @@ class Loader:
         for path in sorted(collected):
             yield from collected[path].suppressions
 
-    def _discover(self, tree: Tree) -> tuple[tuple[str, ...], Discovery]:
+    def _discover(self, tree: Tree, target: TargetDistro) -> tuple[tuple[str, ...], Discovery]:
         """Return the folders that are read (the context, or else the requested folders), and their packages.
 
         The context is left out if it has too many folders, or if colcon finds nothing in a requested folder from there, for
         example because an outer folder is ignored.
         """
         if self._around:
-            around = discover(tree, self._around, self.target.context, _MOST_CONTEXT)
+            around = discover(tree, self._around, target.context, _MOST_CONTEXT)
             places = [*(package.path for package in around.packages), *(parent(manifest.path) for manifest in around.rejected)]
             if around.complete and all(any(is_below(place, root) for place in places) for root in self._roots):
                 return self._around, around
             if not around.complete:
                 why = f"there are more than {_MOST_CONTEXT} folders; the requested packages were checked without context"
-                requested = discover(tree, self._roots, self.target.context)
+                requested = discover(tree, self._roots, target.context)
                 return self._roots, requested._replace(not_checked=(*requested.not_checked, UnreadFile("context", why, None)))
-        return self._roots, discover(tree, self._roots, self.target.context)
+        return self._roots, discover(tree, self._roots, target.context)
 
     def _distros_named_in(self, tree: Tree, roots: Sequence[str]) -> tuple[NamedDistro, ...]:
         """Return the distributions that the repository builds for, () if the user chose the distribution."""
         if self._named_distros is None:
-            known = {} if self.target.explicit else self._knowledge.distributions
+            target, knowledge, _ = self._distros[0]
+            known = {} if target.explicit else knowledge.distributions
             self._named_distros = named_distros(tree, roots, known) if known else ()
         return self._named_distros
 
@@ -219,9 +263,9 @@ class Loader:
 
     def _collect(self, discovered: Sequence[DiscoveredPackage], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
         paths = [join(package.path, file) for package in discovered for file in package.files if kind_of(file)]
-        if not self._collected:
-            self._collected = collect_all(
-                self.tree, paths, self._jobs, self._cache, lambda finished: self._progress("reading", finished, len(paths))
+        if new := [path for path in paths if path not in self._collected and path not in changed]:
+            self._collected |= collect_all(
+                self.tree, new, self._jobs, self._cache, lambda finished: self._progress("reading", finished, len(new))
             )
         return self._collected_with(changed)
 
@@ -229,17 +273,23 @@ class Loader:
         paths = [path for path in changed if path in self._collected]
         if not paths:
             return self._collected
-        fresh = collect_all(OverlayTree(self.tree, changed), paths, 1, FactCache("", ""), lambda finished: None)
+        fresh = collect_all(OverlayTree(self.tree, changed), paths, 1, FactCache(NO_CACHE), lambda finished: None)
         return {**self._collected, **fresh}
 
     def _read(
-        self, tree: Tree, discovered: Sequence[DiscoveredPackage], collected: Mapping[str, Collected]
-    ) -> list[_ReadPackage]:
+        self,
+        tree: Tree,
+        discovered: Sequence[DiscoveredPackage],
+        collected: Mapping[str, Collected],
+        target: TargetDistro,
+        earlier: _Read | None,
+    ) -> _Read:
+        """Return the packages with their facts for a distribution. ``earlier`` are the packages for another distribution."""
         of_package = [
             {file: collected[path] for file in package.files if (path := join(package.path, file)) in collected}
             for package in discovered
         ]
-        declared_by = [self._declared(package.manifest) for package in discovered]
+        declared_by = [_declared(package.manifest, target) for package in discovered]
         parts = [
             Parts(
                 package,
@@ -248,142 +298,70 @@ class Loader:
             )
             for package, declared, files in zip(discovered, declared_by, of_package, strict=True)
         ]
-        built = build_scripts.evaluate(tree, parts, self.target.distro)
-        launch = launch_modules.resolve_modules(
-            tree,
-            [
-                launch_modules.LaunchPackage(
-                    package.name,
-                    package.path,
-                    package.files,
-                    script,
-                    tuple([c.launch for c in files.values() if c.launch is not None]),
-                )
-                for package, script, files in zip(discovered, built, of_package, strict=True)
-            ],
-            self.target.distro,
-        )
-        return [
-            _ReadPackage(
+        evaluation = build_scripts.evaluate(tree, parts, target.distro, earlier.evaluation if earlier else None)
+        if earlier and evaluation.helpers is earlier.evaluation.helpers:  # all scripts are the same
+            launch = earlier.launch
+        else:
+            launch = launch_modules.resolve_modules(
+                tree,
+                [
+                    launch_modules.LaunchPackage(
+                        package.name,
+                        package.path,
+                        package.files,
+                        script,
+                        tuple([c.launch for c in files.values() if c.launch is not None]),
+                    )
+                    for package, script, files in zip(discovered, evaluation.scripts, of_package, strict=True)
+                ],
+            )
+        packages = [
+            ReadPackage(
                 package,
                 declared,
                 script,
                 {file: c.facts for file, c in files.items() if c.facts is not None},
-                resolved,
+                tuple([launch_modules.for_distro(target.distro, file) for file in launch_files]),
                 tuple([path for c in files.values() for path in c.machine_paths]),
             )
-            for package, declared, script, files, resolved in zip(discovered, declared_by, built, of_package, launch, strict=True)
-        ]
-
-    def _world(
-        self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest], expected: ExpectedRepositories
-    ) -> World:
-        return World(tuple(self._members(read_packages, rejected)), self._underlays, self._knowledge, expected)
-
-    def _members(self, read_packages: Sequence[_ReadPackage], rejected: Sequence[Manifest]) -> Iterator[Member]:
-        for package, declared, script, *_ in read_packages:
-            modules = importable_modules(script, package.files) if script else None
-            yield _member(package.name, package.manifest, declared)._replace(modules=modules)
-        for manifest in rejected:
-            if manifest.name:
-                yield _member(manifest.name, manifest, self._declared(manifest))
-
-    def _join(
-        self, tree: Tree, visible: Sequence[_ReadPackage], read_packages: Sequence[_ReadPackage], world: World, search: bool
-    ) -> Iterator[Package]:
-        """Yield ``read_packages`` with their uses of the visible packages."""
-        if not read_packages:
-            return
-        sources = [read_package.source for read_package in visible]
-        resolver = Resolver(sources, world)
-        types = unqualified_types.Types(sources, tree, lambda name: world.closure((name,)))
-        for number, read_package in enumerate(read_packages):
-            self._progress("analysing", number, len(read_packages))
-            discovered, source = read_package.discovered, read_package.source
-            files = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
-            uses = resolve(source, resolver, files)
-            declared = read_package.declared
-            package = Package(
-                name=discovered.name,
-                path=discovered.path,
-                type=discovered.type,
-                manifest=discovered.manifest,
-                declared=tuple(d for d in declared if d.depend.tag in ROLES),
-                groups=tuple(d.name for d in declared if d.depend.tag == "member_of_group"),
-                group_depends=tuple(d for d in declared if d.depend.tag == "group_depend"),
-                colcon_depends=discovered.colcon_depends,
-                files=discovered.files,
-                unvisited_folders=tuple(skipped.path for skipped in discovered.unvisited),
-                nested=discovered.nested,
-                script=read_package.script,
-                launch=read_package.launch,
-                uses=uses,
-                textual_mentions={},
-                opaque=opaque_of(source),
-                registrations=tuple(
-                    [registration for facts in read_package.facts.values() for registration in facts.registrations]
-                ),
-                loaders=tuple([loader for facts in read_package.facts.values() for loader in facts.loaders]),
-                imported_types=tuple([imported for facts in read_package.facts.values() for imported in facts.types]),
-                interface_files=tuple([f.interface for f in read_package.facts.values() if f.interface is not None]),
-                lookups=tuple([look_up for facts in read_package.facts.values() for look_up in facts.lookups]),
-                parameter_files=tuple([f.parameters for f in read_package.facts.values() if f.parameters is not None]),
-                unusable_headers=public_headers.unusable(source.built, read_package.facts, discovered.files),
-                machine_paths=read_package.machine_paths,
-                compiled_headers=files.headers_by_source(),
-                uninstalled_imports=tuple(own_files.uninstalled_imports(discovered.files, source.built, read_package.facts)),
-                renamed=discovered.colcon_name if discovered.colcon_name != discovered.name else "",
+            for package, declared, script, files, launch_files in zip(
+                discovered, declared_by, evaluation.scripts, of_package, launch, strict=True
             )
-            if package.registrations and read_package.script and read_package.script.files.plugin_files:
-                package = package._replace(unwritten_classes=textual_mentions.find_unwritten_classes(tree, package))
-            if search:
-                package = package._replace(
-                    textual_mentions=textual_mentions.find_textual_mentions(tree, package, source, world, types),
-                    possibly_used=textual_mentions.possibly_used(tree, package, source, world, types),
-                    unreached_modules=unreached_modules(
-                        tree, source, _undeclared(package), [other for other in sources if other is not source]
-                    ),
-                )
-            yield package
-
-    def _declared(self, manifest: Manifest | None) -> tuple[Declared, ...]:
-        """Return each dependency element whose condition is not false.
-
-        Groups, conflicts and replaces are included.
-        """
-        result = []
-        for depend in manifest.depends if manifest else ():
-            truth = conditions.truth(depend.condition, self._context) if depend.condition else True
-            if truth is not False:
-                result.append(Declared(depend, ROLES.get(depend.tag, _NO_ROLE), truth is True))
-        return tuple(result)
-
-    def _unusable(self, manifest: Manifest) -> Package:
-        folder = manifest.path.rpartition("/")[0]
-        return Package(
-            name=manifest.name,
-            path=folder,
-            type="",
-            manifest=manifest,
-            declared=(),
-            groups=(),
-            group_depends=(),
-            colcon_depends=(),
-            files=(),
-            unvisited_folders=("",),
-            nested=(),
-            script=None,
-            launch=(),
-            uses=(),
-            textual_mentions={},
-            opaque=(),
-        )
+        ]
+        return _Read(packages, evaluation, launch)
 
 
-def _undeclared(package: Package) -> list[Use]:
-    """Return the uses that no dependency tag of the package names."""
-    names = {declared.name for declared in package.declared}
-    return [use for use in package.uses if names.isdisjoint(use.providers)]
+def _manifest_only(package: DiscoveredPackage, target: TargetDistro) -> ReadPackage:
+    return ReadPackage(package, _declared(package.manifest, target), None, {}, ())
+
+
+def _world(
+    read_packages: Sequence[ReadPackage], rejected: Sequence[Manifest], data: DistroData, expected: ExpectedRepositories
+) -> World:
+    return World(tuple(_members(read_packages, rejected, data.target)), data.underlays, data.knowledge, expected)
+
+
+def _members(read_packages: Sequence[ReadPackage], rejected: Sequence[Manifest], target: TargetDistro) -> Iterator[Member]:
+    for package, declared, script, *_ in read_packages:
+        modules = importable_modules(script, package.files) if script else None
+        yield _member(package.name, package.manifest, declared)._replace(modules=modules)
+    for manifest in rejected:
+        if manifest.name:
+            yield _member(manifest.name, manifest, _declared(manifest, target))
+
+
+def _declared(manifest: Manifest | None, target: TargetDistro) -> tuple[Declared, ...]:
+    """Return each dependency element whose condition is not false.
+
+    Groups, conflicts and replaces are included.
+    """
+    result = []
+    context = target.context
+    for depend in manifest.depends if manifest else ():
+        truth = conditions.truth(depend.condition, context) if depend.condition else True
+        if truth is not False:
+            result.append(Declared(depend, ROLES.get(depend.tag, _NO_ROLE), truth is True))
+    return tuple(result)
 
 
 def _without_submodules(discovered: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
@@ -426,7 +404,7 @@ def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
                 yield path
 
 
-def _unchecked_scripts(read_packages: Sequence[_ReadPackage]) -> Iterator[UnreadFile]:
+def _unchecked_scripts(read_packages: Sequence[ReadPackage]) -> Iterator[UnreadFile]:
     for read_package in read_packages:
         if read_package.script is not None:
             yield from _unchecked(read_package.script.opaque)

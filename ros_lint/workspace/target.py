@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.base.text import file_start
+from ros_lint.base.text import Span, file_start
 from ros_lint.facts.environment import ROS_2
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ros_lint.base.text import Span
-
 
 class TargetDistro(NamedTuple):
-    """The ROS distribution that the workspace is checked for."""
+    """The ROS distribution that the workspace is checked for, or one of several."""
 
     distro: str
     """Name of the distribution, such as "jazzy"."""
@@ -22,6 +20,13 @@ class TargetDistro(NamedTuple):
     """Origin of the choice, such as ``--distro``, for messages."""
     explicit: bool = True
     """False if the distribution is assumed: then names of other active distributions count as existing."""
+    others: tuple[str, ...] = ()
+    """The other distributions of a run for several. A safe fix has to hold in them, too."""
+
+    @property
+    def distros(self) -> tuple[str, ...]:
+        """All distributions of the run, this one first."""
+        return (self.distro, *self.others)
 
     @property
     def chosen(self) -> str:

@@ -34,8 +34,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     first, *others = outside.values()
     are, them = (f" and {len(others)} more are", "them") if others else (" is", "it")
     yield Finding(
-        f"'{first.name}'{are} registered in a function or subfolder, so ament_package() does not write {them} to the index; "
-        f"register {them} in the top CMakeLists.txt, outside functions",
+        f"'{first.name}'{are} registered in a function or subfolder, so ament_package() does not write {them} to the "
+        f"ament index; register {them} in the top CMakeLists.txt, outside functions",
         first.span,
         first.name,
         first_related(Related("also registered in a function or subfolder", other.span) for other in others),

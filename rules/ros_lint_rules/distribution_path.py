@@ -103,7 +103,7 @@ def _remedy(leads: re.Match[str], machine: MachinePath, package: Package) -> str
     if file.endswith((".sdf", ".world")):
         return f"write model://{name}/{rest}"
     if file.endswith((".yaml", ".yml")):
-        return f"pass it from the launch file, which can look up the share directory of '{name}'"
+        return f"pass the path from the launch file, which can look up the share directory of '{name}'"
     return f"look it up in the share directory of '{name}'"
 
 

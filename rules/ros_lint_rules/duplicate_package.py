@@ -40,7 +40,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if len(same) < 2:
             continue
         first, *others = same
-        places = " and ".join(package.path or "." for package in same)
+        *earlier, last = [package.path or "." for package in same]
+        places = f"{', '.join(earlier)} and {last}"
         yield Finding(
             f"{len(same)} packages have the name '{name}': {places}; colcon rejects the workspace; rename one or put "
             "COLCON_IGNORE into its folder",

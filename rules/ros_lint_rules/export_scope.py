@@ -40,7 +40,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         return
     first, *others = package.built.cmake.lost_exports
     yield Finding(
-        f"{first.name}() has no effect here, because ament_package() does not see variables of a function or subfolder; "
+        f"{first.name}() has no effect here, because ament_package() does not read variables of a function or subfolder; "
         "call it in the top CMakeLists.txt",
         first.span,
         first.name,

@@ -99,7 +99,7 @@ def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) 
             elif name not in targets and call.name == _EXPORTS and _is_plain(name):
                 yield Finding(
                     f"'{name}' is exported, but it is neither found here nor a known package, so find_package({package.name}) "
-                    "fails in other packages",
+                    "fails in other packages; correct or remove the name",
                     call.span(index),
                     name,
                     confidence=Confidence.MEDIUM,

@@ -134,9 +134,10 @@ def _finding(name: str, started: launch.Started, earlier: launch.Started, here: 
             name,
             tuple(related),
         )
-    others = f"; {more} more {'name is' if more == 1 else 'names are'} also used twice" if more else ""
+    others = f" ({more} more {'name is' if more == 1 else 'names are'} also used twice)" if more else ""
     return Finding(
-        f"the included file starts {what}, the second node named '{name}', but node names must be unique{others}",
+        f"the included file starts {what}, the second node named '{name}', but node names must be unique; "
+        f"give one of the nodes another name or namespace{others}",
         here.span,
         name,
         (Related("the second node", started.span), *related),

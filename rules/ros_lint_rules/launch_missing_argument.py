@@ -44,7 +44,7 @@ def _of_include(include: launch.PlacedInclude, source: LaunchFile, resolver: lau
     for name, declared in resolver.takes(target.file).required.items():
         if name not in passed:
             yield Finding(
-                f"'{file}' requires the argument '{name}', which is not passed here",
+                f"'{file}' requires the argument '{name}', which is not passed here; pass it",
                 action.target.span if action.target is not None else action.span,
                 f"{file}:{name}",
                 (Related("declared here without a default", declared),),

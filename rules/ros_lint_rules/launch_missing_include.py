@@ -160,7 +160,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
-    """Yield the look-up of the package before the line of a reference, unless the launch file uses it for several files."""
+    """Yield the place where the package of a missing file is looked up on an earlier line, for this file only."""
     place, named = reference.span, reference.package_span
     if place.path == named.path and named.line < place.line and len(names_at[named]) == 1:
         yield Related("the package is looked up here", named)
@@ -237,10 +237,10 @@ _Key = tuple[Span, str, str]
 
 
 def _message(owner: str, path: str, more: int = 0) -> str:
-    """Return the beginning of a message: ``path`` and ``more`` other files of its folder do not exist in the package."""
+    """Return the beginning of a message: ``path`` and ``more`` other files of the same folder do not exist in the package."""
     if not more:
         return f"'{path}' does not exist in '{owner}'"
-    return f"'{path}' and {more} other file{'s' if more > 1 else ''} of its folder that this file names do not exist in '{owner}'"
+    return f"'{path}' and {more} more file{'s' if more > 1 else ''} of the same folder do not exist in '{owner}'"
 
 
 def _severity(path: str) -> Severity:

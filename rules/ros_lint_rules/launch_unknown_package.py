@@ -37,8 +37,8 @@ Not reported:
 Reported with medium confidence:
 
 - The name is unknown and similar to no other, because vendors may not release their drivers. If the package is started
-  unconditionally and `package.xml` does not declare it, it is a warning with high confidence instead: users who install this
-  package do not get it.
+  unconditionally and `package.xml` does not declare it, not even for another distribution, it is a warning with high confidence
+  instead: users who install this package do not get it.
 - A `*.repos` or `*.rosinstall` file fetches a repository of that name.
 - The name is the default of an argument.
 - `package.xml` declares the name as well, a package has a similar name, and the name is valid for a package (REP 144: no
@@ -120,16 +120,19 @@ class _Place(NamedTuple):
 def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     """Return the end of the message about an undeclared package that may be available elsewhere."""
     tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
-    return f"; if it is available elsewhere, add <{tag}>{name}</{tag}>"
+    if condition := dependencies.condition_for(workspace, name):
+        return f'; add <{tag} condition="{condition}">{name}</{tag}>'
+    return f"; if '{name}' is available elsewhere, add <{tag}>{name}</{tag}>"
 
 
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
     """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
-    An unknown dependency is assumed not to depend on a package that ROS 2 replaced by another package.
+    A tag with a false condition counts as well: the package is not needed in this distribution. An unknown dependency is
+    assumed not to depend on a package that ROS 2 replaced by another package.
     """
     manifest = package.manifest
-    if manifest is None or manifest.problems or package.tags(name):
+    if manifest is None or manifest.problems or any(depend.name == name for depend in manifest.depends):
         return False
     closure = dependencies.declared_closure(package, workspace, Role.EXEC | Role.EXPORT)
     replaced = bool(workspace.world.successor(name))
@@ -190,7 +193,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     wanted = dict.fromkeys(place.reference.name for place in places)
     if own and own.names.issuperset(wanted) and places[0].reference.kind == "node":
         return _Verdict(
-            f"; this package, '{package.name}', installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
+            f"; write '{package.name}', which installs {names.shorten_list(list(wanted))}", Confidence.HIGH, package.name
         )
     family = f"{package.name.partition('_')[0]}_{name}"
     if "_" in name and world.is_package(family) and _may_have(family, places, workspace, all):
@@ -198,7 +201,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     ended = world.knowledge.names.end_of_life(name)
     if ended:
         successor = world.successor(name)
-        use = f"; use '{successor}'" if successor else ""
+        use = f"; use '{successor}'{_its_program(successor, places, workspace)}" if successor else ""
         hint = f" in {distro}; it was last released for {ended[0]} (package index of {date}){use}"
         return _Verdict(hint, Confidence.MEDIUM, resembles=False, known=bool(use))
     known = [other for other in world.suggest(name) if world.is_package(other)]
@@ -210,6 +213,13 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     hint = f"{nowhere}{names.did_you_mean(near or reordered)}"
     confidence = Confidence.HIGH if invalid else Confidence.MEDIUM
     return _Verdict(hint, confidence, resembles=bool(known or reordered), known=bool(reordered))
+
+
+def _its_program(successor: str, places: Sequence[_Place], workspace: Workspace) -> str:
+    """Return the executable of a released successor in parentheses if it is the only one and has another name, else ""."""
+    programs = workspace.world.executables(successor).names
+    wanted = {place.reference.name for place in places if place.reference.kind == "node"}
+    return f" (executable '{programs[0]}')" if wanted and len(programs) == 1 and not wanted.intersection(programs) else ""
 
 
 def _may_have(

@@ -55,7 +55,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
     """Yield the arguments that are read before they are declared, because a launch file is processed in order.
 
-    ``above``: names of the configurations that are declared or set by files which include ``file``.
+    ``above``: names of the configurations declared or set by files that include ``file``.
     """
     declared: dict[str, tuple[int, Span]] = {}
     for index, action in enumerate(file.actions):

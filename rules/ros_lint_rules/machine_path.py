@@ -159,9 +159,9 @@ def _where(path: str) -> str:
 
 def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Package, workspace: Workspace) -> str:
     if _is_interpreter(machine, file):
-        return "all programs of the package would use it: write /usr/bin/env python3, or remove it"
+        return "all programs of the package would use it: write /usr/bin/env python3, or remove this option"
     if source := _source_of_generated(machine, package):
-        return f"xacro generated this file from '{source}': generate it when it is launched"
+        return f"this file is generated from '{source}': remove it, and run xacro in the launch file"
     if inside is None:
         return "make it an argument, or move the file to a package"
     if machine.is_written:
@@ -195,12 +195,12 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
         condition = ", and process this file with xacro" if needs_xacro else _resource_path(scheme, inside, workspace)
         return f"{it_is}write {scheme}/{inside.rest}{condition}"
     if _is_yaml(file) and not launch.is_launch_file(package, machine.span.path):
-        return f"{it_is}pass it from the launch file, which can look up the share directory of '{inside.package}'"
+        return f"{it_is}pass the path from the launch file, which can look up the share directory of '{inside.package}'"
     return f"{it_is}look it up in the share directory of '{inside.package}'"
 
 
 def _source_of_generated(machine: MachinePath, package: Package) -> str:
-    """Return the xacro file of the package from which the file that contains the path was generated, "" if there is none."""
+    """Return the xacro file from which a file with a machine path was generated, "" if the package does not contain it."""
     name = machine.generated_from.rpartition("/")[2]
     return next((file for file in sorted(package.files) if name and file.rpartition("/")[2] == name), "")
 
@@ -227,7 +227,7 @@ def _as_modules(inside: _Inside, workspace: Workspace) -> str:
     if f"{inside.rest}/__init__.py" in below:
         return f"import its modules from {inside.rest.removeprefix('src/').replace('/', '.')}"
     if below and all(file.endswith(".py") for file in below):
-        return "remove it, because Python finds modules next to the installed program"
+        return "remove the path, because Python finds modules next to the installed program"
     return ""
 
 
@@ -246,7 +246,7 @@ def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
 def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Package) -> str:
     """Return the remedy for a path to a file that the package does not have."""
     if scheme := _scheme(inside, file):
-        return f"put the file into a package and write {scheme}/ before its path there"
+        return f"add the file to '{inside.package}' and write {scheme}/ before its path in that package"
     defaults = [
         action.value
         for launch_file in package.launch
@@ -259,7 +259,7 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
     if machine.parameter_default:
         return "change or remove the default of the parameter"
     if _is_yaml(file) and not launch.is_launch_file(package, machine.span.path):
-        return "pass it from the launch file"
+        return "pass the path from the launch file"
     program = file.endswith(_PROGRAMS) and not file.endswith(_BUILDING) and not launch.is_launch_file(package, machine.span.path)
     return "make it a parameter" if program else "make it an argument"
 

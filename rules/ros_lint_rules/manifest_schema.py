@@ -148,7 +148,7 @@ def _of_element(element: Element, violation: manifests.Violation) -> Finding:
             message = f'url type "{element.get("type")}" is not in the schema; write website, bugtracker or repository'
             return _finding(message, element.span, "url")
         case "url", "":
-            return _finding(f"'{text}' is not a valid address; write one such as https://example.org/robot", place, "url")
+            return _finding(f"'{text}' is not a valid address; write an address such as https://example.org/robot", place, "url")
     if element.tag == "version" and violation.attribute == "compatibility":
         message = "the schema has no attribute compatibility, although REP 149 has it; remove it"
         return _finding(message, element.span, "version")

@@ -94,7 +94,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _gives_commands(name: str) -> bool:
-    """Return whether a package of this name only provides commands and comes with the build tool."""
+    """Return whether a package of this name only provides commands and is installed with the build tool."""
     return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(names.VENDOR)
 
 

@@ -56,7 +56,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         adds = f"add {marker}" if marker in package.files else f"create an empty file {marker} and add it"
         remedy = f"install it to {_MARKERS}" if misplaced else f"{adds} to data_files"
         yield Finding(
-            f"the package marker of the ament index is {where}, so ROS finds the package only if colcon adds one; {remedy}",
+            f"the package marker of the ament index is {where}, so ROS finds the package only if colcon adds the marker; "
+            f"{remedy}",
             misplaced.span if misplaced else place,
             marker,
             fix=fix,

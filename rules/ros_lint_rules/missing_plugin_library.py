@@ -53,12 +53,13 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
     if name in installed or "$" in library.path or not built:
         return
     if name in built:
-        message = f"the library '{name}' is built, but not installed to lib/"
+        message = f"the library '{name}' is built, but not installed to lib; install it there"
         # The library may be static, or its file may have another name.
         sure = Confidence.HIGH if build.is_declared_shared(package, name) and library.classes else Confidence.MEDIUM
     else:
         near = names.similar_names(name, sorted(installed | built), 1, 0.8)
-        message = f"the package does not build a library '{name}'{names.ask_if_meant(near)}"
+        hint = names.ask_if_meant(near) or "; correct the path, or remove this <library>"
+        message = f"the package does not build a library '{name}'{hint}"
         sure = Confidence.HIGH if library.classes else Confidence.MEDIUM  # without classes nothing is loaded
     yield Finding(message, library.span, f"{plugin.path}#{library.path.rpartition('/')[2]}", confidence=sure)
 

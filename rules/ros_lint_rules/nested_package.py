@@ -103,7 +103,7 @@ def _outer(package: Package) -> str:
         return f"the package '{package.name}'"
     script = "CMakeLists.txt" if package.type == "cmake" else "setup.py"
     place = f"'{package.path}'" if package.path else "the root folder"
-    return f"{place}, which colcon takes for a package '{package.name}' because of its {script}"
+    return f"the package '{package.name}' ({place}, because of its {script})"
 
 
 def _remedy(package: Package, inside: list[Manifest], it: str) -> str:

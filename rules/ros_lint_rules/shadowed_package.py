@@ -41,15 +41,18 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     hidden = f"version {version}" if version else "the package"
     message = f"'{package.name}' {package.manifest.version} of the workspace hides {hidden} of underlay '{below.prefix.root}'"
     dependents = tuple(f"'{name}'" for name in world.dependents_below(package.name))
-    if dependents:
-        message += f", against which {_few(dependents)} {'was' if len(dependents) == 1 else 'were'} built"
     lost = tuple(_lost(package, workspace))
-    if lost:
-        message += f", and only the underlay has {_few(lost)}"
+    reasons = []
     if dependents:
-        message += "; build the packages that depend on it in the workspace too"
+        reasons.append(f"{_few(dependents)} {'was' if len(dependents) == 1 else 'were'} built with that version")
+    if lost:
+        reasons.append(f"only that version has {_few(lost)}")
+    if reasons:
+        message += f"; {', and '.join(reasons)}"
+    if dependents:
+        message += f"; build {_few(dependents)} in the workspace, too"
     elif lost:
-        message += "; add what is missing or remove the package from the workspace"
+        message += "; add what is missing, or remove the package from the workspace"
     yield Finding(message, package.span, package.name, severity=None if dependents or lost else Severity.INFO)
 
 

@@ -39,8 +39,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         name = build.evaluated_name(package, call.texts[0]) if call.args else None
         if generating and not call.blocks and name == package.name:
             yield Finding(
-                f"the Python package '{name}' has the name of the one generated for the interfaces, "
-                "so one hides the other; rename it",
+                f"the Python package '{name}' has the same name as the package generated for the interfaces, "
+                "so Python finds only one of them; rename this package",
                 call.span(0),
                 name,
                 (Related("this generates the Python package for the interfaces", generating[0].name_span),),

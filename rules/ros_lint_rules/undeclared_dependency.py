@@ -78,7 +78,7 @@ Optional uses are reported with low confidence and without a fix:
 - imports where a comparison of `ROS_VERSION` selects ROS 1.
 
 There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
-colcon builds it, but rosdep does not know it.
+colcon builds it, but rosdep cannot resolve its name.
 
 Some packages come with another undeclared package for the same purposes and are not shown beside it, because one line is
 missing. They are reported as `transitive-dependency` once the other one is declared:
@@ -171,12 +171,17 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         )
     elif best.what.startswith("$ENV{"):
         message = f"only '{name}' sets {best.what}, and package.xml does not declare it: add {proposal.written}"
+    elif module := _module_of_declared_name(package, name, best):
+        message = (
+            f"the Python module '{module}' is not in the declared '{module}', but in '{name}', which package.xml does not "
+            f"declare: add {proposal.written}"
+        )
     else:
         message = f"'{name}' {problem}: add {proposal.written}"
         if _needs_back(name, package, workspace):
-            message += (
-                f"; '{name}' also uses '{package.name}', but two packages cannot declare each other, "
-                "so move the shared part into one of them"
+            message = (
+                f"'{name}' {problem}; '{name}' also uses '{package.name}', but two packages cannot declare each other: "
+                "move the shared part into one of them, and declare that package in the other"
             )
     return Finding(
         message,
@@ -190,7 +195,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
 
 
 def _is_unreached(package: Package, need: dependencies.Need) -> bool:
-    """Return whether only modules that nothing in the package starts or imports need the package."""
+    """Return whether a need only results from modules that nothing in this package starts or imports."""
     uses = [use for use in need.uses if use.certain] or need.uses
     return all(_is_in_unreached_module(package, use) for use in uses)
 
@@ -274,6 +279,12 @@ def _suggestion(name: str, workspace: Workspace) -> str:
         return meant.name
     prefixed = [candidate for candidate in workspace.by_name if candidate.endswith(f"_{name}")]
     return prefixed[0] if len(prefixed) == 1 else ""
+
+
+def _module_of_declared_name(package: Package, name: str, use: Use) -> str:
+    """Return the imported module if ``name`` provides it, although a declared package has the name of the module; else ""."""
+    module = use.name.partition(".")[0] if use.via == "import" else ""
+    return module if module != name and package.tags(module) else ""
 
 
 def _condition(package: Package, name: str) -> str:

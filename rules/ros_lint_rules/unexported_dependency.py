@@ -6,6 +6,8 @@ Dependencies that `ament_export_dependencies()` lacks:
 - Packages that installed headers include.
 - Packages whose targets an exported library links publicly: arguments of `target_link_libraries()` without `PRIVATE`, and of
   `ament_target_dependencies()`, if the package is known to export targets.
+- `generate_parameter_library`, if it generates an exported library.
+- Beside such a package, libraries outside of ROS whose targets an exported library links publicly, such as `Threads`.
 
 Also `Qt5` and `Qt6` in `ament_export_dependencies()`, which cannot pass components.
 
@@ -39,6 +41,8 @@ Not reported:
 - Packages that the script does not find and the manifest does not declare: other rules report them.
 - Targets that are linked in functions or under conditions, or that an exported dependency provides.
 - Headers of test tools, such as `ament_cmake_gtest`.
+- Libraries outside of ROS that are found with components, and all such libraries if nothing else is missing, because another
+  exported package may find them.
 
 Reported with medium confidence:
 
@@ -92,7 +96,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     certain = [lack for lack in (*included, *linked) if _is_certain(lack)]
     lacks = [lack for lack in (*included, *linked) if lack not in certain]
     if certain:
-        lacks.insert(0, _together(certain, [lack for lack in linked if lack in certain]))
+        of_system = tuple(_linked_of_system(package, workspace))
+        lacks.insert(0, _together(certain, [lack for lack in linked if lack in certain], of_system))
     for all_names, finding in lacks:
         edit = edits.cmake.export_dependencies(package, all_names) if all_names else None
         yield finding._replace(fix=Fix.of(f"export {names.shorten_list(all_names)}", edit, safe=False))
@@ -108,22 +113,23 @@ def _is_certain(lack: Lack) -> bool:
     return bool(all_names) and finding.confidence is Confidence.HIGH
 
 
-def _together(lacks: Sequence[Lack], linked: Sequence[Lack]) -> Lack:
+def _together(lacks: Sequence[Lack], linked: Sequence[Lack], of_system: tuple[str, ...]) -> Lack:
     """Return one finding for all packages that a single ament_export_dependencies() has to export.
 
-    ``linked`` are the members of ``lacks`` whose packages are linked, not included.
+    ``linked`` are the members of ``lacks`` whose packages are linked, not included. ``of_system`` are names of find_package()
+    outside of ROS that exported libraries link as well.
     """
     (first_names, first), *others = lacks
-    if not others:
+    if not (others or of_system):
         return first_names, first
-    all_names = tuple(dict.fromkeys(name for cmake_names, _ in lacks for name in cmake_names))
-    who = "installed headers or exported libraries use" if linked else "installed headers include"
+    all_names = tuple(dict.fromkeys([*(name for cmake_names, _ in lacks for name in cmake_names), *of_system]))
+    who = "installed headers or exported libraries use" if linked or of_system else "installed headers include"
     related = (
         Related(f"{names.shorten_list(cmake_names)} {'is' if len(cmake_names) == 1 else 'are'} needed here", finding.span)
         for cmake_names, finding in others
     )
     message = (
-        f"{who} {names.shorten_list(all_names)}, but packages that use this one do not find them; "
+        f"{who} {names.shorten_list(all_names)}, but packages that use this package do not find them; "
         f"add ament_export_dependencies({' '.join(all_names)})"
     )
     return all_names, Finding(message, first.span, first.subject, first_related([*related, *first.related]))
@@ -165,15 +171,31 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
             continue
         first, *others = [span for name in group for span in places[name]]
         message = (
-            f"an exported library links targets of {names.shorten_list(group)}, but packages that use this one do not find them; "
-            f"add ament_export_dependencies({' '.join(group)})"
+            f"an exported library links targets of {names.shorten_list(group)}, but packages that use this package do not find "
+            f"them; add ament_export_dependencies({' '.join(group)})"
         )
         related = first_related(Related("also linked publicly", span) for span in others)
         yield tuple(group) if group is sure else (), Finding(message, first, group[0], related, confidence=confidence)
 
 
+def _linked_of_system(package: Package, workspace: Workspace) -> Iterator[str]:
+    """Yield the libraries outside of ROS, such as Threads, that an exported library links publicly but that are not exported.
+
+    Left out are libraries that are found with components, because an exported dependency cannot pass them.
+    """
+    script = package.script
+    assert script is not None
+    calls = [call.texts for call in package.calls("find_package", anywhere=True)]
+    found = {texts[0] for texts in calls if texts and {"COMPONENTS", "OPTIONAL_COMPONENTS"}.isdisjoint(texts)}
+    linked = dict.fromkeys([name for name, _ in _linked_publicly(package, workspace)])
+    exported = _exported(script)
+    for name in linked:
+        if name in found and name not in exported and not any(map(workspace.world.is_package, (name, name.lower()))):
+            yield name
+
+
 def _without_components(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for exported packages that cannot be found without components, which the call cannot pass."""
+    """Yield findings for exported packages that CMake only finds with components, because the call cannot pass components."""
     script = package.script
     if script is None or not _is_seen(package) or build.has_extras(package):
         return
@@ -194,7 +216,7 @@ def _without_components(package: Package, workspace: Workspace) -> Iterator[Find
 
 
 def _is_without(workspace: Workspace, all_names: Iterable[str], keys: re.Pattern[str]) -> bool:
-    """Return whether all dependencies of the packages with these CMake names are known and no name of them matches ``keys``."""
+    """Return whether no package with these CMake names depends on a name that matches ``keys``; False if that is unknown."""
     packages = [provider for name in all_names for provider in workspace.world.by_cmake(name).names or (name,)]
     closure = workspace.world.closure(packages)
     return closure.complete and not any(keys.match(key) for key in closure)
@@ -233,6 +255,9 @@ def _linked_publicly(package: Package, workspace: Workspace) -> Iterator[tuple[s
                 public = word != "PRIVATE"
             elif public and (match := _TARGET.match(word)):
                 yield match[1] or match[2], call.span(index)
+    for call in package.calls("generate_parameter_library"):
+        if call.args and not call.blocks and build.evaluated_name(package, call.texts[0]) in libraries:
+            yield call.name, call.span(0)
     for call in package.calls("ament_target_dependencies"):
         if (
             not call.args

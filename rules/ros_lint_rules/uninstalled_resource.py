@@ -218,7 +218,7 @@ class _FolderFindings:
             first_related(
                 [Related(f"'{_name(file)}' is named here", places[file]) for file in looked_up]
                 or [
-                    Related("a file is looked up in it here", self._looked_into[path])
+                    Related("a file of the folder is looked up here", self._looked_into[path])
                     for path in (folder,)
                     if path in self._looked_into
                 ]

@@ -159,7 +159,7 @@ def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace)
     if any(path.endswith((f"{kind}.py", f"{kind}/__init__.py", f".{kind}", ".idl")) for path in maker.files):
         return None
     owners = [package.name for package in workspace.packages if interface in package.built.products.interfaces]
-    remedy = f"; did you mean the one of '{owners[0]}'?" if owners else "; correct the name"
+    remedy = f"; did you mean '{interface}' of '{owners[0]}'?" if owners else "; correct the name"
     return f"'{used.maker}' does not generate interfaces, so '{interface}' does not exist{remedy}"
 
 

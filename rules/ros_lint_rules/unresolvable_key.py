@@ -48,6 +48,8 @@ def _key(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) ->
     meant = workspace.world.meant(name, python=unresolved.runs_python)
     place = f"{knowledge.platform}, the platform of {distro}" if anywhere else "any Ubuntu that ROS 2 supports"
     remedy = f"use '{meant.name}'" if meant else "use another key, or add a rule to rosdistro"
+    if condition := dependencies.condition_for(workspace, name):
+        remedy = f'write <{unresolved.declared.depend.tag} condition="{condition}">, or use another key'
     return Finding(
         f"rosdep key '{name}' has no rule for {place}; {remedy}",
         unresolved.declared.depend.name_span,
@@ -59,9 +61,11 @@ def _key(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) ->
 def _package(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
     name, world, distro = unresolved.name, workspace.world, workspace.target.distro
     others = ", ".join(world.where_else(name))
+    remedy = "add its sources to the workspace, or remove the dependency"
+    if condition := dependencies.condition_for(workspace, name):
+        remedy = f'write <{unresolved.declared.depend.tag} condition="{condition}">, or add its sources to the workspace'
     return Finding(
-        f"'{name}' is not released for {distro}, only for {others} (as of {world.knowledge.date}); "
-        "add its sources to the workspace, or remove the dependency",
+        f"'{name}' is not released for {distro}, only for {others} (as of {world.knowledge.date}); {remedy}",
         unresolved.declared.depend.name_span,
         name,
         confidence=Confidence.MEDIUM if workspace.source_lists else Confidence.HIGH,

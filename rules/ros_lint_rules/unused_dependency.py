@@ -91,7 +91,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
-    """Return the message for an unused dependency ``name`` that provides ``carried``, a package that is used but not declared."""
+    """Return the message for an unused dependency ``name`` that provides ``carried``, a used but undeclared package."""
     if carried.package == package.name:
         return f"'{name}' is not used, only its dependency '{carried.name}'; declare '{carried.name}' instead"
     if carried.name == name:
@@ -168,7 +168,7 @@ def _is_used(package: Package, name: str) -> bool:
 
 
 def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Return whether the test dependency is a package of the workspace that depends on linters which the build script runs."""
+    """Return whether the test dependency is a workspace package whose dependencies include linters run by the build script."""
     handed_on = (depend for package in workspace.by_name.get(name, ()) for depend in package.declared if depend.role & _HANDED_ON)
     return not build.FINDS_TESTS.isdisjoint(script.commands.names) and any(depend.name in build.LINTERS for depend in handed_on)
 

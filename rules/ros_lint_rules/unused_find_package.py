@@ -42,6 +42,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     Confidence,
+    Consequence,
     Declared,
     Finding,
     Mention,
@@ -80,6 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name,
             first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
+            explains=(Consequence("wrong-dependency-kind", name),) if sure else (),
         )
 
 
@@ -87,7 +89,7 @@ def _call(package: Package, find: Mention) -> str:
     """Return what to remove: a call of find_package(), or a name from the list of a loop that calls it with each name."""
     finds = [mention for mention in package.built.mentions if mention.via == "cmake" and mention.span == find.span]
     in_loop = any(mention.name != find.name for mention in finds)
-    return f"'{find.name}' from the names that this find_package() gets" if in_loop else f"find_package({find.name})"
+    return f"'{find.name}' from the loop around this find_package()" if in_loop else f"find_package({find.name})"
 
 
 def _is_of_interfaces(name: str, workspace: Workspace) -> bool:
@@ -102,7 +104,7 @@ def _build_tags(package: Package, name: str) -> tuple[Declared, ...]:
 
 
 def _needed_for_others(package: Package, workspace: Workspace, unused: Mapping[str, Sequence[Declared]]) -> frozenset[str]:
-    """Return the unused packages that may have to stay, because they provide or find another package that is used.
+    """Return the unused packages that may have to stay, because they provide or find another package in use.
 
     ``unused``: the names of the packages, with their tags.
     """

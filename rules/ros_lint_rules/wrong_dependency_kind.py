@@ -83,7 +83,7 @@ _AFTERWARDS = Role.EXEC | Role.EXPORT
 
 
 class _Wrong(NamedTuple):
-    """A name that is declared in tags that do not cover its use."""
+    """A declared name whose tags do not cover its use."""
 
     name: str
     depends: list[Depend]
@@ -195,7 +195,7 @@ def _once_installed(lacking: _Lack | None) -> _Lack | None:
     """
     if lacking is None or lacking.role is not Role.EXPORT:
         return None
-    why = "but headers in include/ use it, so packages that build against them need it once they are installed"
+    why = "but headers in include/ use it; once these headers are installed, packages that include them need it, too"
     return lacking._replace(why=why, confidence=Confidence.LOW)
 
 
@@ -247,13 +247,13 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
     if missing(Role.EXPORT, _AFTERWARDS):
         # A common library is often declared by the packages that build against this one.
         sure = bool(packages) or any(use.via == "target" for use in need.uses if _is_about(use, Role.EXPORT))
-        why = "but it is part of the public interface, so packages that build against this one need it"
+        why = "but it is part of the public interface, so packages that build against this package need it"
         return _Lack(Role.EXPORT, why, Confidence.HIGH if sure else Confidence.MEDIUM)
     if missing(Role.EXPORT, Role.EXPORT):
         if packages:
             why = "but it is part of the public interface, so REP 149 requires <build_export_depend> as well"
             return _Lack(Role.EXPORT, why, Confidence.LOW)
-        return _Lack(Role.EXPORT, "but packages that build against this one need it as well", Confidence.MEDIUM)
+        return _Lack(Role.EXPORT, "but packages that build against this package need it, too", Confidence.MEDIUM)
     return None
 
 

@@ -53,7 +53,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _for_itself(package: Package, call: Call, bases: Collection[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield the finding for a description that is exported for its own package, for which nothing loads plugins.
+    """Yield the finding for a description that is exported for its own package, although nothing loads plugins of the package.
 
     All its base classes (``bases``) belong to one other package.
     """

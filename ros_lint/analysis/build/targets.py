@@ -107,7 +107,7 @@ def is_declared_shared(package: Package, name: str) -> bool:
 
 
 def library_registering(package: Package, registration: Registration) -> str:
-    """Return the name of the library target that compiles the source in which a class is registered.
+    """Return the name of the library target whose sources register a class.
 
     Libraries that are only built for tests do not count. The result is "" if no library compiles the source.
     """

@@ -1,4 +1,4 @@
-"""Unused dependencies that must not be removed, because they transitively provide an undeclared package that is used."""
+"""Unused dependencies that must not be removed, because they transitively provide a used but undeclared package."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _TEST: Role = Role.TEST
 
 
 class LostProvision(NamedTuple):
-    """A package that is used but not declared, and that no declared dependency provides after a tag is removed."""
+    """A used but undeclared package that no declared dependency provides after a tag is removed."""
 
     name: str
     """The undeclared package."""

@@ -53,7 +53,7 @@ _TEST = Role.TEST
 
 @cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return all needs of a package that result from uses that are not optional, by the place of their first use.
+    """Return the needs that result from the required uses of a package, by the place of their first use.
 
     A package of ROS 1 has no needs, because its dependencies are not analysed.
     """

@@ -8,6 +8,7 @@ from ros_lint.analysis.dependencies.tags import add_dependency, tag_for, tags_fo
 from ros_lint.analysis.finding import Fix
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.base.suggestions import and_list
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,13 +29,13 @@ class Remedy(NamedTuple):
     Such a manifest has to be fixed first.
     """
     obstacle: str
-    """The reason why it cannot be declared, which completes "cannot be declared: ", or ""."""
+    """The reason why the name cannot be declared, which completes "cannot be declared: ", or ""."""
     circular: bool
-    """True if the obstacle is that it depends on the package itself."""
+    """True if the obstacle is that the needed package depends on this package."""
     certain: bool = True
     """False if the remedy is circular or colcon rejects the manifest, whatever the evidence is."""
     conditional: bool = False
-    """True if the tag needs a condition, because the distribution to check for lacks the package. Then there is no fix."""
+    """True if the tag needs a condition, because a distribution to check for lacks the package. Then there is no fix."""
 
     @property
     def ending(self) -> str:
@@ -45,28 +46,33 @@ class Remedy(NamedTuple):
 def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
     """Return the remedy for a needed package or key that is not declared. The package must have a manifest."""
     tag = tag_for(package, workspace, name, role)
-    only_in = _availability(workspace, name).only_in
+    availability = _availability(workspace, name)
+    only_in = availability.only_in
     condition = f' condition="{_condition(only_in, workspace.world.knowledge.active)}"' if only_in else ""
     written = " and ".join(f"<{needed_tag}{condition}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
-        between = f", through {' > '.join(way[1:-1])}" if len(way) > 2 else ""
-        return Remedy(written, None, f"it depends on this package itself{between}", circular=True, certain=False)
+        between = f", through {' > '.join(map(repr, way[1:-1]))}" if len(way) > 2 else ""
+        return Remedy(written, None, f"'{name}' depends on this package itself{between}", circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
     if (bare := workspace.by_name.get(name)) and all(namesake.manifest is None for namesake in bare):
-        obstacle = f"{bare[0].path} has no package.xml, so rosdep does not know it; add one"
+        obstacle = f"the folder '{bare[0].path}' has no package.xml, so rosdep cannot resolve '{name}'; add package.xml"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
-    if is_unresolvable_key(workspace, name):
-        obstacle = f"rosdep has no rule for it{_where(workspace, name)}"
+    if is_unresolvable_key(workspace, name) and not condition_for(workspace, name):
+        obstacle = f"rosdep has no rule for '{name}'{_where(workspace, name)}"
         return Remedy(written, None, obstacle, circular=False, certain=usable)
     of_pip = is_of_pip(workspace, name)
     if of_pip:
         written += " (installed by pip: a released package cannot depend on it)"
-    written += f", because {workspace.target.distro} has no '{name}'" if only_in else availability_remark(workspace, name)
+    written += f", because {_lack(availability.without)} no '{name}'" if only_in else availability_remark(workspace, name)
     if _is_exported(package, name):
         written += " (the tag in <export> declares nothing)"
     edits = add_dependency(package, tag, name) if usable and not only_in else ()
     fix = naming_fix(workspace, name, f"declare '{name}' as <{tag}>", *edits, safe=not of_pip)
     return Remedy(written, fix, "", circular=False, certain=usable, conditional=bool(only_in))
+
+
+def _lack(distros: Sequence[str]) -> str:
+    return f"{and_list(distros)} {'has' if len(distros) == 1 else 'have'}"
 
 
 def _condition(distros: Sequence[str], active: Sequence[str]) -> str:
@@ -89,7 +95,7 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 def availability_remark(workspace: Workspace, name: str) -> str:
     """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
 
-    The name has to resolve in the distribution that the user chose, or in every active one if the user chose none.
+    The name has to resolve in the distributions that the user chose, or in every active one if the user chose none.
     Packages of the workspace and of underlays resolve in all of them.
     """
     return _availability(workspace, name).remark
@@ -98,7 +104,9 @@ def availability_remark(workspace: Workspace, name: str) -> str:
 class _Availability(NamedTuple):
     remark: str = ""
     only_in: tuple[str, ...] = ()
-    """The active distributions with the name, if the distribution to check for needs it and lacks it; else empty."""
+    """The active distributions with the name, if a distribution to check for lacks it; else empty."""
+    without: tuple[str, ...] = ()
+    """The distributions to check for that lack the name, if others have it."""
 
 
 def _availability(workspace: Workspace, name: str) -> _Availability:
@@ -119,20 +127,21 @@ def _find_availability(workspace: Workspace, name: str) -> _Availability:
     if world.layer(name) in ("workspace", "underlay"):
         return _Availability()
     knowledge = world.knowledge
-    resolves = knowledge.rosdep_resolves(name, target.distro)
-    if resolves and target.explicit:
+    if target.explicit and all(knowledge.rosdep_resolves(name, distro) for distro in target.distros):
         return _Availability()
     if not knowledge.covered:
         return _Availability(f" (there are no data about {target.distro})")
     distros = tuple([distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)])
     if not distros:
-        return _Availability(" (no distribution has it)")
-    needed = (target.distro,) if target.explicit else knowledge.active
-    without = [distro for distro in needed if distro not in distros]
+        return _Availability(" (not released in any active distribution)")
+    needed = target.distros if target.explicit else knowledge.active
+    without = tuple([distro for distro in needed if distro not in distros])
     if not without:
         return _Availability()
+    if target.explicit:
+        return _Availability(f" (not in {', '.join(without)}, only in {', '.join(distros)})", distros, without)
     if target.distro in without:
-        return _Availability(f" (not in {target.distro}, only in {', '.join(distros)})", distros)
+        return _Availability(f" (not in {target.distro}, only in {', '.join(distros)})", distros, (target.distro,))
     few = len(without) < len(distros)
     return _Availability(f" (not in {', '.join(without)})" if few else f" (only in {', '.join(distros)})")
 
@@ -172,8 +181,15 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
     return workspace.target.explicit or not knowledge.distros_resolving(name)
 
 
+def condition_for(workspace: Workspace, name: str) -> str:
+    """Return the condition that the tag of a name needs because only some distributions of the run have it, else ""."""
+    only_in = _availability(workspace, name).only_in
+    is_in_run = not set(only_in).isdisjoint(workspace.target.distros)
+    return _condition(only_in, workspace.world.knowledge.active) if is_in_run else ""
+
+
 def is_of_pip(workspace: Workspace, name: str) -> bool:
-    """Return whether a name is a rosdep key that is installed by pip and not by apt, which the build farm does not accept."""
+    """Return whether a name is a rosdep key for pip and not for apt. The build farm does not accept such a key."""
     key = None if workspace.world.is_package(name) else workspace.world.knowledge.rosdep.get(name)
     return key is not None and bool(key.pip) and not key.apt
 

@@ -41,7 +41,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     - packages declared under a false condition, unless CMake needs them, because the files that use them may be unused then,
     - metapackages whose files are looked up, because a metapackage has no files, so the name is probably wrong,
     - packages that package.xml probably declares by a misspelled name, because another rule reports that name,
-    - packages that may be provided by a dependency whose own dependencies are unknown.
+    - packages that a declared dependency may provide, because its own dependencies are unknown.
     """
     unknown = all_declared(package, workspace).unknown
     result = []

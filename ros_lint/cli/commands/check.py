@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
 from ros_lint.analysis.finding import Severity
-from ros_lint.base.tree import MachineTree, RecordedTree, text_of
+from ros_lint.base.recorded_tree import RecordedTree
+from ros_lint.base.tree import MachineTree, text_of
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import UsageError, no_packages, open_session, parse_request, report_cache
 from ros_lint.engine.report import Report
@@ -57,7 +58,7 @@ def run(options: Mapping[str, Any]) -> int:
     except UserError as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    _warn((*report.warnings, *_single_package_warning(request)))
+    _warn((*report.warnings, *request.cache.notes, *_single_package_warning(request)))
     if request.settings["diff"]:  # standard output is the patch and nothing else
         return max(code, exit_code(report, request.settings["fail-on"]))
     return max(code, _print(report, request))
@@ -134,8 +135,7 @@ def _report(request: Request, progress: Progress) -> Report:
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
     context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.roots, session.warnings)
-    workspace = session.loader.load()
-    report = check(workspace, session.loader.suppressions(), _selection(request.settings), context)
+    report = check(session.loader.load_all(), session.loader.suppressions(), _selection(request.settings), context)
     cache.store(recorded, report)
     return report
 

@@ -31,7 +31,7 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     context = ReportContext(rules, session.knowledge.date, session.roots, session.warnings)
 
     def report(changed: Mapping[str, bytes]) -> Report:
-        return check(trials.trial(changed).workspace, session.loader.suppressions(changed), selection, context)
+        return check(trials.trial(changed).workspaces, session.loader.suppressions(changed), selection, context)
 
     result = fix(trials)
     for issue, reason in result.skipped:

@@ -33,7 +33,7 @@ def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace],
     except (UsageError, ConfigError, KnowledgeError) as error:
         print(f"ros-lint: {error}", file=sys.stderr)
         return 2
-    for warning in (*session.settings.warnings, *session.warnings):
+    for warning in (*session.settings.warnings, *session.warnings, *session.cache.notes):
         print(f"ros-lint: {warning}", file=sys.stderr)
     sys.stdout.write(out)
     sys.stdout.flush()

@@ -75,8 +75,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
     ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
-    workspace whose CMake code runs in packages that find them (``exports.config_extras`` of their build script). Evaluate
-    the helpers first, each after the helpers that it finds, then the other packages.
+    workspace whose CMake code runs in their dependents (``exports.config_extras`` of their build script). Evaluate the
+    helpers first, each after the helpers that it finds, then the other packages.
 
     - A condition that cannot be decided: both branches are run. Their products are ``conditional``, their mentions ``optional``.
     - An option has its default value. The effects of the other branch are reported as conditional.
@@ -149,6 +149,7 @@ def _result(run: Run, path: str) -> BuildScript:
         ),
         opaque=tuple(opaques),
         problems=tuple(problems),
+        distros=run.same_distros,
     )
 
 
@@ -172,7 +173,7 @@ _MAKES_NOTHING: Final = frozenset(
 
 
 def _lost_exports(run: Run) -> Iterator[CommandPlace]:
-    """Yield the calls that export in a scope that ament_package() does not see.
+    """Yield the calls of ament_export_...() without effect: ament_package() does not read the scope of their variables.
 
     Nothing is yielded if the package passes the variables of ament on, to the scope of ament_package().
     """
@@ -342,7 +343,7 @@ def _missing_files(run: Run) -> list[Problem]:
         source = path.rstrip("/")
         # CMake accepts a folder in a list of sources and ignores it.
         if not unsure and run.paths.generated.isdisjoint((source, path)) and not run.paths.is_folder(source):
-            empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails"
+            empty = f"'{path}' is missing or empty; git does not keep empty folders, so install() fails; add a file to the folder"
             message = f"'{source}' does not exist" if source == path else empty
             problems.append(Problem("missing-file", message, span, subject=path))
     return list(dict.fromkeys(problems))

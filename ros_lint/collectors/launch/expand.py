@@ -158,7 +158,7 @@ def expand(
 
 
 class _Delayed(NamedTuple):
-    """The actions that a timer or an event starts, which are expanded after all other actions."""
+    """The actions that a timer or an event starts. They are expanded after all other actions."""
 
     place: int
     """The number of actions that were started before."""

@@ -238,7 +238,7 @@ class References:
             remainder = path.removeprefix(f"share/{package}")
             if remainder != path and is_plain(path) and remainder[:1].isalpha() and ("." in remainder or "/" in remainder):
                 message = (
-                    f"there is no slash between the share folder of '{package}' and '{remainder}'; add one, or join the paths"
+                    f"there is no slash between the share folder of '{package}' and '{remainder}'; add a slash, or join the paths"
                 )
                 self.problems[Problem("no-slash", message, value.span)] = None
 

@@ -119,7 +119,7 @@ def always(text: str) -> bool:
 def truth(text: str, context: Mapping[str, str]) -> bool | None:
     """Return whether an element with the condition ``text`` ("" for none) counts, None if that is unknown.
 
-    The result is None for a condition that cannot be parsed, too, which :func:`problems` reports.
+    The result is also None for a condition that cannot be parsed. :func:`problems` reports such a condition.
     """
     if not text:
         return True

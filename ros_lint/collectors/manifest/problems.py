@@ -231,7 +231,7 @@ def _version(text: str, node: XmlNode, element: Element) -> Iterator[Fault]:
         message = f"compatibility '{compatibility}' is not of the form 1.2.3; write three numbers"
         yield Fault("invalid-version", message, start, end)
     if not element.text:
-        yield Fault("empty-tag", "<version> is empty; write one of the form 1.2.3", node.start, node.end)
+        yield Fault("empty-tag", "<version> is empty; write a version of the form 1.2.3", node.start, node.end)
     elif not _VERSION.match(element.text):
         message = f"version '{element.text}' is not of the form 1.2.3; write three numbers"
         _, start, end = value(text, node)

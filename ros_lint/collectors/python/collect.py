@@ -135,7 +135,7 @@ def _remark(item: Import, added: bool) -> str:
 def _why(source: Text, error: NotPythonError) -> Opaque:
     if isinstance(error, TooDeepError):
         return refusal(source, error).opaque(Facet.USES)
-    return Opaque(Facet.USES, "no Python that can be read", source.span(0, 0))
+    return Opaque(Facet.USES, "the source is not valid Python 3", source.span(0, 0))
 
 
 def _unreadable(source: Text, error: NotPythonError) -> FileFacts:

@@ -1,4 +1,4 @@
-"""Syntax errors that the compiler of Python reports for a source that parses, such as ``break`` outside of a loop."""
+"""Syntax errors that the parser of Python accepts and its compiler reports, such as ``break`` outside of a loop."""
 
 from __future__ import annotations
 

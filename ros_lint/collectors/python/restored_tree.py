@@ -149,7 +149,7 @@ def _evaluated(written: str, start: int) -> str:
     try:
         value = literal(written)
     except ValueError:
-        raise TokenError("an escape in this string means nothing", start) from None
+        raise TokenError("an escape in this string is invalid", start) from None
     if not isinstance(value, str):
-        raise TokenError("bytes and texts cannot stand side by side", start)
+        raise TokenError("a bytes literal cannot be next to a string literal", start)
     return value

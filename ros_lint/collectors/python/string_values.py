@@ -47,7 +47,7 @@ def dotted(node: ast.expr) -> str:
 
 
 def argument(node: ast.Call, *names: str) -> ast.expr | None:
-    """Return the keyword argument of a call with one of ``names``, else the first positional argument, None if there is none."""
+    """Return the argument of a call whose keyword is in ``names``, else the first positional argument, None if there is none."""
     for keyword in node.keywords:
         if keyword.arg in names:
             return keyword.value

@@ -53,7 +53,7 @@ class Refusal(NamedTuple):
 
         The place is marked as unchecked if the source exceeds a limit of ros-lint.
         """
-        reason = "no Python that can be read" if self.known else self.message
+        reason = "the source is not valid Python 3" if self.known else self.message
         return Opaque(hides, reason, self.span, unchecked=not self.known)
 
 

@@ -51,7 +51,7 @@ def reason(text: str, read_expression: Callable[[str], ast.expr]) -> SyntaxReaso
     ``read_expression`` raises NotPythonError for a text that is not an expression.
     """
     if len(text) > _LONGEST_TEXT:
-        return SyntaxReason(0, "Python refuses it, and it is too long to say why", known=False)
+        return SyntaxReason(0, "Python rejects the file, and it is too long to determine the reason", known=False)
     found, reasons = list[Token](), list[SyntaxReason]()
     try:
         for token in tokens(text):
@@ -73,7 +73,7 @@ def reason(text: str, read_expression: Callable[[str], ast.expr]) -> SyntaxReaso
         return SyntaxReason(deep[1], deep[0], known=False)
     return next(
         _in_statements(text, found, read_expression),
-        SyntaxReason(0, "Python refuses it for a reason that is not known", known=False),
+        SyntaxReason(0, "Python rejects the file for an unknown reason", known=False),
     )
 
 
@@ -121,7 +121,7 @@ def _indentation(text: str, found: Sequence[Token]) -> Iterator[SyntaxReason]:
         while levels[-1][0] > level[0]:
             levels.pop()
         if levels[-1][0] != level[0]:
-            yield SyntaxReason(first.start, "the indentation is that of no line above")
+            yield SyntaxReason(first.start, "the indentation does not match any line above")
         elif levels[-1] != level:
             yield SyntaxReason(first.start, "tabs and blanks are mixed in the indentation")
         word, line, end = text[first.start : first.end], text[first.start : last.end], last.end
@@ -150,7 +150,7 @@ def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[
             end = starts[behind] if behind < len(starts) else len(text)
             inside = [token for token in found if starts[first] <= token.start < end and token.kind != "comment"]
             if old := _OF_PYTHON_2.search(statement):
-                yield SyntaxReason(starts[first] + old.start(1), f'this is Python 2: say "as {old[2]}"')
+                yield SyntaxReason(starts[first] + old.start(1), f'this is Python 2; write "as {old[2]}"')
             yield from _literals(text, inside, read_expression)
             place = _place(statement)
             if place is not None:
@@ -240,7 +240,7 @@ def _literals(text: str, code: Sequence[Token], read_expression: Callable[[str],
         elif token.kind == "string" and not _is_literal(written):
             yield SyntaxReason(token.start, _why_no_string(written))
         elif token.kind == "string" and _are_unlike(text, before, token):
-            yield SyntaxReason(token.start, "bytes and texts cannot stand side by side")
+            yield SyntaxReason(token.start, "a bytes literal cannot be next to a string literal")
         elif token.kind == "template":
             yield from _wrong_fields(text, token, read_expression)
 
@@ -264,10 +264,10 @@ def _is_bytes(written: str) -> bool:
 
 def _why_no_string(written: str) -> str:
     if any("\udc80" <= letter <= "\udcff" for letter in written):
-        return "a byte of this string is no UTF-8"
+        return "a byte of this string is not valid UTF-8"
     if _is_bytes(written):
         return "bytes have letters of ASCII only"
-    return "an escape in this string means nothing"
+    return "an escape in this string is invalid"
 
 
 def _wrong_fields(text: str, token: Token, read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
@@ -277,4 +277,4 @@ def _wrong_fields(text: str, token: Token, read_expression: Callable[[str], ast.
             try:
                 read_expression(f"({text[start:end]})")
             except NotPythonError:
-                yield SyntaxReason(start, f"{_shown(text[start:end])} is no expression")
+                yield SyntaxReason(start, f"{_shown(text[start:end])} is not an expression")

@@ -80,7 +80,7 @@ class Distribution:
                     self.opaque.append(Opaque(INSTALLED, reason, self._context.call))
 
     def _hide(self, facet: Facet, value: Value) -> None:
-        reason = value.reason if isinstance(value, Unknown) else "it has another form than is followed"
+        reason = value.reason if isinstance(value, Unknown) else "its form is not supported"
         self.opaque.append(Opaque(facet, reason, self._place(value, self._context.call)))
 
     def _items(self, value: Value, facet: Facet) -> Iterator[tuple[Value, bool]]:

@@ -100,7 +100,8 @@ def _run(program: Program, source: Text, start: Span) -> BuildScript:
         tree, newer = read(source)
     except NotPythonError as error:
         if is_of_others(source):
-            return script._replace(opaque=(Opaque(INSTALLED, "no Python that can be read: a template, or Python 2", start),))
+            reason = "the source is not valid Python 3: it is a template or Python 2"
+            return script._replace(opaque=(Opaque(INSTALLED, reason, start),))
         why = refusal(source, error)
         return script._replace(opaque=(why.opaque(INSTALLED),), problems=(why.problem(),) if why.known else ())
     program.follow(tree, source)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.paths import join
 from ros_lint.base.text import file_start
@@ -29,14 +29,36 @@ if TYPE_CHECKING:
 _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
-def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildScript | None]:
-    """Return the evaluated script of each package in the given order, None if it has no script."""
+class Evaluation(NamedTuple):
+    """The evaluated scripts of the packages of a workspace for one distribution."""
+
+    packages: Sequence[Parts]
+    scripts: Sequence[BuildScript | None]
+    """The script of each package, in the order of the packages; None if it has no script."""
+    helpers: Mapping[str, dict[str, Helper]]
+    """The packages whose CMake code runs in other packages, by workspace and name."""
+
+
+def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evaluation | None = None) -> Evaluation:
+    """Return the evaluated scripts of the packages.
+
+    Scripts of ``earlier``, the evaluation of the same tree for another distribution, are used again if they are the same for
+    ``distro``.
+    """
+    same = _same_scripts(packages, distro, earlier) if earlier else {}
+    if earlier and len(same) == len(packages):
+        return Evaluation(packages, [same[number] for number in range(len(packages))], earlier.helpers)
     result: list[BuildScript | None] = [None] * len(packages)
     helpers: dict[str, dict[str, Helper]] = {}
+    if earlier and same:
+        helpers = {folder: dict(by_name) for folder, by_name in earlier.helpers.items()}
     surroundings = Surroundings(tree)
     in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
     for number in in_order:
         parts = packages[number]
+        if number in same:
+            result[number] = same[number]
+            continue
         try:
             if "CMakeLists.txt" in parts.commands and parts.package.type != "ros.ament_python":
                 result[number] = with_files(
@@ -46,7 +68,23 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str) -> list[BuildSc
                 result[number] = with_files(tree, parts.package, parts.commands, script)
         except Exception as error:  # a bug in ros-lint for one script must not cost the user the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
-    return result
+    return Evaluation(packages, result, helpers)
+
+
+def _same_scripts(packages: Sequence[Parts], distro: str, earlier: Evaluation) -> dict[int, BuildScript | None]:
+    """Return the scripts of ``earlier`` that are the same for ``distro``, by the index of the package.
+
+    It is empty if the CMake code that a package runs in others is not the same.
+    """
+    scripts = {parts.package.path: (parts, script) for parts, script in zip(earlier.packages, earlier.scripts, strict=True)}
+    same: dict[int, BuildScript | None] = {}
+    for number, parts in enumerate(packages):
+        before, script = scripts.get(parts.package.path, (None, None))
+        if parts == before and (script is None or script.distros is None or distro in script.distros):
+            same[number] = script
+        elif _helps(parts) or (before is not None and _helps(before)):
+            return {}
+    return same if scripts.keys() == {parts.package.path for parts in packages} else {}
 
 
 def _cmake(
@@ -73,7 +111,8 @@ def _cmake(
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
     path = join(parts.package.path, "CMakeLists.txt" if "CMakeLists.txt" in parts.commands else "setup.py")
-    return BuildScript(path, opaque=(Opaque(ALL_FACETS, reason, file_start(path), unchecked=True),))
+    opaque = Opaque(ALL_FACETS, reason, file_start(path), unchecked=True)
+    return BuildScript(path, opaque=(opaque,), distros=frozenset())
 
 
 def _python(tree: Tree, package: DiscoveredPackage) -> BuildScript | None:

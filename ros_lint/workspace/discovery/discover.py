@@ -1,7 +1,7 @@
 """Find the packages of a workspace and their files in one walk.
 
 The packages are those of ``colcon list``: the crawl of colcon-recursive-crawl and the identification of
-:mod:`ros_lint.workspace.discovery.identify`. Unlike colcon, build products without a marker are skipped.
+:mod:`ros_lint.workspace.discovery.identify`. Build products without a marker are skipped, too, although colcon visits them.
 """
 
 from __future__ import annotations

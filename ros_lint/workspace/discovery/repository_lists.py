@@ -1,4 +1,4 @@
-"""Files that list repositories of a workspace, which need not be cloned."""
+"""Files that list repositories of a workspace. The repositories need not be cloned."""
 
 from __future__ import annotations
 

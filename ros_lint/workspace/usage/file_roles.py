@@ -438,7 +438,7 @@ def _interface(path: str) -> str:
 
 
 def _is_importable(path: str, plain_folders: Collection[str]) -> bool:
-    """Return whether Python can import a file: not from ``plain_folders``, nor a copy such as ``node copy.py``."""
+    """Return whether Python can import a file. False for files in ``plain_folders`` and copies such as ``node copy.py``."""
     folder, _, name = path.rpartition("/")
     return folder not in plain_folders and " " not in name
 

@@ -54,9 +54,9 @@ class OwnFiles:
         return is_neighbour or module in self._installed_modules or not folders <= self._python_packages
 
     def optional_modules(self, importers: Iterable[str]) -> frozenset[str]:
-        """Return the Python files that relative imports of the package treat as optional.
+        """Return the Python files that are optional for the relative imports in the files ``importers``.
 
-        Files that another import requires by their full name are left out.
+        Files that any other import requires by their full name are left out.
         """
         files: set[str] = set()
         for path in importers:
@@ -225,7 +225,7 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
 
 
 def _unlisted_imports(files: Sequence[str], script: BuildScript, facts: Mapping[str, FileFacts]) -> Iterator[UninstalledImport]:
-    """Yield imports of folders that setup.py does not list, from the Python packages that it installs.
+    """Yield the imports, in installed Python packages, of folders that setup.py does not list.
 
     The import certainly fails if it is in the module of an entry point, because users start that module.
     """

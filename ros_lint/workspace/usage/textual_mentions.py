@@ -221,7 +221,7 @@ _BATCH = 1 << 24
 
 
 def _batches(files: Iterable[tuple[str, bytes]]) -> Iterator[list[tuple[str, bytes]]]:
-    """Yield the files in batches, each of which ends with the file that reaches the size limit."""
+    """Yield the files in batches. A batch ends with the file that reaches the size limit."""
     batch: list[tuple[str, bytes]] = []
     size = 0
     for path, data in files:
@@ -254,7 +254,7 @@ def _search_batch(
 
 
 def _search_words(words: Sequence[str], data: bytes) -> tuple[int, bytes]:
-    """Return the offset in ``data`` and the word for the first element of ``words`` that occurs there, in upper or lower case.
+    """Find the first element of ``words`` that occurs in ``data``, in upper or lower case. Return its offset and the word.
 
     A part of a longer word counts, too. The offset is -1 if no word occurs.
     """

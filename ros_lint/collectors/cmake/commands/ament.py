@@ -97,7 +97,7 @@ def _component(run: Run, args: list[str]) -> None:
 
 
 def _exported(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_exported(sets...)``: record export sets whose targets reach each package that finds this package."""
+    """Run ``ros_lint_exported(sets...)``: record export sets whose targets are available to all dependents."""
     if not (run.muted or run.conditional or run.testing):
         run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(strip_mark, args) if certain]))
 
@@ -211,12 +211,16 @@ def _headers(run: Run, args: list[str]) -> None:
 
     The destination is include/<project> if ``scoped`` is TRUE or if the distribution always uses it, else include/.
     """
-    scoped = args[:1] == ["TRUE"] or run.distro in _SCOPED
+    scoped = args[:1] == ["TRUE"]
+    if not scoped:
+        scoped = run.distro in _SCOPED
+        run.depend_on_distro(_SCOPED if scoped else _UNSCOPED | {run.distro})
     folder = f"include/{run.get('PROJECT_NAME') or ''}" if scoped else "include"
     run_handler(run, "install", ["DIRECTORY", "include/", "DESTINATION", folder, "OPTIONAL"])
 
 
 _SCOPED: Final = frozenset({"kilted", "lyrical", "rolling"})
+_UNSCOPED: Final = frozenset({"humble", "jazzy"})
 
 
 def _package(run: Run, args: list[str]) -> None:

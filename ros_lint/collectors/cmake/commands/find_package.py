@@ -172,7 +172,7 @@ def _packages_used(run: Run, args: list[str]) -> None:
 
 
 def _quotation(how: str, name: str) -> str:
-    """Return the text with which messages quote a command that uses the package ``name``, "" for the command "-".
+    """Return the quotation of a command for messages, with the package ``name`` as its last argument; "" if ``how`` is "-".
 
     ``("ament_target_dependencies ...", "rclcpp")`` gives ``ament_target_dependencies(... rclcpp)``.
     """
@@ -187,8 +187,13 @@ def _note_impossible_packages(run: Run, command: str, places: Mapping[str, Span]
     """
     targets = [name for name in places if "::" in name] if command.startswith("ament_") else []
     if targets:
-        verb = "is a target" if len(targets) == 1 else "are targets"
-        _add_error(run, command, f"{shorten_list(targets)} {verb}", places[targets[0]], targets[0])
+        is_single = len(targets) == 1
+        if command == "ament_target_dependencies":
+            remedy = f"link {'it' if is_single else 'them'} with target_link_libraries()"
+        else:
+            remedy = "write the name of its package" if is_single else "write the names of their packages"
+        detail = f"{shorten_list(targets)} {'is a target' if is_single else 'are targets'}; {remedy}"
+        _add_error(run, command, detail, places[targets[0]], targets[0])
     own_name = run.paths.sources.name
     names_itself = own_name in places and command == "ament_target_dependencies"
     if names_itself and own_name not in run.packages.certain and run.normal(f"{own_name}_FOUND") is None:

@@ -89,7 +89,7 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
 
 
 def with_one_destination(args: list[str]) -> list[str]:
-    """Return the arguments of install() in which a DESTINATION that differs between branches of an if() is a HOLE."""
+    """Return the arguments of install(); a DESTINATION with different values in the branches of an if() becomes a HOLE."""
     result: list[str] = []
     for arg in args:
         if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):

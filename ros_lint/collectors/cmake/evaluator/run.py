@@ -54,6 +54,8 @@ class Run(State):
         self.run_external_command = run_external_command
         """Runs a command that neither CMake nor the package defines, given its name and arguments."""
         self.distro = distro
+        self.same_distros: frozenset[str] | None = None
+        """The distributions with the same result, as far as commands have depended on it; None if none has."""
         self.helpers = helpers
         self.frames: list[CallFrame] = []
         """The files, functions and macros that are being run, outermost first."""
@@ -163,7 +165,14 @@ class Run(State):
             return value
         if name in _OF_ROS and self.frames[-1].own:
             self._use_of_ros(name)
-        return (self.distro or HOLE) if name == "ROS_DISTRO" else ROS_2.get(name, HOLE)
+        if name != "ROS_DISTRO":
+            return ROS_2.get(name, HOLE)
+        self.depend_on_distro(frozenset({self.distro}))
+        return self.distro or HOLE
+
+    def depend_on_distro(self, distros: frozenset[str]) -> None:
+        """Record that a command has the same effects in ``distros`` only. The distribution of the run is one of them."""
+        self.same_distros = distros if self.same_distros is None else self.same_distros & distros
 
     def _use_of_ros(self, name: str) -> None:
         """Record that the package uses ros_environment, which sets the environment variable ``name``, such as ROS_DISTRO."""
@@ -197,7 +206,7 @@ class Run(State):
         return name in self.settable or (name in CONFIGURABLE_VARIABLES and self.value_or_missing(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
-        """Return whether the user, or code that cannot be read, may have set a variable that the read scripts do not set."""
+        """Return whether a variable that is not set in the read scripts may be set by the user, or by unreadable code."""
         if self.is_configurable(name):
             return True
         return self.open_world and self.value_or_missing(name) is MISSING and name not in self.path_variables

@@ -57,7 +57,7 @@ class Sources(NamedTuple):
 
 
 class Helper(NamedTuple):
-    """Another package of the workspace whose CMake code runs in packages that find it (CONFIG_EXTRAS)."""
+    """Another package of the workspace whose CMake code runs in its dependents (CONFIG_EXTRAS)."""
 
     sources: Sources
     script: BuildScript

@@ -147,7 +147,7 @@ def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
         place = next((part for part in parts[1:] if _is_absolute(part)), None)
         if isinstance(place, ast.Constant) and not _is_absolute(parts[0]):
             path_text = str(place.value)
-            remedy = f"write {path_text.lstrip('/')!r}" if path_text.strip("/") else "remove it"
+            remedy = f"write {path_text.lstrip('/')!r}" if path_text.strip("/") else f"remove {path_text!r}"
             message = f"the path before {path_text!r} is dropped, because {path_text!r} begins with a slash; {remedy}"
             yield Problem("forgotten-path", message, span_of(place, source))
 

@@ -40,8 +40,14 @@ _MESSAGES: Mapping[How, tuple[str, str]] = {
         "substitution-as-text",
         "a {name} has no value before launch, so it cannot be formatted here; write a list, ['a', {name}(...)]",
     ),
-    "compared": ("substitution-as-text", "a {name} never equals a string; use EqualsSubstitution(a, b) or perform(context)"),
-    "tested": ("substitution-as-text", "a {name} is always true in Python; use IfCondition(a) or perform(context)"),
+    "compared": (
+        "substitution-as-text",
+        "a {name} never equals a string; compare with EqualsSubstitution(a, b), or get its value with perform(context)",
+    ),
+    "tested": (
+        "substitution-as-text",
+        "a {name} is always true in Python; pass an IfCondition to condition=, or get its value with perform(context)",
+    ),
     "combined": (
         "substitution-as-text",
         "Python uses only the {used} of the conditions joined by '{word}', so the others are ignored; write {way}",
@@ -51,7 +57,7 @@ _JOINED_MESSAGE = (
     "Python uses only the {used} of the substitutions joined by '{word}', so the others are ignored; "
     "write {joined}Substitution(a, b)"
 )
-_DECIDED_MESSAGE = "a {name} is always true in Python; pass it to condition=, or use evaluate(context)"
+_DECIDED_MESSAGE = "a {name} is always true in Python; pass it to condition=, or get its value with evaluate(context)"
 _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
 """Functions that print or log their arguments."""
 

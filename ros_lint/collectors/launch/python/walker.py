@@ -215,7 +215,7 @@ class Walker:
     def each_text(self, value: Value, node: ast.expr, source: Source) -> list[LaunchValue]:
         """Return the possible texts of a value as separate results, each with its conditions.
 
-        If one of the texts has no conditions, the only result has all texts.
+        If one of the texts has no conditions, the list contains a single result with all texts.
         """
         combined = self.text(value, node, source)
         if len(combined.texts) == 1:

@@ -29,7 +29,7 @@ _VALUE = re.compile(r"""\b(href|schematypens)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 def named_schema(source: Text) -> NamedSchema | None:
     """Return the published schema that a manifest names; the manifest must be well-formed XML.
 
-    The result is None if the manifest names no schema, or another address. ament_xmllint passes the schema of each
+    The result is None if the manifest names no schema, or a schema at another address. ament_xmllint passes the schema of each
     ``<?xml-model ...?>`` to xmllint, then ``xsi:noNamespaceSchemaLocation`` of the root. xmllint validates by the last one.
     """
     *_, last = (None, *_addresses(source))

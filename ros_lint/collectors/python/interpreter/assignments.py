@@ -87,7 +87,7 @@ def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, fra
     if values is None or (star < 0 and len(values) != len(targets)) or len(values) < len(targets) - 1:
         machine.escape(value)
         for target in targets:
-            bind(machine, target, cause(value, "part of what is not known"), frame)
+            bind(machine, target, cause(value, "part of an unknown value"), frame)
         return
     if star >= 0:
         after = len(targets) - star - 1

@@ -277,7 +277,7 @@ def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame)
     if type(values) is not list and not isinstance(values, Iterator):  # these may change in the body
         values = items(machine, of)
     if values is None:
-        bind(machine, node.target, cause(of, "element of what is not known"), frame)
+        bind(machine, node.target, cause(of, "element of an unknown value"), frame)
         return _perhaps(machine, node.body, frame, node.iter)
     loop = _Loop(machine, frame)
     for turn, value in enumerate(values):

@@ -72,7 +72,7 @@ def unknown(call: LibraryCall) -> Value:
 
 
 def unknown_text(call: LibraryCall) -> Value:
-    """Model of a function that returns a text which only a run of the program determines: return an unknown text."""
+    """Model of a function whose text is known only when the program runs: return an unknown text."""
     return written(UNKNOWN, call.node, call.frame.source)
 
 

@@ -52,14 +52,14 @@ def _extreme(function: Callable[..., int]) -> Rule:
     def rule(call: LibraryCall) -> Value:
         values = call.items(0) if len(call.arguments) == 1 else call.arguments
         if values is None or any(isinstance(value, Guarded) for value in values):
-            return Unknown("the least or the greatest of what is not known")
+            return Unknown("the minimum or maximum of an unknown value")
         if not values:
             if "default" not in call.keywords:
                 raise ProgramRaised
             return call.keywords["default"]
         keys = sort_keys(call.machine, values, call.keywords, call.node, call.frame)
         if keys is None:
-            return Unknown("the least or the greatest of what is not known")
+            return Unknown("the minimum or maximum of an unknown value")
         positions(keys)
         return values[function(range(len(values)), key=keys.__getitem__)]
 

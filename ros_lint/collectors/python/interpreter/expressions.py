@@ -91,7 +91,7 @@ def _elements(machine: Interpreter, nodes: Iterable[ast.expr], frame: Frame) -> 
         inner = items(machine, value)
         if inner is None:
             machine.escape(value)
-            inner = [more(value, "a list with * of what is not known")]
+            inner = [more(value, "a list with * of an unknown value")]
         elements += inner
     return elements
 
@@ -339,7 +339,7 @@ def _generate(
     values = items(machine, of)
     guards: list[tuple[Value, Conditions]] = []
     if values is None:
-        guards.append((cause(of, "element of what is not known"), (PERHAPS,)))
+        guards.append((cause(of, "element of an unknown value"), (PERHAPS,)))
     else:
         guards = [(plain(element), around(element)) for element in values]
     for value, conditions in guards:

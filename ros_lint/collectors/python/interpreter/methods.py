@@ -75,7 +75,7 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
         for alternative in alternatives(value):
             inner = items(machine, alternative.value)
             if inner is None and isinstance(alternative.value, Unknown):
-                inner = [Unknown("element of what is not known")]
+                inner = [Unknown("element of an unknown value")]
             elif inner is None:
                 return None
             elements += [Guarded(element, alternative.conditions or (PERHAPS,)) for element in inner]
@@ -92,7 +92,7 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
 
 
 def more(value: Value, reason: str = "elements that are not known") -> Value:
-    """Return the guarded unknown element that stands for all elements of a value whose elements are unknown."""
+    """Return the guarded unknown element that stands for all unknown elements of a value."""
     return Guarded(cause(value, reason), (PERHAPS,))
 
 
@@ -120,7 +120,7 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
     if isinstance(owner, (str, list, dict, tuple)):
         return Method(owner, name)
     machine.escape(owner)
-    return Unknown(f"attribute {name} of what is not known")
+    return Unknown(f"attribute {name} of an unknown value")
 
 
 def _bound(member: Value, instance: Instance) -> Value:
@@ -270,7 +270,7 @@ def _position(owner: Sequence[Value], name: str, arguments: list[Value]) -> Valu
     """Return the result of ``owner.index(argument)`` or ``owner.count(argument)``, Unknown if any value is unknown."""
     wanted = plain(arguments[0]) if arguments else None
     if len(arguments) != 1 or not is_small(owner) or not all(is_small(value) and is_known(value) for value in (owner, wanted)):
-        return Unknown(f"{name}() in what is not known")
+        return Unknown(f"{name}() in an unknown value")
     try:
         return owner.index(wanted) if name == "index" else owner.count(wanted)
     except ValueError:

@@ -330,13 +330,13 @@ def compared(op: ast.cmpop, left: Value, right: Value) -> Value:
 def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
     if isinstance(op, (ast.Is, ast.IsNot)):
         if isinstance(left, Unknown) or isinstance(right, Unknown):
-            return Unknown("identity with what is not known")
+            return Unknown("identity with an unknown value")
         same = left is right or (isinstance(left, (str, *_NUMBERS)) and type(left) is type(right) and left == right)
         return same is isinstance(op, ast.Is)
     if isinstance(op, (ast.In, ast.NotIn)):
         return _contained(op, left, right)
     if isinstance(left, (Unknown, LibraryName, LaunchObject)) or isinstance(right, (Unknown, LibraryName, LaunchObject)):
-        return Unknown("comparison with what is not known")
+        return Unknown("comparison with an unknown value")
     if isinstance(op, (ast.Eq, ast.NotEq)):
         if isinstance(left, FilePath) and isinstance(right, FilePath):
             left, right = left.text, right.text
@@ -345,14 +345,14 @@ def _one_compare(op: ast.cmpop, left: Value, right: Value) -> Value:
                 left, right = right, left
             if is_plain(right):
                 return Unknown("comparison with an argument", LaunchCondition((str(left),), str(right), isinstance(op, ast.Eq)))
-            return Unknown("comparison with what is not known")
+            return Unknown("comparison with an unknown value")
     elif isinstance(left, str) and isinstance(right, str) and not (is_plain(left) and is_plain(right)):
         return _asked(f"{quoted(left)} {_ORDERS[type(op)]} {quoted(right)}")
     if isinstance(left, (list, tuple, dict)) and isinstance(right, (list, tuple, dict)):
         if not (is_small(left) and is_small(right)):
             return Unknown("a comparison of much")
         if not (is_known(left) and is_known(right)):
-            return Unknown("comparison with what is not known")
+            return Unknown("comparison with an unknown value")
         if isinstance(left, SetOf) and isinstance(right, SetOf) and all(map(_is_scalar, (*left, *right))):
             left, right = set(left), set(right)
     try:
@@ -390,7 +390,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
 def _asked(question: str) -> Unknown:
     """Return an unknown truth whose condition is ``question``, a Python expression that launch can evaluate."""
     if UNKNOWN in question:
-        return Unknown("comparison with what is not known")
+        return Unknown("comparison with an unknown value")
     return Unknown("a truth", LaunchCondition((expression(question),), None))
 
 
@@ -413,7 +413,7 @@ def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
             raise ProgramRaised from None
     if known and isinstance(owner, str) and waits(owner):
         return expression(f"{quoted(owner)}[{':'.join(['' if part is None else str(part) for part in parts])}]")
-    return Unknown("part of what is not known")
+    return Unknown("part of an unknown value")
 
 
 def waits(text: str) -> bool:

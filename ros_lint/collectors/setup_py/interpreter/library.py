@@ -129,7 +129,7 @@ class SetupLibrary:
         return Unknown(f"attribute {name}")
 
     def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:  # noqa: ARG002
-        return Unknown("element of what is not known")
+        return Unknown("element of an unknown value")
 
     def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:  # noqa: ARG002
         return (UNKNOWN,)
@@ -153,7 +153,7 @@ class SetupLibrary:
 
     def _generate_distutils_setup(self, call: LibraryCall) -> Value:
         """Return the result of generate_distutils_setup() of catkin_pkg: given options, package name and an unknown version."""
-        version = Unknown("the version in package.xml is not looked at", None, call.node)
+        version = Unknown("the version in package.xml is not read", None, call.node)
         return {"name": self._package, "version": version, **call.keywords}
 
 

@@ -58,7 +58,7 @@ class Program(Machine):
             if execute(self, tree.body, frame):
                 self.end = "it ends before its last line"
         except BudgetExceeded:
-            self.end = "it takes more steps than are followed"
+            self.end = "it takes more steps than the limit"
         except ProgramRaised:
             self.end = "it ends before its last line"
         except (RecursionError, MemoryError):

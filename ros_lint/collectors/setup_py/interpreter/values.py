@@ -85,7 +85,7 @@ def unknown_in(values: Iterable[Value], tests: Mapping[tuple[str, ...], ast.expr
     """
     waiting = [*values]
     if not is_followed(waiting):
-        return Unknown("it is larger than is followed")
+        return Unknown("it is too large to be evaluated")
     undecided = None
     while waiting:
         value = waiting.pop(0)
@@ -119,7 +119,7 @@ class Deciding:
         A list element that may be missing is Guarded in the result. A value with several alternatives left is Unknown; if
         all of them are lists, the result is one list with their different elements Guarded.
         """
-        return self._of(value) if is_followed((value,)) else Unknown("it is larger than is followed")
+        return self._of(value) if is_followed((value,)) else Unknown("it is too large to be evaluated")
 
     def _of(self, value: Value) -> Value:
         value = plain(value)

@@ -1,0 +1,30 @@
+"""What is collected from one file."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ros_lint.collectors.cmake.syntax import ParsedScript
+from ros_lint.facts.launch import LaunchFile
+from ros_lint.facts.sources import FileFacts, MachinePath
+from ros_lint.facts.suppressions import Suppression
+
+
+class Collected(NamedTuple):
+    """The facts of one file."""
+
+    facts: FileFacts | None = None
+    launch: LaunchFile | None = None
+    commands: ParsedScript | None = None
+    suppressions: tuple[Suppression, ...] = ()
+    machine_paths: tuple[MachinePath, ...] = ()
+    unreadable: str = ""
+    """Reason why the file was not read, or ""."""
+
+
+class ReadFile(NamedTuple):
+    """A file whose facts were collected or found in the cache."""
+
+    digest: bytes
+    """Digest of the contents, ``NOT_READ`` if the file could not be read."""
+    collected: Collected
