@@ -112,6 +112,20 @@ def test_a_wrong_name_explains_that_the_intended_package_is_missing(declared: st
     assert [(explained.rule, explained.subject) for explained in issue.explained] == [("launch-outside-closure", used)]
 
 
+def test_a_key_of_an_older_name_explains_that_the_package_is_missing() -> None:
+    files = {
+        "arm/package.xml": manifest().replace("<export>", "<depend>gz-common5</depend><export>"),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\nfind_package(gz-common5 REQUIRED)\n"
+        "add_executable(arm arm.cpp)\ntarget_link_libraries(arm gz-common5::gz-common5)\nament_package()\n",
+        "arm/arm.cpp": "#include <gz/common/Console.hh>\nint main() {}\n",
+    }
+    rules = tuple(rule for rule in registry.load() if rule.name in ("unresolvable-key", "undeclared-dependency"))
+    issues, _ = run_rules(loaded(files), rules)
+    (issue,) = without_explained(issues)
+    assert (issue.rule.name, issue.finding.subject) == ("unresolvable-key", "gz-common5")
+    assert [explained.subject for explained in issue.explained] == ["gz_common_vendor"]
+
+
 @pytest.mark.parametrize(("declared", "cause"), [("std_msg", "unknown-dependency"), ("actionlib", "end-of-life-dependency")])
 def test_a_wrong_name_explains_that_it_is_unused(declared: str, cause: str) -> None:
     files = {

@@ -32,13 +32,13 @@ class Runs:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.count = 0
-        load = Loader.load
+        load = Loader.load_all
 
         def counted(loader: Loader, *args: object, **options: object) -> object:
             self.count += 1
             return load(loader, *args, **options)  # type: ignore[arg-type]
 
-        monkeypatch.setattr(Loader, "load", counted)
+        monkeypatch.setattr(Loader, "load_all", counted)
 
 
 @pytest.fixture

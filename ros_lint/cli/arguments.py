@@ -62,7 +62,8 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
         command, rest = "check", list(arguments)
     parser = create_parser(command, top=not arguments or arguments[0] != command)
     # Options may be placed between paths, which argparse does not support for commands with actions.
-    namespace, unknown = parser.parse_known_args(rest) if command == "index" else parser.parse_known_intermixed_args(rest)
+    has_actions = command in ("index", "cache")
+    namespace, unknown = parser.parse_known_args(rest) if has_actions else parser.parse_known_intermixed_args(rest)
     if unknown:
         parser.reject(unknown)
     return command, {name.replace("_", "-"): value for name, value in vars(namespace).items()}
@@ -148,6 +149,14 @@ def _add_index(parser: argparse.ArgumentParser) -> None:
     scan.add_argument("--to", default="", metavar="FOLDER", help="output folder (default: standard output)")
 
 
+def _add_cache(parser: argparse.ArgumentParser) -> None:
+    actions = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
+    info = actions.add_parser("info", help="list the workspaces with cached results", allow_abbrev=False)
+    info.add_argument("--format", choices=("text", "json"), default="text", help="output format")
+    clean = actions.add_parser("clean", help="remove cached results", allow_abbrev=False)
+    clean.add_argument("paths", nargs="*", metavar="PATH", help="workspaces whose results are removed (default: all)")
+
+
 def _add_rules(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
     _add_option(parser, BY_NAME["plugins"])
@@ -176,6 +185,7 @@ _ADDERS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "explain-package": _add_explain_package,
     "launch": _add_launch,
     "index": _add_index,
+    "cache": _add_cache,
     "rules": _add_rules,
     "rule": _add_rule,
     "new-rule": _add_new_rule,

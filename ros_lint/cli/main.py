@@ -93,6 +93,10 @@ def _run_command(command: str, options: dict[str, object]) -> int:
         from ros_lint.cli.commands import info  # noqa: PLC0415
 
         return info.run(command, options)
+    if command == "cache":
+        from ros_lint.cli.commands import cache  # noqa: PLC0415
+
+        return cache.run(options)
     if command == "index":
         from ros_lint.cli.commands import index  # noqa: PLC0415
 

@@ -121,6 +121,7 @@ COMMANDS = {
     "rule": "explain a rule",
     "new-rule": "write a plugin with a new rule, its cases and its tests into a new folder",
     "index": "rebuild or extend the index of released packages",
+    "cache": "show or remove cached results",
     "schema": "print the JSON schema of the configuration file",
     "completion": "print the completion script for a shell",
 }

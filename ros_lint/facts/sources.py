@@ -15,14 +15,15 @@ Via = Literal["package", "cmake", "macro", "target", "include", "import", "inter
 Example: the rosdep key ``eigen`` is ``Eigen3`` to find_package() and ``Eigen/`` in an include.
 """
 
-Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool"]
-"""Purpose for which CMake uses a package; "" is the usual case: code.
+Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool", "conditional"]
+"""Purpose for which CMake or a model uses a package; "" is the usual case: code.
 
 * "export": to pass the package on to dependents.
 * "interfaces": to generate the code of interfaces.
 * "plugins": the used package loads plugins that the package with the script provides.
 * "helper": a command of another package of the workspace calls the package.
 * "tool": to run a program of the package in the build.
+* "conditional": for a part of a model that xacro leaves out unless an argument is passed.
 """
 
 
@@ -45,7 +46,7 @@ class Mention(NamedTuple):
     test: bool = False
     """True if the place is known to serve tests only."""
     purpose: Purpose = ""
-    """Purpose for which CMake uses the package."""
+    """Purpose for which CMake or a model uses the package."""
 
 
 class Use(NamedTuple):
@@ -69,6 +70,8 @@ class Use(NamedTuple):
     """False if the file may be unused: it is not in a target, not installed and not a test."""
     name: str = ""
     """Name at the place, in the name space ``via``: a header path, a module, a name of find_package."""
+    conditional: bool = False
+    """True if the place is in a part of a model that xacro leaves out unless an argument is passed."""
 
 
 class LookUp(NamedTuple):

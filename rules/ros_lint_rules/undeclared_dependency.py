@@ -93,7 +93,8 @@ The severity is lower if the package works where it is built, launched and teste
 - info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
 - warning for `python3-pytest`, because colcon itself depends on it;
 - warning for public headers of a package that compiles nothing, because dependents that declare the package build;
-- warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs.
+- warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs;
+- warning for files that a model looks up in `<xacro:if value="$(arg x)">`, if the default of the argument `x` is false.
 """
 
 from __future__ import annotations
@@ -190,8 +191,13 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
-        Severity.WARNING if proposal.conditional and not workspace.target.explicit else None,
+        Severity.WARNING if (proposal.conditional and not workspace.target.explicit) or _is_conditional(need) else None,
     )
+
+
+def _is_conditional(need: dependencies.Need) -> bool:
+    """Return whether only parts of models need the package that xacro leaves out unless an argument is passed."""
+    return all(use.conditional for use in need.uses)
 
 
 def _is_unreached(package: Package, need: dependencies.Need) -> bool:

@@ -46,6 +46,8 @@ A folder that nothing in the package names is reported with high confidence in t
 - It contains parameters of nodes (`ros__parameters`), and the package has nodes, or files only.
 - It contains models or worlds, and the package has files only and installs no other model.
 - A file is looked up in it that does not exist and is not ignored by git.
+- It is the only folder of resources that is left out, and the package installs at least two others. The finding is an info.
+  Folders of maps and meshes are excepted, because maps are recorded and most unused meshes are left over.
 """
 
 from __future__ import annotations
@@ -170,8 +172,9 @@ def _folders(
     # A file that is installed from an unknown place, such as one of several folders, may be any file of that name.
     chosen = frozenset([_name(provided.path) for provided in script.products.installs if not provided.source])
     modules = frozenset(script.products.python_packages)
-    findings = _FolderFindings(package, script, places, looked_into)
-    for folder, uninstalled in build.uninstalled_resources(package.files, kept).items():
+    resources = build.uninstalled_resources(package.files, kept)
+    findings = _FolderFindings(package, script, places, looked_into, resources)
+    for folder, uninstalled in resources.items():
         file_paths = [file for file in uninstalled if file not in launches and file not in script.files.build_inputs]
         top = folder.partition("/")[0]
         if top in reported or folder in modules or any(_name(file) in chosen for file in file_paths):
@@ -186,11 +189,16 @@ class _FolderFindings:
     """Findings for folders that are not installed, with a confidence that depends on the rest of the package.
 
     ``places``: files, with the place of a text of the package that names them. ``looked_into``: folders, with the place where a
-    missing file is looked up in them.
+    missing file is looked up in them. ``folders``: all folders of which nothing is installed.
     """
 
     def __init__(
-        self, package: Package, script: BuildScript, places: Mapping[str, Span], looked_into: Mapping[str, Span]
+        self,
+        package: Package,
+        script: BuildScript,
+        places: Mapping[str, Span],
+        looked_into: Mapping[str, Span],
+        folders: Iterable[str],
     ) -> None:
         self._package = package
         self._script = script
@@ -201,6 +209,7 @@ class _FolderFindings:
         self._resources_only = _makes_nothing(package, script)
         self._node_parameters = _node_parameters(package, script)
         self._elsewhere = _looked_up_elsewhere(package)
+        self._only_one_left_out = _only_one_left_out(package, script, folders)
 
     def finding(self, folder: str, file_paths: Sequence[str]) -> Finding:
         package, script, places = self._package, self._script, self._places
@@ -211,6 +220,8 @@ class _FolderFindings:
         examples = names.shorten_list(_name(file) for file in (*named, *(file for file in file_paths if file not in places)))
         place = edits.cmake.install_folder_place(package) if "/" not in folder else None
         remedy = _TO_EXTEND if place else f"install it to share/{package.name}"
+        is_used = bool(looked_up) or folder in self._looked_into
+        confidence, severity = (Confidence.HIGH, Severity.WARNING) if is_used else self._unnamed(folder, file_paths)
         return Finding(
             f"'{folder}/' (contains {examples}) is not installed, so it will not be found at run time; {remedy}",
             place or edits.setup_py.place(script),
@@ -224,23 +235,44 @@ class _FolderFindings:
                 ]
             ),
             fix=_fix(package, script, f"{folder}/") if "/" not in folder else None,
-            confidence=Confidence.HIGH if looked_up or folder in self._looked_into else self._unnamed(folder, file_paths),
-            severity=Severity.WARNING,
+            confidence=confidence,
+            severity=severity,
         )
 
-    def _unnamed(self, folder: str, file_paths: Sequence[str]) -> Confidence:
-        """Return the confidence of the finding for a folder that no text of the package names."""
+    def _unnamed(self, folder: str, file_paths: Sequence[str]) -> tuple[Confidence, Severity]:
+        """Return the confidence and the severity of the finding for a folder that no text of the package names."""
         if folder.partition("/")[0] in _DOCUMENTS:
-            return Confidence.LOW
+            return Confidence.LOW, Severity.WARNING
         copied = not {name for _, name in self._elsewhere}.isdisjoint([_name(file) for file in file_paths])
         file_paths = [file for file in file_paths if not any(word in file for word in _TO_COPY)]
         in_sources = f"{folder}/" in self._script.files.build_inputs
         if any(file in self._node_parameters for file in file_paths) and not in_sources:
-            return Confidence.HIGH
+            return Confidence.HIGH, Severity.WARNING
         for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in file_paths)
+        if copied or in_sources or not for_run_time:
+            return Confidence.MEDIUM, Severity.WARNING
         lost = self._lacks_models and any(file.lower().endswith(_OF_MODELS) for file in file_paths)
-        needed = "/" in folder or self._resources_only or lost
-        return Confidence.HIGH if needed and for_run_time and not copied and not in_sources else Confidence.MEDIUM
+        if "/" in folder or self._resources_only or lost:
+            return Confidence.HIGH, Severity.WARNING
+        if folder == self._only_one_left_out and folder not in _KEPT_IN_SOURCES:
+            return Confidence.HIGH, Severity.INFO
+        return Confidence.MEDIUM, Severity.WARNING
+
+
+_KEPT_IN_SOURCES = ("map", "maps", "mesh", "meshes")
+"""Folders whose files are often recorded or left over."""
+
+
+def _only_one_left_out(package: Package, script: BuildScript, folders: Iterable[str]) -> str:
+    """Return the only uninstalled folder of resources if the package installs two or more others to its share folder, else ""."""
+    left_out = {folder.partition("/")[0] for folder in folders} - _DOCUMENTS
+    installed = {
+        folder
+        for provided in script.products.installs
+        for folder, _, file in [provided.source.partition("/")]
+        if file and provided.path == f"share/{package.name}/{provided.source}"
+    }
+    return left_out.pop() if len(left_out) == 1 and len(installed) > 1 else ""
 
 
 _TO_COPY = ("example", "sample", "template")

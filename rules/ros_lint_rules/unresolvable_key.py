@@ -55,6 +55,7 @@ def _key(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) ->
         unresolved.declared.depend.name_span,
         name,
         package=unresolved.package.name,
+        explains=dependencies.wrong_name_explains(name, meant.name if meant else ""),
     )
 
 

@@ -24,6 +24,7 @@ Not reported:
 - A page of the package says to start something of the dependency (`ros2 run`, `ros2 launch`).
 - Dependencies that may be needed without a trace: linters, run-time and tool dependencies, metapackages, vendor packages,
   packages without code, and packages that provide CMake macros or plugins.
+- Packages through which `ament_auto_find_build_dependencies()` finds a library in use that is declared by its rosdep key.
 - Packages that contain no code themselves, and packages whose build scripts cannot be fully evaluated.
 - Tags with a condition that is false in some ROS 2 environment.
 
@@ -66,6 +67,8 @@ _NO_TEST = build.FINDS_TESTS | {"enable_testing"}
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     unused = list(_unused(package, workspace))
+    kept = dependencies.found_only_through(package, workspace, [declared.name for declared, _, _ in unused])
+    unused = [tag for tag in unused if tag[0].name not in kept]
     carried = dependencies.needed_transitively(package, workspace, [declared for declared, _, _ in unused]) if unused else {}
     for declared, reason, confidence in unused:
         depend = declared.depend

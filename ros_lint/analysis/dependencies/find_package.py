@@ -77,6 +77,26 @@ def finding_others(package: Package, workspace: Workspace, names: Iterable[str])
     )
 
 
+def found_only_through(package: Package, workspace: Workspace, unused: Iterable[str]) -> frozenset[str]:
+    """Return the elements of ``unused`` through which ament_cmake_auto may find a library that the package uses.
+
+    ``unused`` are declared packages that the package does not use. ament_cmake_auto calls find_package() for declared
+    names, which fails for rosdep keys. Example: ``libpcl-all-dev`` is declared for the headers of PCL, but CMake finds
+    PCL only because the declared ``pcl_conversions`` exports it. The result is empty without ament_cmake_auto.
+    """
+    if not finds_declared(package):
+        return frozenset()
+    world = workspace.world
+    names = frozenset(unused)
+    searched = [
+        name for name in names_searched(package, package.built) - names if world.is_package(name) or not world.is_key(name)
+    ]
+    rest = partial_closure(workspace, sorted(searched)).names
+    needed = [use.providers for use in package.uses if use.via == "include" and not use.optional and use.role & _BUILT]
+    needed = [providers for providers in dict.fromkeys(needed) if rest.isdisjoint(providers)]
+    return frozenset([name for name in names if any(provider in world.closure((name,)) for use in needed for provider in use)])
+
+
 _BUILT = Role.BUILD | Role.EXPORT | Role.TEST
 
 

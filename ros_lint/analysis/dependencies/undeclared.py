@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ros_lint.analysis.dependencies.declared_closure import all_declared
+from ros_lint.analysis.dependencies.find_package import names_searched
 from ros_lint.analysis.dependencies.needs import _TEST, Need, _rank, needs
 from ros_lint.analysis.dependencies.traceless import only_brings
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
@@ -41,7 +42,8 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     - packages declared under a false condition, unless CMake needs them, because the files that use them may be unused then,
     - metapackages whose files are looked up, because a metapackage has no files, so the name is probably wrong,
     - packages that package.xml probably declares by a misspelled name, because another rule reports that name,
-    - packages that a declared dependency may provide, because its own dependencies are unknown.
+    - packages that a declared dependency may provide, because its own dependencies are unknown,
+    - packages whose headers are included without find_package(), if the script finds such a dependency.
     """
     unknown = all_declared(package, workspace).unknown
     result = []
@@ -66,8 +68,23 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
                 continue
             sure = sure and not (workspace.target.explicit and workspace.world.where_else(need.name))
         uses = uses_not_explained_by(unknown, need.uses, workspace) if sure and unknown else need.uses
-        result.append((need._replace(uses=uses or need.uses), sure and bool(uses)))
+        sure = sure and bool(uses) and not (unknown and _must_come_with(unknown, package, workspace, need))
+        result.append((need._replace(uses=uses or need.uses), sure))
     return tuple(result)
+
+
+def _must_come_with(unknown: Iterable[str], package: Package, workspace: Workspace, need: Need) -> bool:
+    """Return whether a found package of ``unknown`` must provide the needed package, because compiled files only include it.
+
+    The headers of a ROS package are not found without find_package() of it or of a package that exports it.
+    """
+    name = need.name
+    if not workspace.world.is_package(name) or any(use.via != "include" for use in need.uses if use.certain):
+        return False
+    compiled = any(use.certain and use.role & Role.BUILD for use in need.uses)
+    searched = names_searched(package, package.built)
+    found = [unknown_name for unknown_name in unknown if unknown_name in searched]
+    return compiled and may_provide(found, name, workspace, improbable=True)
 
 
 def is_declared_misspelled(package: Package, workspace: Workspace, need: Need) -> bool:

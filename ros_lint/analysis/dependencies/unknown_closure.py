@@ -10,8 +10,10 @@ from ros_lint.knowledge.spelling import VENDOR, may_be_package
 from ros_lint.workspace.model import Workspace
 
 
-def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
+def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, improbable: bool = False) -> bool:
     """Return whether one of the declared names ``unknown``, about which there are no data, could provide the package ``name``.
+
+    ``improbable`` is True if a package must provide it, so the last assumption does not hold.
 
     The answer follows from these assumptions:
     - Unknown packages do not depend on packages of this workspace, because repositories do not depend on each other in
@@ -46,7 +48,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace) -> bool
         if workspace.world.knowledge.elsewhere(unknown_name):
             return True
         unexplained.append(unknown_name)
-    return bool(unexplained) and (tool or not _is_far(unexplained, name, workspace))
+    return bool(unexplained) and (tool or improbable or not _is_far(unexplained, name, workspace))
 
 
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:

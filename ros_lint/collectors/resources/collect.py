@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch.detect import is_of_ros_1
 from ros_lint.collectors.resources import parameter_files
+from ros_lint.collectors.resources.xacro_conditions import inactive_ranges
 from ros_lint.facts.sources import FileFacts, LookUp, Mention
 
 if TYPE_CHECKING:
@@ -73,12 +74,18 @@ def _packages(source: Text) -> FileFacts:
     """Return the packages that a resource file names, each at its first place, and the files that it looks up in them.
 
     A mention is optional if only a convention says that the name is a package, or if the file is a ROS 1 launch file,
-    because nothing looks the name up.
+    because nothing looks the name up. A mention is conditional if each place is in a block that xacro leaves out by default.
     """
     text = source.text
     places: dict[str, tuple[int, int]] = {}
+    inactive = inactive_ranges(text)
     for pattern in _LOOK_UPS:
-        _search(pattern, text, places)
+        _search(pattern, text, places, inactive)
+    active = frozenset(places)
+    if inactive:
+        for pattern in _LOOK_UPS:
+            _search(pattern, text, places)
+    conditional = frozenset(places) - active
     certain = frozenset(places) if places and not is_of_ros_1(text) else frozenset()
     for pattern in _CONVENTIONS:
         _search(pattern, text, places)
@@ -88,7 +95,10 @@ def _packages(source: Text) -> FileFacts:
     names = sorted(places, key=lambda name: places[name])
     spans = source.spans(places[name] for name in names)
     return FileFacts(
-        tuple(Mention(name, "package", span, optional=name not in certain) for name, span in zip(names, spans, strict=True)),
+        tuple(
+            Mention(name, "package", span, optional=name not in certain, purpose="conditional" if name in conditional else "")
+            for name, span in zip(names, spans, strict=True)
+        ),
         lookups=looked_up,
     )
 
@@ -132,8 +142,11 @@ def _is_optional(text: str, at: int) -> bool:
 _OPTIONAL = re.compile(r"""<xacro:include\s[^<>]*\boptional\s*=""")
 
 
-def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, int]]) -> None:
+def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, int]], inactive: tuple[range, ...] = ()) -> None:
+    """Add the first place of each name outside of the offsets ``inactive`` to ``places``."""
     for match in pattern.finditer(text):
+        if any(match.start() in block for block in inactive):
+            continue
         if match[1] not in places and not _in_comment(text, match.start()) and not _in_class(text, match.start()):
             places[match[1]] = match.span(1)
 

@@ -311,6 +311,7 @@ class _Uses:
                     span,
                     in_use and certain,
                     name,
+                    purpose == "conditional",
                 ),
             )
 
