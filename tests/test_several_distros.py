@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -15,9 +16,13 @@ from ros_lint.base.text import Span
 from ros_lint.base.tree import MemoryTree
 from ros_lint.cli.main import main
 from ros_lint.engine.explanations import without_explained
+from ros_lint.engine.fix_trials import Trial
+from ros_lint.engine.fix_trials import _new_findings as new_findings
+from ros_lint.engine.fix_trials import _unresolved as unresolved
 from ros_lint.engine.merge import merge
 from ros_lint.engine.report import Issue
 from ros_lint.knowledge import Knowledge
+from ros_lint.testing import Case, loader_of, read_cases
 from ros_lint.workspace.build_scripts import evaluate as build_scripts
 from ros_lint.workspace.loader import DistroData, Loader
 from ros_lint.workspace.target import TargetDistro
@@ -26,8 +31,8 @@ RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda packag
 FIRST, SECOND = (Fix("t", (Edit(Span("f", 1, 1, 1, 1), text),)) for text in ("a", "b"))
 
 
-def issue(subject: str = "s", message: str = "m", fix: Fix | None = None, **other: Any) -> Issue:
-    return Issue(RULE, "p", Finding(message, Span("f", 1, 1, 1, 2), subject, fix=fix, **other))
+def issue(subject: str = "s", message: str = "m", fix: Fix | None = None, rule: Rule = RULE, **other: Any) -> Issue:
+    return Issue(rule, "p", Finding(message, Span("f", 1, 1, 1, 2), subject, fix=fix, **other))
 
 
 def merged(*by_distro: list[Issue]) -> list[Issue]:
@@ -41,14 +46,14 @@ def test_a_finding_of_all_distributions_stays_as_it_is() -> None:
 
 def test_a_finding_of_some_distributions_names_them() -> None:
     (only,) = merged([], [issue()], [])
-    assert (only.finding.message, only.distros) == ("m (only in jazzy)", ("jazzy",))
+    assert (only.finding.message, only.distros) == ("m (reported only for jazzy)", ("jazzy",))
     (only,) = merged([issue()], [], [issue()])
-    assert (only.finding.message, only.distros) == ("m (only in humble and kilted)", ("humble", "kilted"))
+    assert (only.finding.message, only.distros) == ("m (reported only for humble and kilted)", ("humble", "kilted"))
 
 
 def test_a_message_that_differs_is_kept_beside_the_first() -> None:
     (both,) = merged([issue(message="through a")], [issue(message="through b")])
-    assert (both.finding.message, both.distros) == ("through a (also in jazzy)", ())
+    assert (both.finding.message, both.distros) == ("through a (reported also for jazzy)", ())
     assert both.other_messages == (("jazzy", "through b"),)
 
 
@@ -86,11 +91,21 @@ def test_a_fix_of_some_distributions_is_unsafe() -> None:
     assert only.finding.fix == FIRST._replace(safe=False)
 
 
+def test_a_fix_is_safe_if_other_distributions_have_it_for_another_rule() -> None:
+    other = issue(fix=FIRST, rule=RULE._replace(name="o", code="ROS998"))
+    assert [(i.distros, i.finding.fix) for i in merged([issue(fix=FIRST)], [other])] == [
+        (("humble",), FIRST),
+        (("jazzy",), FIRST),
+    ]
+
+
 def test_a_cause_explains_findings_only_where_it_holds() -> None:
     cause, consequence = issue("cause", explains=(Consequence("r", "s"),)), issue()
     assert [i.finding.subject for i in without_explained(merged([cause, consequence], [cause, consequence]))] == ["cause"]
     assert len(without_explained(merged([cause, consequence], [consequence]))) == 2
     assert [i.finding.subject for i in without_explained(merged([cause, consequence], [cause]))] == ["cause"]
+    assert [i.finding.subject for i in without_explained(merged([cause, consequence], [issue("cause")]))] == ["cause"]
+    assert len(without_explained(merged([cause, consequence], [issue("cause"), consequence]))) == 2
 
 
 # --- loading
@@ -117,6 +132,23 @@ def package(name: str, cmake: str, export: str = "<build_type>ament_cmake</build
         f'<maintainer email="a@b.org">A</maintainer><license>MIT</license><export>{export}</export></package>'
     )
     return {f"{name}/package.xml": manifest, f"{name}/CMakeLists.txt": f"project({name})\n{cmake}\nament_package()\n"}
+
+
+CASES = [
+    case
+    for source in sorted((Path(__file__).parent.parent / "fixtures").glob("*.md"))
+    for case in read_cases(source)
+    if any("ROS_DISTRO" in text for text in case.files.values())
+]
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")
+def test_the_packages_are_those_of_separate_runs(case: Case) -> None:
+    tree = case.tree()
+    together = loader_of(tree, case._replace(distros=("humble", "jazzy"))).load_all()
+    for distro, workspace in zip(("humble", "jazzy"), together, strict=True):
+        alone = loader_of(tree, case._replace(distros=(distro,))).load()
+        assert (workspace.packages, workspace.not_checked) == (alone.packages, alone.not_checked)
 
 
 READS = 'set(distro $ENV{ROS_DISTRO})\nif(distro STREQUAL "humble")\n  add_library(old old.cpp)\nendif()'
@@ -176,9 +208,9 @@ ament_package()
 """
 BOTH = ("--distro", "humble,jazzy")
 FINDINGS = {
-    "gazebo_ros": (["humble"], "because jazzy has no 'gazebo_ros' (only in humble)"),
+    "gazebo_ros": (["humble"], "because jazzy has no 'gazebo_ros' (reported only for humble)"),
     "rclcpp": (["humble", "jazzy"], "add <depend>rclcpp</depend>"),
-    "sensor_msgs": (["jazzy"], "widen the condition (only in jazzy)"),
+    "sensor_msgs": (["jazzy"], "widen the condition (reported only for jazzy)"),
 }
 
 
@@ -226,8 +258,8 @@ def test_findings_have_the_distributions_in_which_they_hold(
 def test_every_format_names_the_distributions(robot: Path, capsys: pytest.CaptureFixture[str], form: str) -> None:
     run(*BOTH, "--format", form)
     text = capsys.readouterr().out
-    assert "(only in humble)" in text
-    assert "(only in jazzy)" in text
+    assert "(reported only for humble)" in text
+    assert "(reported only for jazzy)" in text
     if form == "sarif":
         (sarif,) = json.loads(text)["runs"]
         assert sarif["properties"]["distros"] == ["humble", "jazzy"]
@@ -269,17 +301,24 @@ def test_the_proposed_condition_resolves_the_finding(robot: Path, capsys: pytest
     assert {f["subject"] for f in report(capsys, *BOTH)["findings"]} == {"rclcpp", "sensor_msgs"}
 
 
-def test_a_fix_that_causes_a_finding_in_one_distribution_is_skipped(robot: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    # In jazzy nothing uses std_srvs, but the fix that removes it would break humble.
-    (robot / "package.xml").write_text(
-        MANIFEST.replace("  <export>", "  <depend>rclcpp</depend>\n  <depend>std_srvs</depend>\n  <export>")
-    )
-    script = CMAKE.replace(
-        "ament_package()", 'if($ENV{ROS_DISTRO} STREQUAL "humble")\n  find_package(std_srvs REQUIRED)\nendif()\nament_package()'
-    )
-    (robot / "CMakeLists.txt").write_text(script)
-    run(*BOTH, "--fix", "--unsafe-fixes")
-    assert "<depend>std_srvs</depend>" in (robot / "package.xml").read_text()
+def trial(*issues: Issue) -> Trial:
+    workspace: Any = SimpleNamespace(target=TargetDistro("humble", "--distro", others=("jazzy",)))
+    return Trial({}, (workspace, workspace), issues)
+
+
+def test_a_finding_that_a_fix_causes_in_another_distribution_is_new() -> None:
+    only, both = issue()._replace(distros=("jazzy",)), issue()
+    before = trial(only).identity_counts()
+    assert new_findings(before, trial(both)) == [both]
+    assert new_findings(before, trial(only)) == []
+    assert new_findings(trial(both).identity_counts(), trial(only)) == []
+
+
+def test_a_fix_has_to_resolve_its_finding_in_all_distributions() -> None:
+    only, both = issue()._replace(distros=("jazzy",)), issue()
+    before = trial(both).identity_counts()
+    assert unresolved(before, trial(only), [both]) == [both]
+    assert unresolved(before, trial(), [both]) == []
 
 
 def test_a_suppression_is_unused_only_if_it_is_in_all_distributions(robot: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -46,7 +46,7 @@ class Codec(Generic[T]):
     def encode(self, value: T) -> bytes:
         """Return ``value`` as bytes.
 
-        Raises an exception of another kind for each way in which a value does not have the type ``kind``.
+        Raises an exception of any class if the value does not have the type ``kind``.
         """
         writer = _Writer()
         self._column.write(writer, [value])
@@ -73,7 +73,7 @@ class _Writer:
         self._columns: list[bytes] = []
 
     def integers(self, column: Sequence[int]) -> None:
-        """Add integers, in as few bytes each as the largest one needs. Equal integers need no bytes each."""
+        """Add integers. Each takes as many bytes as the largest of them needs. If all are equal, the integer is stored once."""
         if not column:
             return
         low, high = min(column), max(column)

@@ -1,4 +1,4 @@
-"""A tree that records what it was asked, so that a later run can find out whether the answers are still the same."""
+"""A tree that records queries and answers, so that a later run can find out whether the answers are still the same."""
 
 from __future__ import annotations
 

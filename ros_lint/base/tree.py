@@ -124,8 +124,8 @@ class DiskTree:
     A link to a file is followed only if its target is
 
     * in a folder of ``inside`` (real paths, by default only the directory itself),
-    * or, if a link leads from the directory to the folder of the file, in the target of that folder's link or in the
-      git repository of that target.
+    * or, if the folder of the file is reached by a link, in the target of that link or in the git repository of that
+      target.
     """
 
     __slots__ = ("_base", "_inside")

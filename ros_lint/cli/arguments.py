@@ -11,7 +11,12 @@ from typing import Any, NoReturn
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.options import BY_NAME, COMMANDS, OPTIONS, CliOption
 
-_COMMON = ("distro", "underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")
+_ONE_DISTRO = "ROS distribution to answer for; if unset, the first one of the settings, or else the newest LTS release"
+_COMMON_OPTIONS = (
+    BY_NAME["distro"]._replace(help=_ONE_DISTRO, metavar="NAME"),
+    *(BY_NAME[name] for name in ("underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")),
+)
+"""The options of the commands that answer for one distribution."""
 _WORKSPACE_HELP = "workspace (default: the workspace that contains the current folder)"
 _EPILOG = """\
 commands (see also ros-lint COMMAND --help):
@@ -96,14 +101,14 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
 
 def _add_workspace(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-C", "--workspace", dest="paths", action="append", metavar="PATH", help=_WORKSPACE_HELP)
-    for name in _COMMON:
-        _add_option(parser, BY_NAME[name])
+    for option in _COMMON_OPTIONS:
+        _add_option(parser, option)
 
 
 def _add_order(parser: argparse.ArgumentParser) -> None:
     _add_paths(parser)
-    for name in _COMMON:
-        _add_option(parser, BY_NAME[name])
+    for option in _COMMON_OPTIONS:
+        _add_option(parser, option)
 
 
 def _add_graph(parser: argparse.ArgumentParser) -> None:

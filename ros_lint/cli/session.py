@@ -276,7 +276,7 @@ def _base(paths: Sequence[str]) -> str:
 
 
 def _targets(settings: Settings, places: Sequence[str]) -> tuple[tuple[TargetDistro, ...], tuple[str, ...]]:
-    """Return the distributions to check for, and warnings. Raises UsageError for an unknown one."""
+    """Return the distributions to check for, and warnings. Raises UsageError for an unknown distribution."""
     names = list(dict.fromkeys(name for name in settings["distro"] if name))
     origin = settings.origin("distro")
     if not names:

@@ -2,7 +2,7 @@
 
 A finding is known by its rule, package and subject, which stay the same when lines and files move. Findings that share
 these are counted. If there are more than the file lists, all of them are shown, because it cannot be determined which
-one is new. Bulk suppressions of eslint work the same way.
+of them are new. Bulk suppressions of eslint work the same way.
 """
 
 from __future__ import annotations

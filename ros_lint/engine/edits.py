@@ -191,7 +191,7 @@ _NEW_MODE = 0o644
 
 
 def _remove_leftovers(folder: str) -> None:
-    """Remove temporary files from a folder that killed runs did not remove."""
+    """Remove the temporary files of killed runs from a folder."""
     with os.scandir(folder) as entries:
         leftovers = [entry for entry in entries if _TEMPORARY_NAME.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
     for entry in leftovers:

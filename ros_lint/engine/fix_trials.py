@@ -184,7 +184,7 @@ def _edited_files(issue: Issue) -> Iterable[str]:
 
 
 def _new_findings(before: Counter[DistroIdentity], after: Trial) -> list[Issue]:
-    """Return the findings of high confidence and of rules that are on by default that are new in any distribution.
+    """Return the new findings in any distribution, limited to high confidence and to rules that are on by default.
 
     Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
     """
@@ -194,6 +194,6 @@ def _new_findings(before: Counter[DistroIdentity], after: Trial) -> list[Issue]:
 
 
 def _unresolved(before: Counter[DistroIdentity], after: Trial, group: Sequence[Issue]) -> list[Issue]:
-    """Return the issues of a group that their fixes do not resolve in all their distributions."""
+    """Return the issues of a group that are not resolved by their fixes in all their distributions."""
     count = after.identity_counts()
     return [issue for issue in group if any(count[name] >= before[name] for name in after.identities(issue))]

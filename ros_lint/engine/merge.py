@@ -3,61 +3,90 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ros_lint.base.suggestions import and_list
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from ros_lint.analysis.finding import Fix
+    from ros_lint.analysis.finding import Consequence, Fix
     from ros_lint.engine.report import Issue
 
-DistroIssue = tuple[str, "Issue"]
-"""A distribution with a finding for it."""
+DistroIssue = tuple["_DistroFindings", "Issue"]
+"""A finding, and the findings of its distribution."""
 
 
 def merge(issues_by_distro: Sequence[tuple[str, Sequence[Issue]]]) -> tuple[Issue, ...]:
-    """Return the findings for several distributions, each pair of which has the name of a distribution and its findings.
+    """Return the merged findings for several distributions, given pairs of a distribution and its findings.
 
-    Findings are merged into one if rule, package, subject, place, severity and confidence are equal. The merged finding has the
-    message for the first distribution that has it, and ends with "(only in jazzy)" if not all distributions have it. Its fix
-    is safe only if all distributions have the finding with the same safe fix. The result is not sorted.
+    - Findings are merged into one if rule, package, subject, place, severity and confidence are equal.
+    - The merged finding has the message for the first distribution that has it. The message ends with
+      "(reported only for jazzy)" if not all distributions have the finding.
+    - Its fix is safe only if every distribution has a safe fix with the same edits, for a finding of the same or of another rule.
+    - It explains findings only if it does so in every distribution that has them.
+
+    The result is not sorted.
     """
     if len(issues_by_distro) == 1:
         return tuple(issues_by_distro[0][1])
+    distros = [_DistroFindings(name, issues) for name, issues in issues_by_distro]
     groups: dict[tuple[object, int], list[DistroIssue]] = {}
-    for distro, issues in issues_by_distro:
+    for distro in distros:
         counts: Counter[object] = Counter()
-        for issue in issues:
+        for issue in distro.issues:
             finding = issue.finding
             key = (issue.rule.code, issue.package, finding.subject, finding.span, issue.severity, finding.confidence)
             counts[key] += 1
             groups.setdefault((key, counts[key]), []).append((distro, issue))
-    return tuple([_merged(group, everywhere=len(group) == len(issues_by_distro)) for group in groups.values()])
+    return tuple([_merged(group, distros) for group in groups.values()])
 
 
-def _merged(group: Sequence[DistroIssue], *, everywhere: bool) -> Issue:
+class _DistroFindings:
+    """The findings for one distribution."""
+
+    def __init__(self, name: str, issues: Sequence[Issue]) -> None:
+        self.name = name
+        self.issues = issues
+
+    @cached_property
+    def safe_edits(self) -> frozenset[object]:
+        """The edits of each safe fix."""
+        return frozenset([issue.finding.fix.edits for issue in self.issues if issue.finding.fix and issue.finding.fix.safe])
+
+    @cached_property
+    def _subjects(self) -> frozenset[tuple[str, str, str]]:
+        """Package, rule and subject of each finding; and package, rule and "", which stands for all subjects."""
+        subjects = [(issue.package, issue.rule.name, issue.finding.subject) for issue in self.issues]
+        return frozenset([*subjects, *((package, rule, "") for package, rule, _ in subjects)])
+
+    def accepts(self, entry: Consequence, issue: Issue) -> bool:
+        """Return whether ``issue``, a finding of this distribution, explains ``entry``, or no finding of it is ``entry``."""
+        return entry in issue.finding.explains or (issue.package, entry.rule, entry.subject) not in self._subjects
+
+
+def _merged(group: Sequence[DistroIssue], distros: Sequence[_DistroFindings]) -> Issue:
     (_, first), *others = group
     finding = first.finding
-    differing = [(distro, issue.finding.message) for distro, issue in others if issue.finding.message != finding.message]
-    distros = () if everywhere else tuple([distro for distro, _ in group])
-    if distros:
-        ending = f" (only in {and_list(distros)})"
+    names = () if len(group) == len(distros) else tuple([distro.name for distro, _ in group])
+    differing = [(distro.name, issue.finding.message) for distro, issue in others if issue.finding.message != finding.message]
+    if names:
+        ending = f" (reported only for {and_list(names)})"
     else:
-        ending = f" (also in {and_list([distro for distro, _ in differing])})" if differing else ""
+        ending = f" (reported also for {and_list([name for name, _ in differing])})" if differing else ""
+    entries = dict.fromkeys([entry for _, issue in group for entry in issue.finding.explains])
     merged = finding._replace(
         message=finding.message + ending,
-        fix=_merged_fix([issue.finding.fix for _, issue in group], everywhere=everywhere),
-        explains=tuple([entry for entry in finding.explains if all(entry in issue.finding.explains for _, issue in others)]),
+        fix=_merged_fix([issue.finding.fix for _, issue in group], distros),
+        explains=tuple([entry for entry in entries if all(distro.accepts(entry, issue) for distro, issue in group)]),
     )
-    return first._replace(finding=merged, distros=distros, other_messages=tuple(differing))
+    return first._replace(finding=merged, distros=names, other_messages=tuple(differing))
 
 
-def _merged_fix(fixes: Sequence[Fix | None], *, everywhere: bool) -> Fix | None:
+def _merged_fix(fixes: Sequence[Fix | None], distros: Iterable[_DistroFindings]) -> Fix | None:
     """Return the fix of a merged finding; None if a distribution has the finding without a fix."""
-    present = [fix for fix in fixes if fix is not None]
-    if len(present) < len(fixes):
+    first = fixes[0]
+    if first is None or None in fixes:
         return None
-    first = present[0]
-    return first._replace(safe=everywhere and all(fix.safe and fix.edits == first.edits for fix in present))
+    return first._replace(safe=all(first.edits in distro.safe_edits for distro in distros))

@@ -26,7 +26,7 @@ _SELECTORS = ("all", "default")
 
 
 class PluginError(UserError):
-    """A plugin that cannot be loaded, or whose rules have invalid names or codes or those of other rules."""
+    """A plugin that cannot be loaded, or a rule of a plugin with the name or code of another rule, or with an invalid one."""
 
 
 class Plugin(NamedTuple):
@@ -71,7 +71,7 @@ def _loaded(owner: str, entry: EntryPoint) -> tuple[Rule, ...]:
 
 
 def problems(builtin: Sequence[Rule], plugins: Iterable[Plugin]) -> Iterator[str]:
-    """Yield a message for each invalid name or code of a plugin, and for each that another rule has."""
+    """Yield a message for each name or code of a plugin that is invalid or that another rule has."""
     owner_of_name = {rule.name: "ros-lint" for rule in builtin}
     owner_of_letters: dict[str, str] = {}
     for plugin in plugins:

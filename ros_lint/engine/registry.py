@@ -65,7 +65,7 @@ def _letters(code: str) -> str:
 
 
 def unknown_rule_message(rules: Sequence[Rule], selector: str) -> str:
-    """Return the message for a selector that matches no rule. It names ``--plugins`` if ``rules`` lack those of plugins."""
+    """Return the message for a selector that matches no rule. It names ``--plugins`` if ``rules`` do not include plugins."""
     if former := former_rule(selector):
         return f"rule '{selector}' {former.fate}"
     words = [word for rule in rules for word in (rule.name, rule.code)]

@@ -76,7 +76,7 @@ class ReportCache:
         self._file.write({self._name: cached}, self._codec, self._obsolete)
 
     def _obsolete(self, names: Sequence[str]) -> list[str]:
-        """Return the names of reports of other versions, and of the oldest reports of this one."""
+        """Return the names of reports of other versions, and of the oldest reports of this version."""
         reports = [name for name in names if name.startswith("report-") and name != self._name]
         current = [name for name in reports if name.startswith(self._prefix)]
         return [name for name in reports if name not in current[1 - _MOST_REPORTS :]]

@@ -104,7 +104,7 @@ def _first_line(entry: tuple[Suppression, Name]) -> int:
 
 
 def _unknown(comment: Suppression, name: Name, spellings: Mapping[str, str]) -> UnknownSelector:
-    """Return the entry for a name of no rule. ``spellings`` has each name and code of a rule by its lower case."""
+    """Return the entry for an unknown name. ``spellings`` has the names and codes of all rules, by their lower-case form."""
     if former := former_rule(name.text):
         return UnknownSelector(comment, name, "", former.fate)
     similar = similar_names(name.text.lower(), spellings)

@@ -164,6 +164,11 @@ class LaunchReference(NamedTuple):
     """
     existence_checked: bool = False
     """True if the launch file checks first that the file exists, and works without it."""
+    fallback_for: tuple[tuple[str, str], ...] = ()
+    """Files whose absence the launch file checks first, as package and path below its share directory.
+
+    The reference is used only if they do not exist.
+    """
     distros: tuple[str, ...] = ()
     """Distributions in which the reference is reached, sorted, if the launch file checks ROS_DISTRO.
 

@@ -190,7 +190,7 @@ class Knowledge:
         return any(contents.ask(name) != "missing" for contents in self.known_elsewhere(package, kind))
 
     def known_elsewhere(self, package: str, kind: ContentKind) -> tuple[Known, ...]:
-        """Return the names of one kind that a package provides, as one entry for each other distribution with the package."""
+        """Return the names of one kind that a package provides: an entry for every other distribution with the package."""
         return tuple([self._provided(entry.distro, package, kind) for entry in self._indexes_with(package)])
 
     def provides_elsewhere(self, package: str, name: str) -> bool | None:

@@ -108,10 +108,9 @@ def near_names(name: str, names: Iterable[str], most: int, least: float) -> list
 
     The similar names of :func:`ros_lint.base.suggestions.similar_names`, except for
 
-    * names whose differing words do not resemble each other: not rear_camera for front_camera,
-    * names with more words, unless the additional words begin like the differing words of ``name``: not
-      flir_camera_description for icar_description,
-    * all names that extend ``name`` if there are several: neither left_arm nor right_arm for arm.
+    * names with other words, such as rear_camera for front_camera, unless the differing words resemble each other or
+      begin in the same way,
+    * all names that extend ``name`` if there are several, such as left_arm and right_arm for arm.
     """
     words = _words(name)
     similar = [candidate for candidate in similar_names(name, names, most, least) if _may_be_intended(words, _words(candidate))]

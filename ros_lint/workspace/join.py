@@ -1,4 +1,4 @@
-"""Join the facts of packages: their uses of each other, and the package that rules read."""
+"""Join the facts of packages: resolve their uses of other packages, and create the model that rules read."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from ros_lint.workspace.discovery.discover import DiscoveredPackage
 from ros_lint.workspace.model import Declared, Package
 from ros_lint.workspace.usage import own_files, public_headers, textual_mentions, unqualified_types
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
+from ros_lint.workspace.usage.pip_requirements import pip_requirements
 from ros_lint.workspace.usage.resolve import Resolver, resolve
 from ros_lint.workspace.usage.unreached_modules import unreached_modules
 
@@ -94,11 +95,15 @@ def join_packages(
         if package.registrations and read_package.script and read_package.script.files.plugin_files:
             package = package._replace(unwritten_classes=textual_mentions.find_unwritten_classes(tree, package))
         if search:
+            undeclared = _undeclared(package)
             package = package._replace(
                 textual_mentions=textual_mentions.find_textual_mentions(tree, package, source, world, types),
                 possibly_used=textual_mentions.possibly_used(tree, package, source, world, types),
+                pip_requirements=pip_requirements(tree, package.path, package.files)
+                if any(use.via == "import" for use in undeclared)
+                else frozenset(),
                 unreached_modules=unreached_modules(
-                    tree, source, _undeclared(package), [other for other in sources if other is not source]
+                    tree, source, undeclared, [other for other in sources if other is not source]
                 ),
             )
         yield package

@@ -71,7 +71,7 @@ class _Found(NamedTuple):
 
     @property
     def depends_on_distro(self) -> bool:
-        """True if a condition chooses the build type of a package, so that colcon may find other packages elsewhere."""
+        """True if a condition chooses the build type of a package, so that another distribution may have other packages."""
         manifests = [*(package.manifest for package in self.discovery.packages), *self.discovery.rejected]
         exports = [export for manifest in manifests if manifest for export in manifest.exports]
         return any(export.tag == "build_type" and conditions.of(export) for export in exports)
@@ -172,7 +172,7 @@ class Loader:
         data: DistroData,
         sources: bool,
     ) -> Workspace:
-        """Return the workspace of the read packages. If it has several workspaces side by side, it contains a view for each."""
+        """Return the workspace of the read packages, with a view for each of several workspaces side by side."""
         rejected_manifests = found.discovery.rejected
         world = _world(read_packages, rejected_manifests, data, found.expected)
         hidden = hidden_namesakes(

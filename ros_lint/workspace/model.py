@@ -122,6 +122,11 @@ class Package(NamedTuple):
 
     Paths are relative to the package. Modules that other packages import are left out.
     """
+    pip_requirements: frozenset[str] = frozenset()
+    """Normalized names of the distributions that requirement files and setup.py name.
+
+    Empty unless the package imports modules that no dependency tag names.
+    """
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()
@@ -189,7 +194,7 @@ class Package(NamedTuple):
         return join(self.path, "CMakeLists.txt")
 
     def calls(self, *names: str, anywhere: bool = False) -> Iterator[Call]:
-        """Yield calls of CMake commands in the package's CMakeLists.txt, or ``anywhere`` in its CMake files."""
+        """Yield calls of CMake commands in the package's CMakeLists.txt, or, with ``anywhere``, in all of its CMake files."""
         if self.script is None:
             return
         calls = [call for call in self.script.commands.calls if call.name in names]
@@ -251,7 +256,7 @@ class Workspace:
         """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
     def seen_from(self, package: Package) -> Workspace:
-        """Return the workspace in which names of ``package`` are looked up. The engine calls this, so rules need not.
+        """Return the workspace in which the names in ``package`` are looked up. The engine calls this, so rules need not.
 
         A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. If the workspace of ``package``
         contains a name, packages of this name in the other workspaces are left out.

@@ -33,6 +33,7 @@ Not reported:
   used instead, if both are known and neither has the file. Other files of released packages are not known.
 - The launch file checks first whether the package or the file exists (`os.path.exists`), unless it stops if the file is
   missing.
+- The launch file uses the file only if another file does not exist, and that file exists.
 - The launch file writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`), or by a command (`xacro ... > path`).
 - Models, displays and parameters that are not installed in every build, and what xacro includes as `optional`.
 
@@ -131,7 +132,11 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         for reference in named:
             names_at.setdefault(reference.package_span, set()).add(path)
     for (owner, path), named in by_name.items():
-        references = [reference for reference in named if not (reference.optional or reference.existence_checked)]
+        references = [
+            reference
+            for reference in named
+            if not (reference.optional or reference.existence_checked or _is_never_used(reference, workspace))
+        ]
         if not references:
             continue
         best, *others = sorted(
@@ -157,6 +162,11 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             else Confidence.MEDIUM,
             severity=_severity(path),
         )
+
+
+def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
+    """Return whether a reference replaces a file, which may exist, if that file does not exist."""
+    return any(_files_without(owner, path, reference.kind, workspace) is None for owner, path in reference.fallback_for)
 
 
 def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
@@ -315,7 +325,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return the hint that ``package``, or else the only package of the workspace with the file, installs it; "" if none."""
+    """Return the hint which package installs the file: ``package``, else the only other package that does; "" if unclear."""
     owners = {
         other.name
         for other in workspace.packages

@@ -119,7 +119,7 @@ def _is_in_every_branch(name: str, reference: LaunchReference, package: Package)
 
 
 def _place(best: LaunchReference, others: Sequence[LaunchReference]) -> Span:
-    """Return the place of the package name, or that of the file if the package is looked up there for several files."""
+    """Return the place of the package name, or the place of the file if one look-up of the package serves several files."""
     is_shared = any(other.package_span == best.package_span and other.name != best.name for other in others)
     return best.span if is_shared and best.kind in ("include", "file") else best.package_span
 

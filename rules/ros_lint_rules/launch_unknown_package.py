@@ -152,7 +152,7 @@ class _Verdict(NamedTuple):
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
     """Yield each unknown package name with the places in launch files that name it.
 
-    A name comes twice if some of its places start executables that this package installs: these places are a group of their own.
+    Places that start executables of this package are a group of their own, so a name may be yielded twice.
     """
     unknown: dict[tuple[str, bool], list[_Place]] = {}
     own = launch.installed_programs(package)
@@ -216,7 +216,7 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
 
 
 def _its_program(successor: str, places: Sequence[_Place], workspace: Workspace) -> str:
-    """Return the executable of a released successor in parentheses if it is the only one and has another name, else ""."""
+    """Return the only executable of a released successor, in parentheses; "" if it has several or the name is the same."""
     programs = workspace.world.executables(successor).names
     wanted = {place.reference.name for place in places if place.reference.kind == "node"}
     return f" (executable '{programs[0]}')" if wanted and len(programs) == 1 and not wanted.intersection(programs) else ""

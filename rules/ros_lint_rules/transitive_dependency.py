@@ -25,6 +25,7 @@ The severity depends on the use:
 Not reported:
 
 - Packages that only provide CMake commands, if they come with the build tool.
+- Packages that only CMake commands of another package find, link and export.
 - `action_msgs`, if only the code that is generated for actions needs it.
 - Parts of launch that only launch files import, if `ros2launch` is declared.
 - Packages that CMake finds but no code uses: see `unused-find-package`.
@@ -109,7 +110,9 @@ def _is_in_cmake(use: Use) -> bool:
 
 
 def _is_command(need: dependencies.Need) -> bool:
-    return all(use.via == "macro" for use in need.uses)
+    """Return whether only commands of another package use the package: they find it, and may link and export it."""
+    calls = {use.span for use in need.uses if use.via == "macro"}
+    return all(use.span in calls for use in need.uses)
 
 
 def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
@@ -140,7 +143,7 @@ def _is_part_of_build_tool(path: Sequence[str]) -> bool:
 
 
 def _is_one_type(need: dependencies.Need) -> bool:
-    """Return whether a single place, which is in no public header, names a type of the package."""
+    """Return whether only one place uses the package: a type is named there, outside of public headers."""
     return len(need.uses) == 1 and need.uses[0].via == "symbol" and not need.role & Role.EXPORT
 
 

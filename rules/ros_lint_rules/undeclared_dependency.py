@@ -92,6 +92,7 @@ The severity is lower if the package works where it is built, launched and teste
 
 - info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
 - warning for `python3-pytest`, because colcon itself depends on it;
+- warning for libraries in requirement files or `install_requires`, if rosdep installs them by pip or only on some platforms;
 - warning for public headers of a package that compiles nothing, because dependents that declare the package build;
 - warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs;
 - warning for files that a model looks up in `<xacro:if value="$(arg x)">`, if the default of the argument `x` is false.
@@ -127,7 +128,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
         problem = "is used here, but package.xml does not declare it"
-        is_mild = need.name == _PYTEST or _is_unreached(package, need) or _is_only_in_uncompiled_headers(package, need)
+        is_mild = (
+            need.name == _PYTEST
+            or _is_unreached(package, need)
+            or _is_only_in_uncompiled_headers(package, need)
+            or _is_left_to_pip(package, workspace, need)
+        )
         severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
@@ -213,13 +219,24 @@ def _is_in_unreached_module(package: Package, use: Use) -> bool:
 def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
     """Return whether only public headers need the package, and this package compiles nothing.
 
-    Then this package builds without it, and only dependents that do not declare it fail.
+    Then this package builds without the needed package, and only dependents that do not declare the needed package fail.
     """
     if package.hidden(Facet.LIBRARIES | Facet.EXECUTABLES) or any(
         target.sources or not target.sources_known for target in package.built.products.targets
     ):
         return False
     return all(use.via in _CODE and use.role & Role.EXPORT for use in need.uses)
+
+
+def _is_left_to_pip(package: Package, workspace: Workspace, need: dependencies.Need) -> bool:
+    """Return whether a requirement file or setup.py names a library that rosdep installs by pip, or not on every platform."""
+    if workspace.world.is_package(need.name) or not all(use.via == "import" for use in need.uses):
+        return False
+    library = need.name.removeprefix("python3-").removesuffix("-pip").replace("-", "_").lower()
+    modules = {use.name.partition(".")[0].lower() for use in need.uses}
+    if package.pip_requirements.isdisjoint({library, *modules}):
+        return False
+    return dependencies.is_of_pip(workspace, need.name) or bool(dependencies.availability_remark(workspace, need.name))
 
 
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:

@@ -326,7 +326,8 @@ def _confidence(package: Package, workspace: Workspace, name: str, exported: set
     script = package.script
     assert script is not None
     closure = dependencies.partial_closure(workspace, exported)
-    if name in closure or (not closure.complete and dependencies.may_provide(closure.unknown, name, workspace)):
+    provided = all(any(provider in closure for provider in use.providers) for use in uses)
+    if provided or (not closure.complete and dependencies.may_provide(closure.unknown, name, workspace)):
         return Confidence.MEDIUM
     if _internal_sources(package, script).issuperset([build.stem(use.span.path) for use in uses]):
         return Confidence.MEDIUM

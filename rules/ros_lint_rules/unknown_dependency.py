@@ -176,10 +176,10 @@ def _unknown(
         caller = "" if name.startswith("python3-") else _caller(meant.by, meant.name)
         why = f", only the name that {caller} uses" if caller else ""
         twin = renamed.get((unresolved.package.name, meant.name))
-        duplicate = f"'{twin.name}', which means '{meant.name}'," if twin else ""
+        duplicate = f"'{twin.name}' is declared as well, and both mean '{meant.name}'" if twin else ""
         if unresolved.package.declares(meant.name):
-            duplicate = f"'{meant.name}'"
-        remedy = f"remove it, because {duplicate} is declared as well" if duplicate else f"write '{meant.name}'"
+            duplicate = f"'{meant.name}' is declared as well"
+        remedy = f"remove it, because {duplicate}" if duplicate else f"write '{meant.name}'"
         message = f"{what}{why}; {remedy}{'' if duplicate else dependencies.availability_remark(workspace, meant.name)}"
         alone = meant.by == "cmake" and _is_found_as_declared(unresolved.package, name)
         if alone:

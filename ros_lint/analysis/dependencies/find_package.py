@@ -35,7 +35,7 @@ def finds_declared(package: Package) -> bool:
 
 
 def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozenset[str] | None:
-    """Return the packages that ``find_package()`` of each name finds, their transitive dependencies, and the names.
+    """Return the packages that ``find_package()`` of each name finds, their transitive dependencies, and the names themselves.
 
     The result is None if a name belongs to no known package, or if the dependencies of a found package are unknown.
     """

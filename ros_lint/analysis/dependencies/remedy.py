@@ -182,7 +182,7 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
 
 
 def condition_for(workspace: Workspace, name: str) -> str:
-    """Return the condition that the tag of a name needs because only some distributions of the run have it, else ""."""
+    """Return the condition for the tag of a name that only some distributions of the run have; "" for any other name."""
     only_in = _availability(workspace, name).only_in
     is_in_run = not set(only_in).isdisjoint(workspace.target.distros)
     return _condition(only_in, workspace.world.knowledge.active) if is_in_run else ""

@@ -106,8 +106,8 @@ def _is_no_package(name: str, workspace: Workspace) -> bool:
     - the build type ament_python,
     - a dependency group,
     - a misspelled name,
-    - a package that was only released for ROS 1. Exception: a build script finds it and it has no ROS 2 successor,
-      because it was probably ported without a release.
+    - a package that was only released for ROS 1. Exception: a build script finds the package, and it has no ROS 2
+      successor; then it was probably ported without a release.
     """
     if not may_be_package(name) or name == "ament_python" or workspace.world.group_members(name):
         return True

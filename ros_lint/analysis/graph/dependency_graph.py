@@ -1,6 +1,6 @@
 """The dependency graph of a workspace, with the edges by which colcon orders packages.
 
-An edge leads from a package to one that has to be built before it. There is an edge for build, run and test
+An edge leads from a package to a package that has to be built first. There is an edge for build, run and test
 dependencies, members of groups, and the dependencies that colcon.pkg or the script of a plain package adds.
 Documentation dependencies, conflicts and false conditions give no edge.
 

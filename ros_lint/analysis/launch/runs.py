@@ -170,7 +170,7 @@ _TRUTHS = frozenset({"true", "false"})
 
 
 def _expressions(text: str, values_of: Callable[[str], tuple[str, ...] | None]) -> list[str]:
-    """Return the Python expressions in a launch text, after replacing launch configurations by ``values_of`` their names.
+    """Return the Python expressions in a launch text, in which ``values_of`` replaces the names of configurations by values.
 
     Nested expressions are included.
     """

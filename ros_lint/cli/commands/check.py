@@ -124,7 +124,7 @@ def _single_package_warning(request: Request) -> Iterator[str]:
 
 
 def _report(request: Request, progress: Progress) -> Report:
-    """Return the report of a run, or the cached one if nothing that it depends on has changed."""
+    """Return the report of a run: the cached report if its inputs are unchanged, else a new report."""
     cache = report_cache(request)
     disks = request.disk, MachineTree()
     recorded = [RecordedTree(disk) for disk in disks]

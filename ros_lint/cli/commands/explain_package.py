@@ -57,7 +57,7 @@ def _text(package: Package) -> str:
 
 
 def _sections(package: Package, most: int) -> Iterator[tuple[str, list[_Row]]]:
-    """Yield the title and rows of each section. The uses of each other package are limited to ``most`` rows."""
+    """Yield the title and rows of each section. The uses of every other package are limited to ``most`` rows."""
     yield "declares", list(_declares(package))
     yield "uses", list(_uses(package, most))
     yield "provides", list(_provides(package))
@@ -74,7 +74,7 @@ def _declares(package: Package) -> Iterator[_Row]:
 
 
 def _uses(package: Package, most: int) -> Iterator[_Row]:
-    """Yield the first ``most`` uses of each other package, and a row with the number of further uses."""
+    """Yield the first ``most`` uses of every other package, and a row with the number of further uses."""
     places: dict[str, list[_Row]] = {}
     for use in package.uses:
         note = f"{use.what} ({_roles(use.role)}{', optional' if use.optional else ''})"

@@ -1,7 +1,7 @@
 """Variables and macros that CMake and the released packages of ROS 2 provide.
 
 The macros are in ``ros_macros.cmake``, written in CMake and reduced to their effects. The evaluator runs them instead of
-the real ones; the head of that file describes the notation.
+the real macros; the head of that file describes the notation.
 """
 
 from __future__ import annotations

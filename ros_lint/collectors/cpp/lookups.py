@@ -49,7 +49,7 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
 
 
 def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
-    """Return the plugin loaders of a source that includes their header, or may include it (pluginlib)."""
+    """Return the plugin loaders in a source (pluginlib). The caller checks that the source may include their header."""
     if "oader" not in source.text:
         return ()
     matches = list(_LOADER.finditer(source.text))

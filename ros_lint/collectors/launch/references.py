@@ -370,6 +370,26 @@ class References:
                 for reference in self.references
             }
 
+    def mark_fallbacks(self, fallbacks: Iterable[tuple[str, Sequence[str]]]) -> None:
+        """Note for each file that replaces another file the replaced file.
+
+        ``fallbacks`` are pairs of the path of a file and the paths of the file that it replaces.
+        """
+        replaced: dict[tuple[str, str], tuple[tuple[str, str], ...]] = {}
+        for path, tested in fallbacks:
+            for file in self._installed_files([path]):
+                replaced[file] = self._installed_files(tested)
+        if replaced:
+            self.references = {
+                reference._replace(fallback_for=replaced.get((reference.package, reference.name), ())): None
+                for reference in self.references
+            }
+
+    def _installed_files(self, paths: Iterable[str]) -> tuple[tuple[str, str], ...]:
+        """Return the installed files that paths name, as package and path below its share directory."""
+        places = {place for path in paths for text in self._fill(path) for place in installed(text)}
+        return tuple(sorted((place.package, place.share) for place in places if place.share))
+
     def all(self) -> tuple[LaunchReference, ...]:
         """Return the references, sorted by span.
 

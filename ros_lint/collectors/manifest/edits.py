@@ -52,7 +52,7 @@ def _insert_by_kind(layout: _Layout, depends: Sequence[Depend], tag: str, name: 
 def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
     """Return whether the dependencies with ``tag`` are sorted by name.
 
-    If there are fewer than two, the dependencies of each other tag are checked instead. False if no tag has two dependencies.
+    If there are fewer than two, the dependencies of every other tag are checked instead. False if no tag has two dependencies.
     """
     names: dict[str, list[str]] = {}
     for depend in depends:

@@ -240,7 +240,7 @@ def child(document: Document, at: int) -> tuple[XmlNode, int]:
 
 
 def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
-    """Return the tags with byte offsets, the error that stopped expat, None if there is none, and the offset where it stopped."""
+    """Return the tags with byte offsets, the error that stopped expat (or None), and the offset where expat stopped."""
     # Namespaces as in xml.dom.minidom, which catkin_pkg uses.
     parser = expat.ParserCreate("utf-8", " ")
     parser.namespace_prefixes = True
@@ -337,7 +337,7 @@ def _qualified(name: str) -> str:
 
 
 def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
-    """Return a fault for each unresolved merge conflict, if the first of them is not after the offset ``fault`` of an error."""
+    """Return a fault for each unresolved merge conflict, () if they all come after the offset ``fault`` of an error."""
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()

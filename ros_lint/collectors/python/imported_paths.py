@@ -1,4 +1,4 @@
-"""The modules that a Python file imports, as paths, for the question which files of a package it reaches."""
+"""The modules that a Python file imports, as paths, to find the files that it imports directly or indirectly."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _IMPORTERS = frozenset({
 
 
 def imported_paths(source: Text, path: str) -> frozenset[str] | None:
-    """Return the paths of all modules and names that a file imports, without suffix, None if it may import others.
+    """Return the paths of all modules and names that a file imports, without suffix, None if it may import further modules.
 
     ``path`` is the path of the file. ``import a.b`` gives ``a`` and ``a/b``, ``from a import b`` the same, because ``b`` may
     be a module. ``from . import b`` gives ``robot/b`` in ``robot/talker.py``. ``a/*`` stands for all modules in ``a``.

@@ -47,7 +47,7 @@ def dotted(node: ast.expr) -> str:
 
 
 def argument(node: ast.Call, *names: str) -> ast.expr | None:
-    """Return the argument of a call whose keyword is in ``names``, else the first positional argument, None if there is none."""
+    """Return the keyword argument of a call with a name in ``names``, else the first positional argument, else None."""
     for keyword in node.keywords:
         if keyword.arg in names:
             return keyword.value

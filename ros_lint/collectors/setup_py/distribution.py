@@ -140,7 +140,7 @@ class Distribution:
         """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
         These are the packages in the root folder of ``package_dir`` or in src/, else in the only top-level package. The
-        folders are a value of ``package_dir``.
+        folders have the form of the option ``package_dir``.
         """
         files = self._context.files
         if "" in folders or files.is_folder("src"):

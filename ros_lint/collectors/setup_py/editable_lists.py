@@ -21,8 +21,8 @@ _OPTIONS = ("data_files", "packages")
 def collect(source: Text, package: str) -> tuple[EditableList, ...]:
     """Return the list literals that are the values of ``data_files``, ``packages`` and ``console_scripts``.
 
-    The result is () unless setup.py has exactly one call of setup(). ``package`` is the name of the package. If a variable has
-    this value, its name is recorded in each result.
+    The result is () unless setup.py has exactly one call of setup(). ``package`` is the name of the package. If a variable
+    has this name as its value, the variable is recorded in each result.
     """
     try:
         tree = parse(source)

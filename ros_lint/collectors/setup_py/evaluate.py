@@ -147,7 +147,7 @@ def _no_function(value: Value) -> str:
 
 
 def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
-    """Return a function that returns the span of a value, or its second argument for a value without a span."""
+    """Return a function of a value and a span: it returns the span of the value if the value has a span, else the argument."""
 
     def place(value: Value, default: Span) -> Span:
         node = getattr(value, "node", None)

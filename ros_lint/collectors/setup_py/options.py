@@ -72,7 +72,7 @@ def _single(option: Option) -> Value:
 
 
 def _words(option: Option) -> list[Value]:
-    """Return the elements of a list in setup.cfg: one on each line, or separated by commas on a single line."""
+    """Return the elements of a list in setup.cfg: an element on each line, or elements separated by commas on one line."""
     if len(option.lines) == 1:
         line = option.lines[0]
         return [_at(part.strip(), line.span) for part in line.text.split(",") if part.strip()]

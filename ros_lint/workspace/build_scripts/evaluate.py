@@ -74,7 +74,7 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evalua
 def _same_scripts(packages: Sequence[Parts], distro: str, earlier: Evaluation) -> dict[int, BuildScript | None]:
     """Return the scripts of ``earlier`` that are the same for ``distro``, by the index of the package.
 
-    It is empty if the CMake code that a package runs in others is not the same.
+    The result is empty if CMake code that runs in dependents is not the same.
     """
     scripts = {parts.package.path: (parts, script) for parts, script in zip(earlier.packages, earlier.scripts, strict=True)}
     same: dict[int, BuildScript | None] = {}

@@ -1,6 +1,6 @@
 """Cache the facts of files. Facts depend on the contents of the file and on the code of ros-lint, and on nothing else.
 
-The contents of a file are assumed to be the same if its :class:`~ros_lint.base.tree.Stamp` is and the stamp is settled.
+A file is assumed to be unchanged if its :class:`~ros_lint.base.tree.Stamp` is unchanged and settled.
 Otherwise the file is read, and its digest decides. So facts are found again after ``git checkout`` or in a new clone.
 """
 
@@ -56,7 +56,7 @@ class FactCache:
     def fetch(self, tree: Tree, disk: Tree, paths: Sequence[str]) -> dict[str, ReadFile]:
         """Return the cached facts of files that have not changed.
 
-        ``tree`` is asked for stamps; ``disk`` is read for the contents of files whose stamps do not decide.
+        Stamps are read from ``tree``. The contents of files whose stamps do not decide are read from ``disk``.
         """
         if not self._file:
             return {}
@@ -116,7 +116,7 @@ class FactCache:
             yield name
 
     def _is_obsolete(self, name: str, kept: Mapping[str, object]) -> bool:
-        """Return whether a record of facts belongs to another version of ros-lint, or to this workspace and is not kept."""
+        """Return whether a record of facts is of another version of ros-lint, or is of this workspace but not in ``kept``."""
         return not name.startswith(f"facts-{_state()}-") or (name.startswith(self._prefix) and name not in kept)
 
     @property
@@ -131,7 +131,7 @@ def _codec() -> Codec[_Segment]:
 
 @cache
 def _state() -> str:
-    """Return a digest of everything but the file that determines the facts of a file."""
+    """Return a digest of everything that determines the facts of a file, except for the file itself."""
     rooms = [os.path.join(SOURCES, room) for room in ("base", "facts", "collectors", os.path.join("workspace", "cache"))]
     modules = [os.path.join(SOURCES, "workspace", name) for name in ("collect.py", "collected.py")]
     return state_of([*(path for room in rooms for path in files_below(room)), *modules], _codec().schema)

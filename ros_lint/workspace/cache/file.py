@@ -1,4 +1,4 @@
-"""The cache file of a workspace: where results of earlier runs are found, and why some are not.
+"""The cache file of a workspace: the results of earlier runs, and the reasons why results are not used.
 
 The file is not used if it is damaged, if it is a link or has further links, or if another user can write the file or
 its folder. Records are decoded by :mod:`ros_lint.base.columns`, which creates only facts and reports. So a file can

@@ -89,7 +89,7 @@ def tidy(place: str, written: str, *, with_gone_workspaces: bool) -> None:
     """Remove files that are too old and, until the folder is small enough, files that were used least recently.
 
     ``written`` is a file that is kept, because it was just written. ``with_gone_workspaces`` also removes the files of
-    workspaces that do not exist any more, which takes the reading of all files.
+    workspaces that do not exist any more, for which all files are read.
     """
     with suppress(OSError):
         if with_gone_workspaces:

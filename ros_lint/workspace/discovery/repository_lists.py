@@ -18,7 +18,7 @@ def find_lists(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[
     """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` files, sorted.
 
     Searched are the base of the tree, the roots, the direct subfolders of both, and ``files``, all other files that
-    discovery has seen. Folders that cannot be read count as empty.
+    discovery has found. Folders that cannot be read count as empty.
     """
     result = {path for path in files if path.endswith(ENDINGS)}
     for top in {"", *roots}:

@@ -15,10 +15,10 @@ _PROGRAMS = ("lib/", "bin/")
 
 
 def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], others: Sequence[PackageSource]) -> frozenset[str]:
-    """Return the modules that contain imports of ``uses`` and that the package imports from no file that it starts.
+    """Return the modules with imports of ``uses`` that no started file of the package imports, directly or indirectly.
 
-    Paths are relative to the package. It starts entry points, installed programs, launch files, tests, and Python files
-    outside of its installed Python packages. Modules that the packages ``others`` import count as reached. The result is
+    Paths are relative to the package. Started files are entry points, installed programs, launch files, tests, and Python
+    files outside of the installed Python packages. Modules that the packages ``others`` import count as reached. The result is
     empty if:
 
     - nothing is started by name, as in a library,
@@ -69,7 +69,7 @@ def _imported_elsewhere(modules: Iterable[str], tops: frozenset[str], others: It
 
 
 def _reached(tree: Tree, source: PackageSource, starts: Iterable[str]) -> frozenset[str] | None:
-    """Return the Python files that the files ``starts`` reach by imports, with them, None if this is unknown."""
+    """Return the files ``starts`` with all Python files that they import, directly or indirectly; None if that is unknown."""
     files = frozenset([file for file in source.files if file.endswith(".py")])
     by_import = _by_import(files)
     reached: set[str] = set()

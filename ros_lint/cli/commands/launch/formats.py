@@ -56,7 +56,7 @@ def _value(texts: Iterable[str]) -> str:
 
 
 def _full_name(started: Started) -> str:
-    """Return the name of a node with its namespace; "..." is the name that its program sets, "" is no known name at all."""
+    """Return the name of a node with its namespace, "" if it is unknown. "..." stands for a name that the program sets."""
     spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
     if not started.name:
         return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))

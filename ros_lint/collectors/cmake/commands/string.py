@@ -71,7 +71,7 @@ def _outputs(mode: str, args: list[str]) -> list[str]:
 def _assign(run: Run, name: str, value: str, *texts: str) -> None:
     """Set the variable ``name`` to ``value``, which string() computed from ``texts``.
 
-    If the value is partly unknown and a text has square brackets, the value may have unpaired brackets, which is recorded.
+    If the value is partly unknown and a text has square brackets, the value may have unpaired brackets; this is recorded.
     """
     if HOLE in value and any("[" in text or "]" in text for text in texts):
         run.has_unpaired_brackets = True

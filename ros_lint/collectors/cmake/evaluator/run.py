@@ -171,7 +171,7 @@ class Run(State):
         return self.distro or HOLE
 
     def depend_on_distro(self, distros: frozenset[str]) -> None:
-        """Record that a command has the same effects in ``distros`` only. The distribution of the run is one of them."""
+        """Record that the effects of a command hold only in ``distros``, which contains the distribution of the run."""
         self.same_distros = distros if self.same_distros is None else self.same_distros & distros
 
     def _use_of_ros(self, name: str) -> None:

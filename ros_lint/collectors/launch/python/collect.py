@@ -224,6 +224,7 @@ class _Interpretation:
             if source is self._source:
                 references.note_opened(self._walker.text(path, node, source), conditions)
         self._mark_optional(references)
+        references.mark_fallbacks(self._machine.fallbacks)
         references.mark_guarded(path for paths in self._machine.asked.values() for path in paths)
         for package, node, source, conditions in self._machine.looked_up:
             value = self._walker.text(package, node, source)

@@ -67,7 +67,7 @@ def either(
 ) -> int:
     """Interpret both sides of a branch, join their results, and return how the branch ends: NEXT, CONTINUE, BREAK or LEAVE.
 
-    ``condition`` is the condition of ``body``, its opposite that of ``other``. ``test`` is the tested expression. ``loop``
+    ``body`` runs under ``condition``, ``other`` under its opposite. ``test`` is the tested expression. ``loop``
     is True if ``body`` is the body of a loop that runs any number of times.
     """
     condition = machine.fresh(condition, test)
@@ -76,6 +76,7 @@ def either(
     second = _follow(machine, other, opposite_of(condition), before, start, frame)
     # If the sides end differently, the rest runs only after the side that continues, or that leaves fewer blocks.
     signal = min(first.signal, second.signal)
+    _note_fallbacks(machine, condition, *((first, second) if condition.wanted else (second, first)))
     rest: list[LaunchCondition] = []
     for side in (first, second):
         if side.signal == signal:
@@ -103,6 +104,15 @@ def either(
     else:
         frame.names = {**first.names, **second.names}
     return signal
+
+
+def _note_fallbacks(machine: Interpreter, condition: LaunchCondition, present: _Side, absent: _Side) -> None:
+    """Record the values of the names that have another value if the file of a tested condition does not exist."""
+    tested = machine.asked.get(condition.texts, ())
+    if tested:
+        for name, value in absent.names.items():
+            if name in present.names and value is not present.names[name]:
+                machine.fallbacks += [(text, tested) for text in machine.texts(value)]
 
 
 def _follow(

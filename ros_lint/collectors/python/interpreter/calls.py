@@ -38,7 +38,7 @@ class LibraryCall:
         return self.arguments[position] if position < len(self.arguments) else None
 
     def texts(self, position: int, *names: str) -> tuple[str, ...]:
-        """Return the possible texts of the argument with a position or one of ``names``, (UNKNOWN,) if it is missing.
+        """Return the possible texts of the argument at ``position`` or with a keyword in ``names``, else (UNKNOWN,).
 
         Alternatives that are None are omitted, because Python would fail there.
         """

@@ -74,6 +74,8 @@ class Recorder:
 
         The program handles the case that they are missing.
         """
+        self.fallbacks: list[tuple[str, tuple[str, ...]]] = []
+        """Texts that a program uses in place of the path of a file that does not exist, with the possible paths of that file."""
         self.borrows = False
         """True if it calls models of released helpers, which are incomplete."""
         self.caught = 0

@@ -149,7 +149,7 @@ class LibraryName:
 
 
 def argument_of(call: ast.Call, position: int, *names: str) -> ast.expr:
-    """Return the expression of the argument of a call with a position or one of ``names``, the call itself if there is none."""
+    """Return the expression of a call's argument at ``position`` or with a keyword in ``names``, else the call itself."""
     for keyword in call.keywords:
         if keyword.arg in names:
             return keyword.value
@@ -178,18 +178,18 @@ class LaunchObject:
         """True if it escaped to code that is not interpreted."""
 
     def get(self, position: int, *names: str) -> Value:
-        """Return the value of the argument with a position or one of ``names``, None if it is missing."""
+        """Return the value of the argument at ``position`` or with a keyword in ``names``, None if it is missing."""
         for name in names:
             if name in self.keywords:
                 return self.keywords[name]
         return self.arguments[position] if 0 <= position < len(self.arguments) else None
 
     def may_hide(self, *names: str) -> bool:
-        """Return whether unknown ``**keywords`` may contain the argument with one of ``names``, because it is not given."""
+        """Return whether unknown ``**keywords`` may contain an argument in ``names``, because none of them is given."""
         return UNKNOWN in self.keywords and self.keywords.keys().isdisjoint(names)
 
     def written(self, position: int, *names: str) -> ast.expr:
-        """Return the expression of the argument with a position or one of ``names``, the call itself if it is missing."""
+        """Return the expression of the argument at ``position`` or with a keyword in ``names``, else the call itself."""
         return argument_of(self.node, position, *names)
 
 
