@@ -6,16 +6,22 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from ros_lint.analysis.finding import Severity
+from ros_lint.analysis.finding import Finding, Severity
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.text import Text
+from ros_lint.base.tree import MemoryTree
 from ros_lint.collectors.suppressions import collect
 from ros_lint.engine import registry
 from ros_lint.engine.plugins import Plugin, problems
+from ros_lint.engine.run import run_rules
 from ros_lint.engine.suppressions import apply_suppressions
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.target import TargetDistro
+from tests.packages import manifest_text
 
 ROOT = Path(__file__).parent.parent
 DEMO = ROOT / "fixtures" / "workspaces" / "demo"
@@ -99,6 +105,22 @@ def test_a_suggestion_for_a_suppression_has_the_spelling_of_the_code() -> None:
     text = Text("a/CMakeLists.txt", "project(a)  # ros-lint: ignore[ACME0001] because\n")
     outcome = apply_suppressions((), collect(text), [rule("old-name", "ACME001")], ())
     assert [unknown.suggestion for unknown in outcome.use.unknown] == ["ACME001"]
+
+
+@pytest.mark.parametrize(
+    ("result", "error"),
+    [
+        (None, "TypeError: 'NoneType' object is not iterable"),
+        (["text"], "TypeError: a rule must yield Finding, not str"),
+        ([Finding("m", None, "s")], "TypeError: the span of a Finding must be a Span, not NoneType"),  # type: ignore[arg-type]
+    ],
+)
+def test_an_invalid_result_of_a_rule_is_a_failure_of_the_rule(result: Any, error: str) -> None:
+    tree = MemoryTree({"a/package.xml": manifest_text("a")})
+    workspace = Loader(tree, ("",), TargetDistro("jazzy", "test")).load()
+    for check in ({"package": lambda package, workspace: result}, {"workspace": lambda workspace: result}):
+        issues, (crash,) = run_rules(workspace, [rule("acme-x", "ACME001")._replace(**check)])
+        assert (issues, crash.rule, crash.error) == ((), "acme-x", error)
 
 
 def install(site: Path, name: str, module: str, body: str = "yield Finding('mine', package.span, package.name)") -> None:

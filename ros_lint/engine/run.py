@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from ros_lint.analysis.finding import Finding
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.paths import is_below_any
+from ros_lint.base.text import Span
 from ros_lint.engine.merge import merge
 from ros_lint.engine.report import Crash, Issue
 from ros_lint.engine.suppressions import apply_suppressions
@@ -47,10 +49,19 @@ def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterat
     """Yield the findings of a rule in ``package``; for a rule of workspaces (``package`` is None), in the whole workspace."""
     if rule.package is not None and package is not None:
         for finding in rule.package(package, workspace.seen_from(package)):
-            yield Issue(rule, package.name, finding)
+            yield Issue(rule, package.name, _with_place(finding))
     elif rule.workspace is not None:
-        for finding in rule.workspace(workspace):
+        for finding in map(_with_place, rule.workspace(workspace)):
             yield Issue(rule, finding.package or owning_package(workspace, finding.span.path), finding)
+
+
+def _with_place(finding: object) -> Finding:
+    """Return what a rule yields if it is a finding with a place. Raises TypeError, because plugins need not be type-checked."""
+    if not isinstance(finding, Finding):
+        raise TypeError(f"a rule must yield Finding, not {type(finding).__name__}")
+    if not isinstance(finding.span, Span):
+        raise TypeError(f"the span of a Finding must be a Span, not {type(finding.span).__name__}")
+    return finding
 
 
 def _is_about(issue: Issue, names: Container[str], folders: Sequence[str]) -> bool:
