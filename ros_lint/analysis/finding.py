@@ -70,9 +70,9 @@ class Consequence(NamedTuple):
     """Reference to findings of the same package that need no report of their own, because another finding explains them."""
 
     rule: str
-    """Name of their rule."""
+    """Name of the rule of the explained findings."""
     subject: str = ""
-    """Their subject; "" means all findings of the rule in the package."""
+    """Subject of the explained findings; "" means all findings of the rule in the package."""
 
 
 class Finding(NamedTuple):

@@ -30,11 +30,11 @@ class OwnHeaders(NamedTuple):
     files: Sequence[str]
     """Paths relative to the package, at least one."""
     installed: bool
-    """True if some of them are installed."""
+    """True if some of the headers are installed."""
     included: Includes
     """The includes of these headers in other packages of the workspace."""
     exports: Sequence[Call]
-    """Unconditional calls of ament_export_include_directories() that export their folder."""
+    """Unconditional calls of ament_export_include_directories() that export the folder of the headers."""
     library: bool
     """True if the package installs a library."""
     loaded: bool

@@ -286,7 +286,7 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
 _PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
-"""Headers of interfaces, which packages declare even if another package brings them."""
+"""Headers of interfaces, which packages declare even if another package provides them."""
 
 
 def _suggestion(name: str, workspace: Workspace) -> str:

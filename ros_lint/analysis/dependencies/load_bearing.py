@@ -27,7 +27,7 @@ class LostProvision(NamedTuple):
     name: str
     """The undeclared package."""
     package: str
-    """The package that uses it and does not declare it."""
+    """The package that uses the undeclared package."""
 
 
 def needed_transitively(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, LostProvision]:
