@@ -116,7 +116,7 @@ class Report(NamedTuple):
     not_checked: tuple[UnreadFile, ...] = ()
     blind_spots: tuple[BlindSpot, ...] = ()
     not_cloned: tuple[UnclonedRepositories, ...] = ()
-    """Repositories that a list of the workspace names and that are not in it: their packages are unknown, not missing."""
+    """Repositories in lists of the workspace that are not cloned: their packages are unknown, not missing."""
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""

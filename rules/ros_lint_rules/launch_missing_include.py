@@ -165,7 +165,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
-    """Return whether a reference replaces a file, which may exist, if that file does not exist."""
+    """Return whether a reference is only used if another file is missing, and this other file may exist."""
     return any(_files_without(owner, path, reference.kind, workspace) is None for owner, path in reference.fallback_for)
 
 

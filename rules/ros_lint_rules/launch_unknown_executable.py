@@ -188,7 +188,7 @@ def _hint(name: str, meant: str, all_names: tuple[str, ...]) -> str:
         return names.did_you_mean(near)
     executables = [other for other in all_names if not other.endswith(_LIBRARY)]
     if not executables:
-        return "; it installs no executables"
+        return f"; it installs no executables: correct the package, or install '{name}'"
     listed = ", ".join(f"'{executable}'" for executable in executables[:5])
     return f"; it installs {listed}{' ...' if len(executables) > 5 else ''}"
 

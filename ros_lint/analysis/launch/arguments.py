@@ -59,7 +59,7 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
 
 
 def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, SimilarRead]]:
-    """Yield the elements of ``names`` that the file reads with a default and that resemble a declared argument.
+    """Yield the elements of ``names`` that resemble a declared argument, although the file reads them with a default.
 
     Names with different digits are not similar: ``camera1`` and ``camera2``.
     """

@@ -46,7 +46,7 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
-    """Return the elements of ``names`` that the file reads without a default and that callers have to set.
+    """Return the elements of ``names`` that callers have to set, because the file reads them without a default.
 
     Each has the place where the file first reads it.
     """
