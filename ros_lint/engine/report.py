@@ -123,7 +123,7 @@ class Report(NamedTuple):
     named_distros: tuple[NamedDistro, ...] = ()
     """The distributions that the repository builds for; () if the user chose the distribution of the run."""
     context_packages: int = 0
-    """Number of packages that were read to check the others, and whose findings are not reported."""
+    """Number of packages that were only read to check the others. Their findings are not reported."""
     ros1: tuple[str, ...] = ()
     """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()

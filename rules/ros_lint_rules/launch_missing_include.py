@@ -254,7 +254,7 @@ def _message(owner: str, path: str, more: int = 0) -> str:
 
 
 def _severity(path: str) -> Severity:
-    """Return the severity of a missing file: without a display, RViz starts with its default display."""
+    """Return the severity of a missing file. RViz starts with its default settings if a file ``*.rviz`` is missing."""
     return Severity.WARNING if path.endswith(".rviz") else Severity.ERROR
 
 

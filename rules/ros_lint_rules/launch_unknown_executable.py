@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         meant = started.get((owner, missing.meant), ())
         alternatives = [other for other in meant if other.conditional and other.span.path == best.span.path]
         if alternatives and best.conditional:  # two conditional nodes: the names are alternatives, so neither is a typo
-            instead = (Related("the alternative is started here", alternatives[0].span), *missing.related)
+            instead = (Related(f"'{missing.meant}' is started here", alternatives[0].span), *missing.related)
             missing = missing._replace(hint=f"; it installs '{missing.meant}'", meant="", related=instead)
         yield Finding(
             f"'{owner}' does not install an executable '{name}'{missing.hint}",

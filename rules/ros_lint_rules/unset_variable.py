@@ -140,7 +140,7 @@ _CONSEQUENCES = {
 
 
 def _similar(package: Package, name: str) -> list[str]:
-    """Return the variables that the CMake files set and whose names resemble ``name``, the most similar first."""
+    """Return those variables of the CMake files whose names resemble ``name``, the most similar first."""
     all_names: dict[str, None] = {}
     for command, index in _SETTING.items():
         for call in package.calls(command, anywhere=True):
