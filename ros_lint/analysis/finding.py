@@ -51,7 +51,7 @@ class Fix(NamedTuple):
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
         """Return the fix that makes ``edits``; None if there are no edits, or if an edit is None.
 
-        The functions of ``edits`` return None if the file has no place for the edit.
+        The functions of the module ``edits`` return None if a file has no place for an edit.
         """
         present = tuple([edit for edit in edits if edit is not None])
         return cls(title, present, safe) if present and len(present) == len(edits) else None
@@ -70,9 +70,9 @@ class Consequence(NamedTuple):
     """Reference to findings of the same package that need no report of their own, because another finding explains them."""
 
     rule: str
-    """Name of their rule."""
+    """Name of the rule of the explained findings."""
     subject: str = ""
-    """Their subject; "" means all findings of the rule in the package."""
+    """Subject of the explained findings; "" means all findings of the rule in the package."""
 
 
 class Finding(NamedTuple):

@@ -34,7 +34,7 @@ class OwnHeaders(NamedTuple):
     included: Includes
     """The includes of these headers in other packages of the workspace."""
     exports: Sequence[Call]
-    """Unconditional calls of ament_export_include_directories() that export their folder."""
+    """Unconditional calls of ament_export_include_directories() that export the folder of the headers."""
     library: bool
     """True if the package installs a library."""
     loaded: bool

@@ -30,7 +30,7 @@ class Rule(NamedTuple):
     summary: str
     """Completes "checks that", lower case, no full stop: "used packages are declared"."""
     severity: Severity
-    """Severity of its findings, unless a finding overrides it."""
+    """Severity of the findings of the rule, unless a finding overrides it."""
     since: str
     """Version of ros-lint, or of the plugin, that introduced the rule: "0.2"."""
     doc: str

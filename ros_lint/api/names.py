@@ -1,6 +1,6 @@
 """Names: similar names, and the words of a suggestion."""
 
-from ros_lint.base.suggestions import ask_if_meant, did_you_mean, of_same_kind, shorten_list, similar_names
+from ros_lint.base.suggestions import ask_if_meant, did_you_mean, nearest_names, of_same_kind, shorten_list, similar_names
 from ros_lint.collectors.interfaces import naming as interfaces
 from ros_lint.knowledge.spelling import VENDOR, may_be_package, near_names
 
@@ -11,6 +11,7 @@ __all__ = [
     "interfaces",
     "may_be_package",
     "near_names",
+    "nearest_names",
     "of_same_kind",
     "shorten_list",
     "similar_names",

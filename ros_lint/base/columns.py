@@ -65,7 +65,7 @@ class Codec(Generic[T]):
 
 
 class _Writer:
-    """Collects the columns. A text is a number in the columns, because most texts occur several times."""
+    """Collects the columns of the encoded values. They contain the numbers of texts, because most texts occur several times."""
 
     def __init__(self) -> None:
         self.numbers: defaultdict[str, int] = defaultdict()

@@ -47,7 +47,7 @@ def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most
 
 
 def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str) -> dict[str, int]:
-    """Return the number of edges to ``end``, for each node that ``start`` reaches and that reaches ``end``."""
+    """Return the number of edges to ``end`` for each node on a path from ``start`` to ``end``."""
     predecessors: dict[str, list[str]] = {}
     visited = {start}
     stack = [start]

@@ -15,6 +15,15 @@ def similar_names(name: str, names: Iterable[str], most: int = 1, least: float =
     return get_close_matches(name, list(names), most, least)
 
 
+def nearest_names(name: str, names: Iterable[str]) -> list[str]:
+    """Return those of ``names`` that resemble ``name`` most: several if they are equally near, [] if none is near."""
+    from difflib import SequenceMatcher  # noqa: PLC0415  (slow to import, and needed for unknown names only)
+
+    near = similar_names(name, names, most=3)
+    ratios = [SequenceMatcher(None, other, name).ratio() for other in near]
+    return [other for other, ratio in zip(near, ratios, strict=True) if ratio == max(ratios)]
+
+
 _DESCRIPTIONS = frozenset({"launch", "lua", "rviz", "sdf", "srdf", "urdf", "yaml"})
 _SAME_KIND = {"world": "sdf", "yml": "yaml"}
 

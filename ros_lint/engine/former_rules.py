@@ -19,9 +19,11 @@ class FormerRule(NamedTuple):
 
     @property
     def fate(self) -> str:
-        """The end of the message that begins with "rule 'x'": "was removed", or "was divided into 'y' and 'z'"."""
+        """The end of the message that begins with "rule 'x'": "was removed; ...", or "was divided into 'y' and 'z'; ..."."""
         *others, last = (f"'{name}'" for name in self.successors or ("",))
-        return f"was divided into {', '.join(others)} and {last}" if others else "was removed"
+        if not others:
+            return "was removed; delete its name"
+        return f"was divided into {', '.join(others)} and {last}; name those that you mean"
 
 
 FORMER = (

@@ -71,7 +71,7 @@ def _loaded(owner: str, entry: EntryPoint) -> tuple[Rule, ...]:
 
 
 def problems(builtin: Sequence[Rule], plugins: Iterable[Plugin]) -> Iterator[str]:
-    """Yield a message for each name or code of a plugin that is invalid or that another rule has."""
+    """Yield a message for each rule name or code of a plugin that is invalid, or the same as in another rule."""
     owner_of_name = {rule.name: "ros-lint" for rule in builtin}
     owner_of_letters: dict[str, str] = {}
     for plugin in plugins:

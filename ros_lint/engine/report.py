@@ -116,14 +116,14 @@ class Report(NamedTuple):
     not_checked: tuple[UnreadFile, ...] = ()
     blind_spots: tuple[BlindSpot, ...] = ()
     not_cloned: tuple[UnclonedRepositories, ...] = ()
-    """Repositories that a list of the workspace names and that are not in it: their packages are unknown, not missing."""
+    """Repositories in lists of the workspace that are not cloned: their packages are unknown, not missing."""
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
     """The checked folder, relative to the base as all paths are; "" for the base itself."""
     named_distros: tuple[NamedDistro, ...] = ()
     """The distributions that the repository builds for; () if the user chose the distribution of the run."""
     context_packages: int = 0
-    """Number of packages that were read to check the others, and whose findings are not reported."""
+    """Number of packages that were only read to check the others. Their findings are not reported."""
     ros1: tuple[str, ...] = ()
     """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()

@@ -31,7 +31,7 @@ class Selection(NamedTuple):
     ignores: tuple[tuple[str, frozenset[str]], ...]
     """Path patterns, each with the names of the rules to ignore in matching files."""
     off: tuple[Rule, ...] = ()
-    """Rules that are off by default and that the settings do not mention."""
+    """Rules that are off by default and not mentioned in the settings."""
     min_severity: Severity = Severity.INFO
     """The lowest severity of findings to show."""
 

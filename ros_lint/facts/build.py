@@ -236,7 +236,7 @@ class CMakeBuild(NamedTuple):
     bundled_projects: tuple[str, ...] = ()
     """Names of projects built along with the package: fetched projects and vendored folders."""
     unused_optional_finds: tuple[Span, ...] = ()
-    """Places of find_package() calls that are optional and whose results are not used."""
+    """Places of optional find_package() calls whose results are not used."""
     commented_interfaces: tuple[str, ...] = ()
     """Interfaces listed only in comments, as ``msg/Name``: they were removed."""
     errors: tuple[Problem, ...] = ()

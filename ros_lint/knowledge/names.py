@@ -47,7 +47,7 @@ _COMMON_WORDS = frozenset({
 """Words in the names of rosdep keys that do not identify the library."""
 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
-"""Top-level modules that a released package provides, but that are also common names of folders."""
+"""Top-level modules of released packages whose names are also common names of folders."""
 
 _MACRO_ALTERNATIVES: Mapping[str, tuple[str, ...]] = {
     "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators", "rosidl_cmake"),

@@ -104,7 +104,7 @@ class Spelling:
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return the names that are similar to ``name`` and that it may mean.
+    """Return the similar names that ``name`` may mean.
 
     The similar names of :func:`ros_lint.base.suggestions.similar_names`, except for
 

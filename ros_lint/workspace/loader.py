@@ -396,7 +396,7 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
 
 
 def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
-    """Yield the paths that build scripts name and that exist on the disk, but are not in the tree."""
+    """Yield the paths in build scripts that exist on the disk, but are not in the tree."""
     for package in packages:
         for problem in package.built.problems:
             path = resolve_path(package.path, problem.subject.rstrip("/"))

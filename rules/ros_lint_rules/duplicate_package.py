@@ -54,7 +54,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _are_built_separately(packages: Iterable[Package]) -> bool:
-    """Return whether each package is in a workspace of its own, such as ``arm_ws`` or ``lesson_2``: not built together."""
+    """Return whether the packages are not built together, because each is in its own workspace: ``arm_ws``, ``lesson_2``."""
     places = [graph.workspace_of(package.path) for package in packages]
     return "" not in places and len(set(places)) == len(places)
 

@@ -55,7 +55,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_in(file: str, folder: str) -> bool:
-    """Return whether a file is below a folder and not hidden, as .gitkeep is."""
+    """Return whether a file is below a folder and is no hidden file such as .gitkeep."""
     return file.startswith(f"{folder}/") and not file.rpartition("/")[2].startswith(".")
 
 

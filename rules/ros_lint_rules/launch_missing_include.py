@@ -165,7 +165,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
-    """Return whether a reference replaces a file, which may exist, if that file does not exist."""
+    """Return whether a reference is only used if another file is missing, and this other file may exist."""
     return any(_files_without(owner, path, reference.kind, workspace) is None for owner, path in reference.fallback_for)
 
 
@@ -254,7 +254,7 @@ def _message(owner: str, path: str, more: int = 0) -> str:
 
 
 def _severity(path: str) -> Severity:
-    """Return the severity of a missing file: without a display, RViz starts with its default display."""
+    """Return the severity of a missing file. RViz starts with its default settings if a file ``*.rviz`` is missing."""
     return Severity.WARNING if path.endswith(".rviz") else Severity.ERROR
 
 

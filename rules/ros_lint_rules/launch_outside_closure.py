@@ -131,7 +131,7 @@ def _declares(package: Package, name: str) -> str:
 
 
 def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[LaunchReference]]]:
-    """Yield each package that launch files use but that is no direct or indirect run-time dependency, with the references.
+    """Yield each package that launch files use without a direct or indirect run-time dependency, with the references.
 
     Packages that another rule reports are left out.
     """

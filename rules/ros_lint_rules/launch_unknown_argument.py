@@ -95,7 +95,7 @@ def _stem(file: LaunchFile) -> str:
 
 
 def _useless(file: str, name: str, place: Span, hint: str, *, sure: bool, is_similar: bool) -> Finding:
-    """Return the finding for an argument ``name`` that is passed to the included ``file`` but that the file does not use.
+    """Return the finding for an argument ``name`` that the included ``file`` does not use, although it is passed.
 
     ``is_similar``: the file uses an argument of a similar name that is not passed.
     """

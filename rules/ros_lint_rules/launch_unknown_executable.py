@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         meant = started.get((owner, missing.meant), ())
         alternatives = [other for other in meant if other.conditional and other.span.path == best.span.path]
         if alternatives and best.conditional:  # two conditional nodes: the names are alternatives, so neither is a typo
-            instead = (Related("the alternative is started here", alternatives[0].span), *missing.related)
+            instead = (Related(f"'{missing.meant}' is started here", alternatives[0].span), *missing.related)
             missing = missing._replace(hint=f"; it installs '{missing.meant}'", meant="", related=instead)
         yield Finding(
             f"'{owner}' does not install an executable '{name}'{missing.hint}",
@@ -188,7 +188,7 @@ def _hint(name: str, meant: str, all_names: tuple[str, ...]) -> str:
         return names.did_you_mean(near)
     executables = [other for other in all_names if not other.endswith(_LIBRARY)]
     if not executables:
-        return "; it installs no executables"
+        return f"; it installs no executables: correct the package, or install '{name}'"
     listed = ", ".join(f"'{executable}'" for executable in executables[:5])
     return f"; it installs {listed}{' ...' if len(executables) > 5 else ''}"
 

@@ -144,7 +144,7 @@ class _Verdict(NamedTuple):
     confidence: Confidence
     meant: str = ""
     resembles: bool = True
-    """True if it is probably a typo or an old name, not a package that is unavailable."""
+    """True if the name is probably a typo or an old name, not a package that is unavailable."""
     known: bool = False
     """True if the hint names the replacement in ROS 2, or a package of the same words: then it is not available elsewhere."""
 

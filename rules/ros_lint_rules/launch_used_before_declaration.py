@@ -88,7 +88,7 @@ class _Early(NamedTuple):
     name: str
     span: Span
     sure: bool
-    """True if it is certainly read there."""
+    """True if the configuration is certainly read at ``span``."""
     holds: bool | None
     """The result of a condition that compares the missing configuration; None if launch stops instead."""
 

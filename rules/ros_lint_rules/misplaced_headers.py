@@ -45,7 +45,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _misplaced(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield one finding for headers that other packages include with a folder (a/b.hpp) but that are installed without it."""
+    """Yield one finding for headers that are installed without the folder with which other packages include them (a/b.hpp)."""
     installed = [file for file in package.built.products.installs if file.source.endswith(files.HEADERS) and not file.conditional]
     provided = {file.source: file for file in installed}
     paths = [file.path for file in package.built.products.installs]

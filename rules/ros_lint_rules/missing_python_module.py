@@ -131,7 +131,7 @@ def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, 
 
 
 def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
-    """Yield the Python packages that contain modules of entry points and that setup.py does not install."""
+    """Yield the Python packages that setup.py does not install, although they contain modules of entry points."""
     for module in script.python.entry_point_modules:
         inside = module.name.rpartition(".")[0]
         if inside and not {module.name, inside}.intersection(script.products.python_packages):
@@ -141,7 +141,7 @@ def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
 
 
 def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> Iterator[_Lack]:
-    """Yield the Python sub-packages that installed modules import and that setup.py does not install.
+    """Yield the Python sub-packages that setup.py does not install, although installed modules import them.
 
     Left out are the folders ``as_data``, whose Python files are installed as data.
     """

@@ -96,7 +96,8 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool, any_exec
     """Yield the finding about the interpreter line of a script, else about the permissions of the script.
 
     ``name``: its file name after installation; ``started``: a launch file starts it.
-    ``any_executable``: an installed script of the package has the bit. If not, the file system may not support the bit.
+    ``any_executable``: an installed script of the package has the executable bit. If none has it, the file system may not
+    support the bit.
     """
     place = package.start_of(file.path)
     if file.carriage_return:

@@ -167,7 +167,8 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     if proposal.circular:
         message = f"'{name}' is used here, but cannot be declared: {proposal.obstacle}"
     elif elsewhere:
-        message = f"'{name}' {problem}; {workspace.target.distro} has no such package, only {elsewhere}"
+        remedy = "replace it, or add its sources to the workspace"
+        message = f"'{name}' {problem}; {workspace.target.distro} has no such package, only {elsewhere}: {remedy}"
     elif suggestion:
         message = f"'{name}' is used here, but there is no such package; did you mean '{suggestion}'?"
     elif proposal.obstacle:
@@ -296,7 +297,7 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
 _PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
-"""Headers of interfaces, which packages declare even if another package brings them."""
+"""Headers of interfaces, which packages declare even if another package provides them."""
 
 
 def _suggestion(name: str, workspace: Workspace) -> str:

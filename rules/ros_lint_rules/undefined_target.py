@@ -159,7 +159,7 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
             if near
             else f"; it exports {names.shorten_list(exported)}"
             if exported
-            else "; it exports no targets"
+            else "; it exports no targets: use install(TARGETS ... EXPORT) and ament_export_targets() there"
         )
         first, *more = [mention.span for mention in mentions]
         related = [
@@ -215,16 +215,17 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
                 continue
             if name == build.evaluated_name(package, "${PROJECT_NAME}") or names.similar_names(name, libraries, 1, 0.9):
                 message = f"ament_export_libraries() exports '{name}', which is not a library of this package"
-                yield _finding(message, name, libraries, [(call, index)])._replace(severity=Severity.WARNING)
+                remedy = "; write the name of a library that the package builds, or remove this name"
+                yield _finding(message, name, libraries, [(call, index)], remedy)._replace(severity=Severity.WARNING)
 
 
-def _finding(message: str, name: str, all_names: Sequence[str], places: list[tuple[Call, int]]) -> Finding:
+def _finding(message: str, name: str, all_names: Sequence[str], places: list[tuple[Call, int]], otherwise: str = "") -> Finding:
+    """Return a finding that suggests a similar name of ``all_names``, or ends with ``otherwise`` if no name is similar."""
     near = names.similar_names(name, all_names, 1, 0.8)
+    message += names.ask_if_meant(near) if near else otherwise
     fix = None
-    if near:
-        message += names.ask_if_meant(near)
-        if all(call.texts[index] == name for call, index in places):
-            fix = Fix(f"write '{near[0]}'", tuple(edits.cmake.write(call, index, near[0]) for call, index in places), safe=False)
+    if near and all(call.texts[index] == name for call, index in places):
+        fix = Fix(f"write '{near[0]}'", tuple(edits.cmake.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
     return Finding(message, first, name, first_related(Related("also here", span) for span in others), fix)
 

@@ -179,7 +179,7 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
 
 
 def _linked_of_system(package: Package, workspace: Workspace) -> Iterator[str]:
-    """Yield the libraries outside of ROS, such as Threads, that an exported library links publicly but that are not exported.
+    """Yield the unexported libraries outside of ROS, such as Threads, that an exported library links publicly.
 
     Left out are libraries that are found with components, because an exported dependency cannot pass them.
     """
@@ -275,7 +275,7 @@ _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
 
 
 def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
-    """Yield a pair for each package that installed headers include but that is not exported: the CMake name and the finding.
+    """Yield a pair for each unexported package that installed headers include: the CMake name and the finding.
 
     The name is in a tuple, which is () if the finding is uncertain.
     """

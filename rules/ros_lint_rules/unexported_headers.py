@@ -42,7 +42,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _unexported(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield a finding for headers that other packages include after find_package() but that this package does not export."""
+    """Yield a finding for unexported headers of this package that other packages include after find_package()."""
     includes = [
         (other, use) for other, use in wanted if other.script and package.name in dependencies.names_searched(other, other.script)
     ]

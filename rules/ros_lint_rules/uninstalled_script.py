@@ -79,7 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _of_setup(package: Package) -> Iterator[Finding]:
-    """Yield findings for programs that are started with ``ros2 run`` but that setup.py does not install."""
+    """Yield findings for programs that setup.py does not install, although they are started with ``ros2 run``."""
     for file in package.built.files.scripts:
         if file.run is not None and file.main:
             yield Finding(

@@ -187,7 +187,7 @@ def _message(used: _Used, interfaces: Sequence[str], available: Collection[str],
     elsewhere = next((f"{kind}/{form(name)}{used.header}" for kind, name in parts if form(name) == used.name), "")
     if elsewhere:
         return f"'{used.maker}' does not {verb} '{named}'; it has '{elsewhere}'"
-    near = names.similar_names(used.name, sorted(available))
+    near = names.nearest_names(used.name, sorted(available))
     suggestion = names.did_you_mean([f"{name}{used.header}" for name in near])
     return f"'{used.maker}' does not {verb} '{named}'{suggestion or remedy}"
 

@@ -38,7 +38,8 @@ Not reported:
 - References within a longer argument: `${folder}/launch`.
 
 Reported with medium confidence: the variable resembles no variable that is set, and the script finds a package that may provide
-CMake code. The names of such packages contain `build`, `cmake`, `common`, `config`, `macros`, `modules` or `tools`.
+CMake code. The names of such packages contain `build`, `cmake`, `common`, `config`, `macros`, `modules` or `tools`. Packages of
+interfaces, such as `common_msgs`, provide none.
 """
 
 from __future__ import annotations
@@ -84,7 +85,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 _PROVIDES_CODE = re.compile("build|cmake|common|config|macros|modules|tools")
-_WITHOUT_VARIABLES = re.compile("ament_|rosidl_|python_cmake_module|eigen3_cmake_module|tinyxml2?_|generate_parameter_library")
+_WITHOUT_VARIABLES = re.compile(
+    r"ament_|rosidl_|python_cmake_module|eigen3_cmake_module|tinyxml2?_|generate_parameter_library|\w+_(?:msgs|srvs|actions|interfaces)\Z"
+)
 
 
 def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str], certain: bool) -> Finding:
@@ -137,7 +140,7 @@ _CONSEQUENCES = {
 
 
 def _similar(package: Package, name: str) -> list[str]:
-    """Return the variables that the CMake files set and whose names resemble ``name``, the most similar first."""
+    """Return those variables of the CMake files whose names resemble ``name``, the most similar first."""
     all_names: dict[str, None] = {}
     for command, index in _SETTING.items():
         for call in package.calls(command, anywhere=True):

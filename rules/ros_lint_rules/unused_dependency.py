@@ -17,6 +17,8 @@ time on every machine and misleads readers.
 Remove the tag. Together with a `<build_depend>`, also remove the `<build_export_depend>`, and the `<exec_depend>` if the
 dependency provides nothing to run. The fix does this. It needs `--unsafe-fixes` unless the confidence is high.
 
+A `<test_depend>` beside a `<depend>` of the same name is an info, because nothing more is installed for it.
+
 ## Limitations
 
 Not reported:
@@ -83,8 +85,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         tags = [depend, *(_needless_tags(package, workspace, depend) if sure else ())]
         more_tags = " and ".join(f"<{tag.tag}>" for tag in tags[1:])
         written = f"<{depend.tag}>{name}</{depend.tag}>" + (f" and its {more_tags}" if more_tags else "")
+        other = next(
+            (tag.depend.tag for tag in package.tags(name) if depend.tag == "test_depend" and tag.depend.tag == "depend"), ""
+        )
+        how = f"as <{other}>, too, and" if other else "but"
         yield Finding(
-            f"'{name}' is declared, but {reason}; remove {written}",
+            f"'{name}' is declared{'' if other else ','} {how} {reason}; remove {written}",
             depend.span,
             name,
             fix=Fix(
@@ -93,6 +99,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 safe=sure,
             ),
             confidence=confidence,
+            severity=Severity.INFO if other else None,
         )
 
 

@@ -27,7 +27,7 @@ class LostProvision(NamedTuple):
     name: str
     """The undeclared package."""
     package: str
-    """The package that uses it and does not declare it."""
+    """The package that uses the undeclared package."""
 
 
 def needed_transitively(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, LostProvision]:
@@ -103,7 +103,7 @@ def _lost_above(
 
 @cached_by_package
 def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
-    """Return the uses of packages that this package does not declare, but that a declared dependency provides transitively."""
+    """Return the uses of undeclared packages that a declared dependency provides transitively."""
     return tuple([use for need in needs(package, workspace) if need.is_transitive and not need.declared for use in need.uses])
 
 

@@ -34,11 +34,11 @@ class Misplaced(NamedTuple):
     need: Need
     """The need with all of its uses."""
     uses: tuple[Use, ...]
-    """The uses for which nothing provides it, best evidence first; never empty."""
+    """The uses that no dependency with the right tag satisfies, best evidence first; never empty."""
     depend: Depend
-    """The tag of the dependency that provides it elsewhere."""
+    """The tag of the dependency that satisfies the need, but is not installed for this purpose."""
     purpose: str
-    """The purpose for which it is not installed: "to build this package"."""
+    """The purpose for which the dependency is not installed: "to build this package"."""
 
 
 class _Phase(NamedTuple):

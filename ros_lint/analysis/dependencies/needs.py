@@ -26,9 +26,9 @@ class Need(NamedTuple):
     name: str
     """The name to declare."""
     uses: tuple[Use, ...]
-    """The places where it is needed, best evidence first; never empty."""
+    """The places where the name is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
-    """Declared names that satisfy the need, in whatever tag. () if it is not declared."""
+    """Declared names that satisfy the need, in any tag. () if the need is not declared."""
     is_transitive: bool
     """True if a declared dependency provides the need transitively."""
 

@@ -132,4 +132,4 @@ TEST_TOOLS = TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
 TEST_MODULES = TEST_TOOLS | {
     "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
 }  # fmt: skip
-"""Packages and keys that tests use and that packages for a kind of tests provide."""
+"""Packages and keys that tests use. Packages for a kind of tests provide them."""

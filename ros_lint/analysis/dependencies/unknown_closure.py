@@ -52,7 +52,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, impr
 
 
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
-    """Return whether it is unlikely that one of the unknown names provides a package. All of these hold:
+    """Return whether it is unlikely that one of the unknown names provides a package. True if all of these hold:
 
     - Few released packages provide it.
     - The target distribution has it.

@@ -16,13 +16,13 @@ class Metrics(NamedTuple):
     """Metrics of a package. Only packages of the workspace are counted."""
 
     needed_by: int
-    """Number of packages that depend on it directly: the in-degree."""
+    """Number of packages that directly depend on the package: the in-degree."""
     needs: int
-    """Number of packages that it depends on directly: the out-degree."""
+    """Number of direct dependencies of the package: the out-degree."""
     depth: int
-    """Number of edges on the longest chain of its dependencies; a cycle counts as one package."""
+    """Number of edges on the longest chain of dependencies from the package; a cycle counts as one package."""
     reach: int
-    """Number of packages that are rebuilt when it changes: all direct and indirect dependents."""
+    """Number of packages that are rebuilt when the package changes: all direct and indirect dependents."""
     redundant: tuple[tuple[str, ...], ...]
     """Redundant edges, each as a shortest longer path from the package to the same dependency."""
 

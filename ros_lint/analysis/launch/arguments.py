@@ -20,7 +20,7 @@ class SimilarRead(NamedTuple):
     """A launch configuration that a file reads with a default but does not declare, although it declares a similar argument."""
 
     span: Span
-    """The first place where it is read."""
+    """The first place where the configuration is read."""
     declared: str
     """The declared argument with a similar name."""
 
@@ -31,9 +31,9 @@ class ArgumentUse(NamedTuple):
     declared: Mapping[str, Span]
     """All arguments that the file declares."""
     undeclared: Mapping[str, Span]
-    """Configurations that it reads without a default, although nothing declares or sets them."""
+    """Configurations that the file reads without a default, although nothing declares or sets them."""
     similar: Mapping[str, SimilarRead]
-    """Undeclared configurations that it reads with a default, if it declares an argument with a similar name."""
+    """Undeclared configurations that the file reads with a default, if it declares an argument with a similar name."""
     unused: frozenset[str]
     """Declared arguments that neither the file nor an included or including file reads."""
 
@@ -59,7 +59,7 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
 
 
 def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, SimilarRead]]:
-    """Yield the elements of ``names`` that the file reads with a default and that resemble a declared argument.
+    """Yield the elements of ``names`` that resemble a declared argument, although the file reads them with a default.
 
     Names with different digits are not similar: ``camera1`` and ``camera2``.
     """

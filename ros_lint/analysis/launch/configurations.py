@@ -17,11 +17,11 @@ class FileConfigurations(NamedTuple):
     """The launch configurations of one file."""
 
     declared: Mapping[str, Span]
-    """Its launch arguments, with the place of each declaration."""
+    """The launch arguments of the file, with the place of each declaration."""
     set_or_passed: frozenset[str]
-    """Configurations that it sets in other ways, or passes to an included file, which leaves them set."""
+    """Configurations that the file sets in other ways, or passes to an included file, so that they stay set."""
     read: frozenset[str]
-    """Configurations that it reads."""
+    """Configurations that the file reads."""
     complete: bool
     """True if all names are known."""
     may_read_any: bool
@@ -46,7 +46,7 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
-    """Return the elements of ``names`` that the file reads without a default and that callers have to set.
+    """Return the elements of ``names`` that callers have to set, because the file reads them without a default.
 
     Each has the place where the file first reads it.
     """

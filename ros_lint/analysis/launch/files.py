@@ -27,9 +27,9 @@ class PackageLaunchFile(NamedTuple):
     path: str
     """The path relative to the package."""
     installed: bool
-    """True if the package installs it."""
+    """True if the package installs the launch file."""
     run: bool = True
-    """True if users or tests of the package launch it; false for other tests, examples and templates."""
+    """True if users or tests of the package launch the file; false for other tests, examples and templates."""
 
 
 def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[PackageLaunchFile]:

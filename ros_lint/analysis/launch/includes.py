@@ -20,7 +20,7 @@ class InstalledLaunchFile(NamedTuple):
     """A launch file of the workspace at its install path."""
 
     package: Package
-    """The package that installs it."""
+    """The package that installs the launch file."""
     file: LaunchFile
     """The launch file."""
     path: str

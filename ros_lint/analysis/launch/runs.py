@@ -39,7 +39,7 @@ class PassedFile(NamedTuple):
     kind: Literal["include", "file"]
     """"include" for an included launch file, "file" for a parameter file."""
     span: Span
-    """The place of the action that refers to it."""
+    """The place of the action that refers to the file."""
     via: Span
     """The place of the include in the launched file."""
     depth: int
@@ -102,7 +102,7 @@ class FailingExpression(NamedTuple):
     span: Span
     """Place of the expression."""
     conditional: bool
-    """True if its action runs only under a condition."""
+    """True if the action with the expression runs only under a condition."""
 
 
 def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:

@@ -17,7 +17,7 @@ class _LayerEntry(NamedTuple):
     version: str
     layer: str
     colcon_name: str = ""
-    """The name by which colcon orders it, for a package of the workspace."""
+    """The name by which colcon orders a package of the workspace."""
 
 
 def run(workspace: Workspace) -> tuple[str, str, int]:

@@ -324,7 +324,7 @@ class _Conditional:
         self.complete |= value is True
 
     def end(self) -> set[str]:
-        """End the conditional, and return the folders from which each of its branches includes a header."""
+        """End the conditional, and return the folders from which all of its branches include headers."""
         self._close()
         return self.common if self.common and self.complete else set()
 
@@ -335,7 +335,7 @@ class _Conditional:
 
 
 def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], Set[int]]:
-    """Return two sets of offsets of include directives: directives that no build reaches, and that only some builds reach."""
+    """Return the offsets of include directives in two sets: directives for no build, and directives for only some builds."""
     skipped: set[int] = set()
     optional: set[int] = set()
     stack: list[_Conditional] = []

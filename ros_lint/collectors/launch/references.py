@@ -233,7 +233,7 @@ class References:
                 self._note_command("xacro", value, conditional)
 
     def _note_missing_slash(self, places: Iterable[InstallPlace], value: LaunchValue) -> None:
-        """Add a problem for each path that is appended to the share folder of a package without a slash."""
+        """Add a problem for each path that is appended without a slash to the share folder of a package."""
         for package, path in places:
             remainder = path.removeprefix(f"share/{package}")
             if remainder != path and is_plain(path) and remainder[:1].isalpha() and ("." in remainder or "/" in remainder):

@@ -313,7 +313,7 @@ class _Layout:
         return self._is_blank(span.end_line + 1)
 
     def kinds_apart(self) -> bool:
-        """Return whether a blank line is at most places where the tag of adjacent dependencies changes.
+        """Return whether blank lines separate most pairs of adjacent dependencies with different tags.
 
         If all dependencies have one tag, the result is whether blank lines separate them from the other elements.
         """

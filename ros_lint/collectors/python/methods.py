@@ -26,7 +26,7 @@ STRIPS: Final = frozenset({"lstrip", "removeprefix", "removesuffix", "rstrip", "
 """Methods that remove characters from the ends of a text."""
 
 LENGTH_PRESERVING: Final = frozenset({"capitalize", "casefold", "endswith", "lower", "startswith", "title", "upper"})
-"""Methods whose result is no longer than the text, and that a Python expression of launch may call."""
+"""Methods that a Python expression of launch may call. Their result is at most three times as long as the text."""
 
 TEXT_METHODS: Final = (
     TRUTHS | NUMBERS | SPLITS | STRIPS | {"capitalize", "casefold", "lower", "swapcase", "title", "upper"}

@@ -155,7 +155,10 @@ class _Scanner:
                     self._part(item, where)
 
     def _part(self, item: object, where: Where) -> None:
-        """Bind the names of an exception handler, a case of match, or a global statement, and enter the block of the part."""
+        """Bind the names of an exception handler or a case of match, and enter its block; or bind a name of a global statement.
+
+        ``item`` is a part of a statement; other parts bind no names.
+        """
         names: list[str | None] = []
         if isinstance(item, ast.ExceptHandler):
             names = [item.name]

@@ -264,9 +264,9 @@ class Distribution:
 
 
 def _facet(folder: str) -> Facet:
-    """Return the facet of the package that an unknown file in ``folder`` would hide: ``share/a`` -> ``Facet.SHARE``.
+    """Return the facet of the package that becomes incompletely known if an unknown file is installed to ``folder``.
 
-    ``folder`` is relative to the install prefix.
+    ``folder`` is relative to the install prefix: ``share/a`` -> ``Facet.SHARE``.
     """
     top = folder.partition("/")[0]
     return {"share": Facet.SHARE, "lib": Facet.EXECUTABLES, "bin": Facet.EXECUTABLES}.get(top, INSTALLED)

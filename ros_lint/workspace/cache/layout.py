@@ -27,7 +27,7 @@ class DamagedError(ValueError):
 
 
 def read(path: str, wanted: Callable[[str], bool]) -> dict[str, bytes]:
-    """Return the records of a file with the wanted names, in their order.
+    """Return those records of a file that have wanted names, in the order of the file.
 
     Raises DamagedError, and OSError for a file that is missing, not a regular file, linked, or writable by another user.
     """

@@ -254,7 +254,7 @@ def _unlisted_imports(files: Sequence[str], script: BuildScript, facts: Mapping[
 def _imported_neighbours(
     source: str, facts: FileFacts, files: Container[str], folders: Container[str]
 ) -> Iterator[tuple[str, str, Span]]:
-    """Yield each module that the file ``source`` imports and that is next to it, in the same folder.
+    """Yield each module in the folder of the file ``source`` that this file imports.
 
     Each item has the name of the module, the path of its file or (with a slash at the end) its folder, and the position
     of the import. Optional imports are left out.

@@ -95,7 +95,7 @@ _START = re.compile(rb"ros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
 
 
 def possibly_used(tree: Tree, package: Package, source: PackageSource, world: World, types: Types) -> frozenset[str]:
-    """Return the packages that CMake finds and that may be used although no code certainly uses them.
+    """Return the packages that CMake finds and the package may use, although no code certainly uses them.
 
     Each of these suffices:
 

@@ -55,7 +55,7 @@ def _reads_interfaces(package: Package) -> bool:
 
 
 def generated_from(package: Package) -> frozenset[str]:
-    """Return the interface files from which code is generated in each build and that are installed.
+    """Return the installed interface files from which code is generated in each build.
 
     Paths are relative to the package.
     """

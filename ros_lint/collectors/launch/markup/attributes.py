@@ -24,7 +24,7 @@ _make = tuple.__new__  # half the time of the constructor
 
 
 class Reader:
-    """Reads each entity of a launch file by the reader of its tag, and records the errors for which launch rejects the file."""
+    """Reads each entity of a launch file with the function for its tag, and records each error that launch would raise."""
 
     def __init__(self, source: Text, readers: Mapping[str, TagReader]) -> None:
         self._source = source

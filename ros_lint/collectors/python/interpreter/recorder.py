@@ -63,7 +63,7 @@ class Recorder:
         self.divided: list[tuple[ast.expr, Source]] = []
         """Operations ``text / text``, which raise TypeError."""
         self.wanted: set[str] = set()
-        """Modules and files that the program reads and that were not available."""
+        """Unavailable modules and files that the program reads."""
         self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
         """Paths of files that are opened for reading immediately, with places and conditions.
 
@@ -140,7 +140,10 @@ class Recorder:
         return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
 
     def removed(self, value: Value) -> Value:
-        """Return an element guarded so that it no longer exists if all present conditions hold, as after its removal."""
+        """Return an element as it is after its removal under the current conditions.
+
+        The element still exists if one of the conditions does not hold.
+        """
         first, *others = self.conditions
         remains = first._replace(wanted=not first.wanted)
         if others:
