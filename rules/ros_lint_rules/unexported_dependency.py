@@ -393,10 +393,17 @@ def _is_unavailable(package: Package, workspace: Workspace, use: Use) -> bool:
 
 
 def _compilable_elsewhere(package: Package, workspace: Workspace, script: BuildScript) -> set[str]:
-    """Return the installed headers that other packages can compile."""
+    """Return the installed headers that other packages can compile and probably use.
+
+    A folder that is installed with the sources of a target is probably not meant for other packages.
+    """
     standing = workspace.world.resolution
     old = {package.relative(use.span.path) for use in _includes(package) if standing(use.package) == "end-of-life"}
-    return _installed(script).difference(package.unusable_headers, old)
+    installed = _installed(script)
+    compiled = {source for target in script.products.targets for source in target.sources if not source.endswith(files.HEADERS)}
+    folders = {source.rpartition("/")[0] for source in installed & compiled}
+    with_sources = {header for header in installed if header.rpartition("/")[0] in folders}
+    return installed.difference(package.unusable_headers, old, with_sources)
 
 
 def _includes(package: Package) -> Iterator[Use]:
