@@ -7,7 +7,7 @@ import pytest
 from ros_lint.analysis.dependencies.needs import needs
 from ros_lint.analysis.dependencies.undeclared import undeclared
 from ros_lint.facts.manifest import Role
-from tests.one_package import BUILT, INSTALLED, load, placed, use
+from tests.one_package import BUILT, INSTALLED, PUBLIC, load, placed, use
 
 
 @pytest.mark.parametrize(
@@ -62,8 +62,10 @@ def test_what_tests_are_written_with_is_needed_by_tests() -> None:
         "include/robot/matchers.hpp": "#include <gtest/gtest.h>\n",
     }
     workspace = load(lines, files)
-    assert placed(workspace, "ament_cmake_gtest") == (Role.TEST, True, False)
+    assert placed(workspace, "ament_cmake_gtest") == (PUBLIC, True, False)  # an installed header is for others
     assert placed(workspace, "ament_cmake_gmock") == (BUILT, True, False)
+    not_installed = load(lines.removeprefix(INSTALLED), files)
+    assert placed(not_installed, "ament_cmake_gtest")[0] is Role.TEST
     declared = load(lines, files, "<depend>ament_cmake</depend><build_depend>libgmock-dev</build_depend>")
     assert not undeclared(declared.packages[0], declared)
 
