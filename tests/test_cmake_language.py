@@ -15,11 +15,12 @@ from typing import NamedTuple
 
 import pytest
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Sources
-from ros_lint.collectors.cmake.evaluator.state import BudgetError, CallFrame, Variables
+from ros_lint.collectors.cmake.evaluator.state import CallFrame, Variables
 from ros_lint.collectors.cmake.evaluator.values import HOLE, MAYBE, elements, is_known, strip_mark
 from ros_lint.collectors.cmake.syntax import parse
 from tests.cmake_writer import UNKNOWN, VARIABLES, Script, generate
@@ -232,7 +233,7 @@ def test_values_of_random_scripts_equal_those_of_cmake(tmp_path: Path) -> None:
     for seed, outcome in real.items():
         try:
             outcome_of_evaluator = evaluated(scripts[seed])
-        except BudgetError:
+        except BudgetExceeded:
             continue
         if differences := disagreements(outcome_of_evaluator, outcome):
             wrong[seed] = differences

@@ -113,7 +113,7 @@ def test_recursive_calls_in_both_branches_take_linear_time(
     for depth in (8, 16):
         monkeypatch.setattr(launch_py_run, "_DEEPEST_CALL", depth)
         collect(*BRANCHES[name])
-        steps.append(launch_py_run.STEPS - machines[-1]._left)
+        steps.append(launch_py_run.STEPS - machines[-1].budget.steps)
     assert steps[1] <= 2 * steps[0]
     assert steps[0] < 1_000
 

@@ -31,18 +31,22 @@ The severity is info, or warning if the name resembles an argument that is not p
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from ros_lint.api import Confidence, Finding, LaunchFile, LaunchValue, Package, Rule, Severity, Span, Workspace, launch, names
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    filled = {name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read}
     for launch_file in launch.run_launch_files(package):
         for include in launch.includes(launch_file.file):
-            yield from _of_include(include, launch_file.file, workspace)
+            yield from _of_include(include, launch_file.file, workspace, filled)
 
 
-def _of_include(include: launch.PlacedInclude, source: LaunchFile, workspace: Workspace) -> Iterator[Finding]:
+def _of_include(
+    include: launch.PlacedInclude, source: LaunchFile, workspace: Workspace, filled: Container[str]
+) -> Iterator[Finding]:
+    """Yield the findings of an include. ``filled``: the launch configurations that parameter files of the workspace read."""
     action, resolver, leaks = include.action, launch.include_resolver(workspace), launch.scope_leaks(workspace)
     target = resolver.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
@@ -51,7 +55,6 @@ def _of_include(include: launch.PlacedInclude, source: LaunchFile, workspace: Wo
         return
     takes = resolver.takes(target.file)
     file = f"{target.package.name}/{target.path}"
-    filled = {name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read}
     sure = not launch.include_tree(workspace).fill(target.file)
     for name, (value, place) in passed.items() if takes.complete else ():
         if name in takes.known or name in action.conditional_arguments or (name in filled and not sure):

@@ -104,15 +104,16 @@ def _read_early(
     ``declared`` has the index of the declaring action, by name.
     """
     known = set(above)
+    last = max(declared.values(), default=-1)
     part = bool(resolver.takes(file).required)
     for index, action in enumerate(file.actions):
-        late = [name for name, at in declared.items() if at > index and name not in known]
-        if not late:
+        if index >= last:
             return
+        found: set[str] = set()
         for text, span, conditional, holds in _questions(action) if action.kind != "later" else ():
             for name, has_default, _ in launch.configurations(text):
-                if name in late and not has_default:
-                    late.remove(name)
+                if declared.get(name, -1) > index and name not in known and name not in found and not has_default:
+                    found.add(name)
                     yield _Early(name, span, not part and not conditional, holds)
         for inner in launch.walk_actions((action,)):
             if inner.kind == "include" and (target := resolver.target(inner.target, file)) is not None:

@@ -13,30 +13,84 @@ from ros_lint.workspace.model import Workspace
 
 
 class PlacedInclude(NamedTuple):
-    """An include, and the actions that may read the launch configurations set by the include, because they run after it."""
+    """An include, and the scope in which the configurations that it sets stay set."""
 
     action: LaunchAction
     """The include."""
-    later: list[LaunchAction]
-    """The later actions of the file for which the configurations of the include are still set."""
+    scope: tuple[LaunchAction, ...]
+    """All actions of the launch file, or of the innermost scoped group around the include, in order."""
+    later: int
+    """The index in ``scope`` of the first action after the include."""
     leaves: bool
     """True if the configurations of the include are still set at the end of the file."""
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
     """Yield the includes of a launch file in the order of the file, including includes in groups."""
-    return _includes(file.actions, (), leaves=True)
+    return _includes(file.actions, tuple(walk_actions(file.actions)), 0, leaves=True)
 
 
-def _includes(actions: Sequence[LaunchAction], after: Sequence[LaunchAction], *, leaves: bool) -> Iterator[PlacedInclude]:
-    for index, action in enumerate(actions):
-        if action.kind != "include" and not action.children:
-            continue
-        later = [*walk_actions(actions[index + 1 :]), *after]
+def _includes(
+    actions: Sequence[LaunchAction], scope: tuple[LaunchAction, ...], position: int, *, leaves: bool
+) -> Iterator[PlacedInclude]:
+    """Yield the includes in ``actions``, which are in ``scope`` from index ``position`` on."""
+    for action in actions:
+        after = position + 1 + (sum(1 for _ in walk_actions(action.children)) if action.children else 0)
         if action.kind == "include":
-            yield PlacedInclude(action, later, leaves)
-        scoped = action.has_scope
-        yield from _includes(action.children, () if scoped else later, leaves=leaves and not scoped)
+            yield PlacedInclude(action, scope, after, leaves)
+        if action.children and action.has_scope:
+            yield from _includes(action.children, tuple(walk_actions(action.children)), 0, leaves=False)
+        elif action.children:
+            yield from _includes(action.children, scope, position + 1, leaves=leaves)
+        position = after
+
+
+class _Taker(NamedTuple):
+    """An include that may read launch configurations which were set before."""
+
+    position: int
+    """Its index in the scope."""
+    passed: frozenset[str]
+    """The arguments that it passes, which replace values that were set before."""
+
+
+class _Readers:
+    """The last action in a scope that may read a launch configuration, by the name of the configuration."""
+
+    def __init__(self, scope: Sequence[LaunchAction], source: LaunchFile, links: IncludeResolver) -> None:
+        self.scope = scope  # the owner finds this object by the id of the scope
+        self._last: dict[str, int] = {}
+        self._known: dict[str, int] = {}
+        """The answers for the names that were asked."""
+        self._of_any: list[_Taker] = []
+        """Includes that may read any configuration."""
+        self._by_file: dict[str, list[_Taker]] = {}
+        self._files: dict[str, list[str]] = {}
+        """The paths of the included files that read a configuration, by its name."""
+        for position, action in enumerate(scope):
+            for text, _ in values_of_action(action):
+                self._last.update({name: position for name, _, _ in configurations(text)})
+            if action.kind == "include":
+                self._add(_Taker(position, frozenset(name for name, _ in action.arguments)), action, source, links)
+
+    def _add(self, taker: _Taker, action: LaunchAction, source: LaunchFile, links: IncludeResolver) -> None:
+        target = links.target(action.target, source)
+        takes = links.takes(target.file) if target is not None else None
+        if target is None or takes is None or not takes.complete:
+            self._of_any.append(taker)
+            return
+        if target.file.path not in self._by_file:
+            for name in takes.known:
+                self._files.setdefault(name, []).append(target.file.path)
+        self._by_file.setdefault(target.file.path, []).append(taker)
+
+    def last(self, name: str) -> int:
+        """Return the index of the last action that may read the configuration ``name``, -1 if there is none."""
+        if name not in self._known:
+            groups = [self._of_any, *(self._by_file[path] for path in self._files.get(name, ()))]
+            takers = (next((taker.position for taker in reversed(group) if name not in taker.passed), -1) for group in groups)
+            self._known[name] = max(self._last.get(name, -1), *takers)
+        return self._known[name]
 
 
 class ScopeLeaks:
@@ -44,6 +98,7 @@ class ScopeLeaks:
 
     def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._links = links
+        self._by_scope: dict[int, _Readers] = {}
         self._above: dict[str, list[tuple[LaunchFile, PlacedInclude]]] = {}
         for file in files:
             for include in includes(file):
@@ -52,7 +107,7 @@ class ScopeLeaks:
 
     def is_taken_later(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
         """Return whether an action after ``include`` in the launch file ``source`` may read the configuration ``name``."""
-        return any(self._may_take(action, name, source) for action in include.later)
+        return self._readers(include.scope, source).last(name) >= include.later
 
     def is_taken_above(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
         """Return whether a launch file that includes ``source`` may read the configuration ``name`` after ``source`` has run.
@@ -69,16 +124,11 @@ class ScopeLeaks:
                     waiting.append(file.path)
         return False
 
-    def _may_take(self, action: LaunchAction, name: str, source: LaunchFile) -> bool:
-        if any(name == configuration for text, _ in values_of_action(action) for configuration, _, _ in configurations(text)):
-            return True
-        if action.kind != "include" or name in dict(action.arguments):
-            return False
-        target = self._links.target(action.target, source)
-        if target is None:
-            return True
-        takes = self._links.takes(target.file)
-        return not takes.complete or name in takes.known
+    def _readers(self, scope: Sequence[LaunchAction], source: LaunchFile) -> _Readers:
+        readers = self._by_scope.get(id(scope))
+        if readers is None:
+            readers = self._by_scope[id(scope)] = _Readers(scope, source, self._links)
+        return readers
 
 
 @cached_by_workspace

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.base.paths import is_outside, join
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.cmake.commands import ament as cmake_ros
@@ -31,7 +32,7 @@ from ros_lint.collectors.cmake.evaluator.flow import HANDLERS
 from ros_lint.collectors.cmake.evaluator.found_packages import folded
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
-from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, BudgetError, CallFrame
+from ros_lint.collectors.cmake.evaluator.state import MOST_CHARACTERS, STOP, CallFrame
 from ros_lint.collectors.cmake.evaluator.unset import unset_variables
 from ros_lint.collectors.cmake.evaluator.values import is_known
 from ros_lint.collectors.cmake.exported_packages import exported_packages
@@ -95,9 +96,9 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     frame = CallFrame(True, path, run.paths.absolute(_TOP))
     try:
         exits = cmake_flow.run_file(run, parsed.commands, frame)
-    except (BudgetError, RecursionError):
+    except (BudgetExceeded, RecursionError):
         run.frames[:] = [frame]
-        run.characters = MOST_CHARACTERS  # _result() evaluates texts once more
+        run.budget.characters = MOST_CHARACTERS  # _result() evaluates texts once more
         run.hide(ALL_FACETS, "the script is too large to be evaluated", frame.command and frame.command.place(path))
     else:
         run.frames[:] = [frame]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.base.budget import Budget
 from ros_lint.collectors.launch.scope import Filling, LaunchScope, Texts
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, joined
 
@@ -182,7 +183,7 @@ class _Run:
         self.refused: list[Refused] = []
         self.circles: list[Circle] = []
         self.complete = True
-        self._remaining = _MAX_ACTIONS
+        self._budget = Budget(_MAX_ACTIONS)
         self._via: Span | None = None
         self._delayed: list[_Delayed] = []
         self._values: dict[str, Texts] = {}
@@ -220,8 +221,7 @@ class _Run:
         return scope
 
     def _action(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        self._remaining -= 1
-        if len(self.started) > _MAX_STARTED or self._remaining < 0:
+        if not self._budget.affords() or len(self.started) > _MAX_STARTED:
             self.complete = False
             return scope
         truth, when = self._filling.truth(action.conditions, scope)

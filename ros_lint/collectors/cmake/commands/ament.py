@@ -160,7 +160,7 @@ def _python(run: Run, args: list[str]) -> None:
     conditional = run.conditional or run.testing
     unlisted_files = unlisted(run, folder, Facet.PYTHON, span) if run.paths.sources.unlisted_folders else []
     files = (*run.paths.files_below(folder), *unlisted_files)
-    run.charge(FILE * len(files))
+    run.budget.charge(FILE * len(files))
     for file in files:
         if file.endswith(".py"):
             subfolder = posixpath.dirname(file[skip:])

@@ -10,8 +10,8 @@ from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.commands.ros2_run import note_started_programs
 from ros_lint.collectors.cmake.evaluator.arguments import parse_keywords
 from ros_lint.collectors.cmake.evaluator.flow import run_file, run_named
-from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Handler, Run
-from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, RETURN, STOP, CallFrame
+from ros_lint.collectors.cmake.evaluator.run import Handler, Run
+from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, MOST_STEPS, RETURN, STOP, CallFrame
 from ros_lint.collectors.cmake.evaluator.truth import TRUE_WORDS, is_off
 from ros_lint.collectors.cmake.evaluator.values import (
     HOLE,
@@ -232,7 +232,7 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
             arguments = [arg for arg in arguments if arg]
     if not is_known(f"{prefix}{options}{singles}{multis}"):
         return
-    run.charge(len(prefix) * sum(names.count(";") for names in (options, singles, multis)))
+    run.budget.charge(len(prefix) * sum(names.count(";") for names in (options, singles, multis)))
     run.set_all(parse_keywords(prefix, options, singles, multis, arguments))
 
 
@@ -262,7 +262,7 @@ def _language(run: Run, args: list[str]) -> int | None:
         return run_named(run, args[1].lower(), args[2:])
     if mode == "EVAL" and args[1:2] == ["CODE"] and is_fixed(" ".join(args)):
         frame = run.frames[-1]
-        run.charge(SLOW * sum(map(len, args)))
+        run.budget.charge(SLOW * sum(map(len, args)))
         commands = parse(Text(frame.path, " ".join(args[2:]))).commands
         return run_file(run, commands, CallFrame(False, frame.path, frame.file, provider=frame.provider))
     if mode in ("CALL", "EVAL", "DEFER"):
@@ -283,7 +283,7 @@ def _folder_sources(run: Run, args: list[str]) -> None:
         return
     skip = len(folder) + 1 if folder else 0
     files = run.paths.files_below(folder)
-    run.charge(SLOW * len(files))
+    run.budget.charge(SLOW * len(files))
     names = [file[skip:] for file in files if "/" not in file[skip:]]
     sources = [
         f"{args[0]}/{name}" for name in names if name.endswith((".c", ".cc", ".cpp", ".cxx", ".C", ".c++", ".cu", ".m", ".mm"))

@@ -17,8 +17,8 @@ from ros_lint.collectors.cmake.evaluator.blocks import Body, Definition, If, blo
 from ros_lint.collectors.cmake.evaluator.definitions import reads_argument_variables
 from ros_lint.collectors.cmake.evaluator.expansion import Template, expand, template
 from ros_lint.collectors.cmake.evaluator.flow import HANDLERS, call, run_conditionally, run_named
-from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
-from ros_lint.collectors.cmake.evaluator.state import BY_DEFAULT, IF_TESTING, NEXT, STOP, BudgetError, CallFrame, Exit, Procedure
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.state import BY_DEFAULT, IF_TESTING, NEXT, STOP, CallFrame, Exit, Procedure
 from ros_lint.collectors.cmake.evaluator.values import join, split
 from ros_lint.collectors.cmake.released_macros import macros
 from ros_lint.collectors.cmake.syntax import QUOTED, UNQUOTED, Command, parse
@@ -139,9 +139,7 @@ def run_released(run: Run, macro: ReleasedMacros, args: list[str]) -> Exit:
 
 
 def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], start: int) -> Exit:
-    run.steps += len(steps) - start
-    if run.steps > MOST_STEPS:
-        raise BudgetError
+    run.budget.step(len(steps) - start)
     for index in range(start, len(steps)):
         name, arguments, conditions = steps[index]
         tests = False
@@ -166,7 +164,7 @@ def _run_steps(run: Run, steps: Sequence[_Step], values: dict[str, str | None], 
             continue
         if not exits & NEXT:
             return exits
-        run.steps -= len(steps) - index - 1  # _run_steps() counts the rest again
+        run.budget.steps += len(steps) - index - 1  # _run_steps() counts the rest again
         rest, changes = run_conditionally(run, partial(_run_steps, run, steps, values, index + 1), exits)
         run.join([{}, changes], 1 if exits & BY_DEFAULT else None)
         return (exits & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest

@@ -112,7 +112,7 @@ def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
         return [HOLE]
     pattern_of_rest = path_pattern(parts[fixed:], recurse=recurse)
     files = [strip_folder(folder, file) for file in run.paths.files_below(folder)]
-    run.charge(SLOW * len(files))
+    run.budget.charge(SLOW * len(files))
     names = [file for file in files if pattern_of_rest.fullmatch(octets(file))]
     if folders:
         above = {file[:end] for file in files for end in range(len(file)) if file[end] == "/"}

@@ -93,7 +93,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
     start = f"{target}/" if target else ""
     has_patterns = bool(rule.patterns or rule.only)
     files = (*listed_files, *unlisted_files, *generated) if unlisted_files or generated else listed_files
-    run.charge(FILE * len(files))
+    run.budget.charge(FILE * len(files))
     for file in files:
         program = file in run.paths.sources.executables if rule.executable is None else rule.executable
         if has_patterns:

@@ -31,7 +31,7 @@ def _list(run: Run, args: list[str]) -> None:
     for text in rest:
         run.note_brackets(text)
     value = run.get(name) or ""
-    run.charge(split_cost(value))
+    run.budget.charge(split_cost(value))
     change = _CHANGES.get(mode)
     if change is not None:
         change(run, name, rest)

@@ -23,7 +23,7 @@ def _math(run: Run, args: list[str]) -> None:
     if len(args) < 3 or args[0] != "EXPR" or HOLE in args[1]:
         return
     text = args[2]
-    run.charge(4 * ELEMENT * len(text))
+    run.budget.charge(4 * ELEMENT * len(text))
     value = HOLE
     if is_known(text):
         try:

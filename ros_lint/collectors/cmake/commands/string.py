@@ -32,7 +32,7 @@ def _string(run: Run, args: list[str]) -> None:
     if len(args) < 2:
         return
     mode, rest = args[0], args[1:]
-    run.charge(SLOW * sum(map(len, rest)))
+    run.budget.charge(SLOW * sum(map(len, rest)))
     if mode in ("APPEND", "PREPEND"):
         if len(rest) > 1:
             _extend(run, rest[0], _concat(*rest[1:]), mode == "APPEND")

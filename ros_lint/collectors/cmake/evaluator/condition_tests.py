@@ -227,7 +227,7 @@ def _in_list(run: Run, left: ConditionToken, right: ConditionToken) -> int:
     value = run.get(right.text)
     if value is None:
         return UNLIKELY if run.may_be_set(right.text) else FALSE
-    run.charge(split_cost(value))
+    run.budget.charge(split_cost(value))
     return _agreed(_is_element(element, value) for element in _operands(run, left))
 
 

@@ -57,7 +57,7 @@ def condition(run: Run, command: Command) -> Truth:
         if kind == UNQUOTED:
             configurable = _is_configurable(run, text)
             value = run.evaluate(text)
-            run.charge(split_cost(value))
+            run.budget.charge(split_cost(value))
             tokens += [ConditionToken(part, False, configurable) for part in split(value)]
         elif kind == QUOTED:
             tokens.append(ConditionToken(run.evaluate(text), True, _is_configurable(run, text)))

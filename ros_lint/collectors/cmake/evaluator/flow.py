@@ -6,15 +6,15 @@ from collections.abc import Callable, Container, Sequence
 from functools import partial
 from typing import Any, Final
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.collectors.cmake.evaluator.blocks import Node, UnbalancedError, blocks
-from ros_lint.collectors.cmake.evaluator.run import DEEPEST, MOST_STEPS, Handler, Run
+from ros_lint.collectors.cmake.evaluator.run import DEEPEST, Handler, Run
 from ros_lint.collectors.cmake.evaluator.state import (
     BY_DEFAULT,
     IF_TESTING,
     NEXT,
     RETURN,
     STOP,
-    BudgetError,
     CallFrame,
     Changes,
     Choice,
@@ -35,9 +35,7 @@ BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {}
 
 def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
     """Run commands in order from index ``start``, and return the possible exits."""
-    run.steps += len(body) - start + 1
-    if run.steps > MOST_STEPS:
-        raise BudgetError
+    run.budget.step(len(body) - start + 1)
     frame = run.frames[-1]
     procedures = run.procedures
     for index in range(start, len(body)):
@@ -62,7 +60,7 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
             return exits
         if exits == NEXT | STOP:
             continue  # a branch that stops with an error has no effects
-        run.steps -= len(body) - index - 1  # run_body() counts the rest again
+        run.budget.steps += len(body) - index - 1  # run_body() counts the rest again
         rest, changes = run_conditionally(run, partial(run_body, run, body, index + 1), exits)
         run.join([{}, changes], 1 if exits & BY_DEFAULT else None)
         return (exits & ~(NEXT | BY_DEFAULT | IF_TESTING)) | rest
@@ -92,13 +90,6 @@ def run_named(run: Run, name: str, args: list[str]) -> Exit:
     return run.run_external_command(run, name, args) or NEXT
 
 
-def count_step(run: Run) -> None:
-    """Count a step. Raises BudgetError if there are too many."""
-    run.steps += 1
-    if run.steps > MOST_STEPS:
-        raise BudgetError
-
-
 def _without(run: Run, name: str, args: list[str]) -> Exit:
     """Run the command of CMake ``name``, not a function or macro of the package with this name."""
     handler = HANDLERS.get(name)
@@ -115,8 +106,8 @@ def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
         return NEXT
     frames = run.frames
     if len(frames) > DEEPEST:
-        raise BudgetError
-    run.charge(2 * ELEMENT * len(args))
+        raise BudgetExceeded
+    run.budget.charge(2 * ELEMENT * len(args))
     first_uncertain = len(args)
     possibly_empty: Container[str] = ()
     command = frames[-1].command
@@ -209,7 +200,7 @@ def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
 def run_file(run: Run, commands: Sequence[Command], frame: CallFrame) -> Exit:
     """Run the commands of a file. A return() ends only the file."""
     if len(run.frames) > DEEPEST:
-        raise BudgetError
+        raise BudgetExceeded
     run.enter_file(frame)
     try:
         try:

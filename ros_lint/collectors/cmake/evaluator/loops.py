@@ -8,9 +8,9 @@ from typing import Any, Final
 
 from ros_lint.collectors.cmake.evaluator.blocks import Body, Loop
 from ros_lint.collectors.cmake.evaluator.conditions import condition
-from ros_lint.collectors.cmake.evaluator.flow import count_step, run_body, run_conditionally
-from ros_lint.collectors.cmake.evaluator.run import MOST_STEPS, Run
-from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, NEXT, RETURN, STOP, Exit
+from ros_lint.collectors.cmake.evaluator.flow import run_body, run_conditionally
+from ros_lint.collectors.cmake.evaluator.run import Run
+from ros_lint.collectors.cmake.evaluator.state import BREAK, CONTINUE, MOST_STEPS, NEXT, RETURN, STOP, Exit
 from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, UNKNOWN, UNLIKELY
 from ros_lint.collectors.cmake.evaluator.values import (
     ELEMENT,
@@ -37,7 +37,7 @@ def _run_foreach(run: Run, node: Loop) -> Exit:
     rounds = _rounds(run, node.command, args)
     if not rounds:
         return NEXT
-    run.charge(ELEMENT * len(rounds))
+    run.budget.charge(ELEMENT * len(rounds))
     names = _loop_names(args)
     values_before = [(name, run.scopes[-1].get(name, _ABSENT)) for name in names]
     visible_before = {name: run.get(name) or "" for name in names}
@@ -96,7 +96,7 @@ def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]
 
 def _elements(run: Run, name: str) -> list[str]:
     value = run.get(name) or ""
-    run.charge(split_cost(value))
+    run.budget.charge(split_cost(value))
     return elements(value)
 
 
@@ -181,7 +181,7 @@ def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
 
 def _run_while(run: Run, node: Loop) -> Exit:
     while True:
-        count_step(run)
+        run.budget.step()
         run.frames[-1].command = node.command
         truth = condition(run, node.command)
         if truth.value in (FALSE, UNLIKELY):

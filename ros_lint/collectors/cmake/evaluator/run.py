@@ -21,8 +21,6 @@ from ros_lint.facts.environment import ROS_2
 from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
-MOST_STEPS: Final = 100_000
-"""Commands that one package may run. Most real packages run less than 3,000, the largest about 93,000."""
 DEEPEST: Final = 60
 """Greatest depth of nested calls. CMake allows 1,000; real packages need less than 20."""
 _SHORT: Final = 1024
@@ -59,7 +57,6 @@ class Run(State):
         self.helpers = helpers
         self.frames: list[CallFrame] = []
         """The files, functions and macros that are being run, outermost first."""
-        self.steps = 0
         self.uncertain_conditions = 0
         """Number of enclosing conditions that may be false."""
         self.non_default_conditions = 0
@@ -120,10 +117,10 @@ class Run(State):
 
         Each HOLE becomes an UNPAIRED_HOLE if values may have unpaired square brackets.
         """
-        self.charge(len(value))
+        self.budget.charge(len(value))
         if not self.has_unpaired_brackets:
             return value
-        self.charge(SLOW * len(value))
+        self.budget.charge(SLOW * len(value))
         return with_unpaired_holes(value)
 
     def implicit_value(self, name: str) -> str | None:
@@ -220,13 +217,13 @@ class Run(State):
             if kind == UNQUOTED:
                 value = self.evaluate(text)
                 if ";" in value:
-                    self.charge(split_cost(value))
+                    self.budget.charge(split_cost(value))
                     values += split(value)
                 elif value:
                     values.append(value)
             else:
                 values.append(self.evaluate(text) if kind == QUOTED else text)
-        self.charge(sum(map(len, values)))
+        self.budget.charge(sum(map(len, values)))
         return values
 
     def first_uncertain_argument(self, command: Command) -> int | None:
@@ -259,12 +256,12 @@ class Run(State):
                 parts = template(text)
             elif arguments is not None and "${" in text:
                 text = substituted(text, arguments)
-                self.charge(len(text))
+                self.budget.charge(len(text))
                 parts = template(text)
             if isinstance(parts, str):
                 return self.get(parts) or ""
             value = expand(parts, self.lookup)
-            self.charge(len(value))
+            self.budget.charge(len(value))
             return value
         except ExpansionError:
             return HOLE

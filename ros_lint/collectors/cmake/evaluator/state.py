@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
+from ros_lint.base.budget import Budget, BudgetExceeded
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.blocks import Body
 from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, SLOW, certainly_set, is_unpaired, merge
@@ -93,14 +94,12 @@ The commands after a possible return() or break() also form a branch.
 Real packages need less than 20."""
 
 
+MOST_STEPS: Final = 100_000
+"""Commands that one package may run. Most real packages run less than 3,000, the largest about 93,000."""
 MOST_CHARACTERS: Final = 1 << 28
 """Characters of values that the scripts of one package may write and read.
 
 Other work that costs memory or time is converted into characters. Real packages need less than a million for 1,000 commands."""
-
-
-class BudgetError(Exception):
-    """The script exceeds the limits of time or memory, which no real script does."""
 
 
 class State:
@@ -124,21 +123,11 @@ class State:
         """Elements that a list has only if tests are enabled, by the variable of the list."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self._nested = 0
-        self.characters = MOST_CHARACTERS
-        """Characters that may still be written and read."""
+        self.budget = Budget(MOST_STEPS, MOST_CHARACTERS)
         self.has_unpaired_brackets = False
         """True if some value has an unpaired square bracket, because unknown texts may then have one too."""
 
     # --- writing
-
-    def charge(self, size: int) -> None:
-        """Subtract the number of characters that a command writes or reads from the budget of the run.
-
-        Raises BudgetError if the budget is exceeded.
-        """
-        self.characters -= size
-        if self.characters < 0:
-            raise BudgetError
 
     def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
         """Set ``mapping[key]`` to ``value``, and record the old value, so that the effects of a branch can be undone.
@@ -150,14 +139,14 @@ class State:
         if type(value) is str:
             if len(value) > LONGEST:
                 value = HOLE
-            self.charge(len(value))
+            self.budget.charge(len(value))
             self.note_brackets(value)
         mapping[key] = value
 
     def note_brackets(self, value: str) -> None:
         """Set ``has_unpaired_brackets`` if a value that was written to a variable may have an unpaired square bracket."""
         if ("[" in value or "]" in value or "\3" in value) and not self.has_unpaired_brackets:
-            self.charge(SLOW * len(value))
+            self.budget.charge(SLOW * len(value))
             self.has_unpaired_brackets = is_unpaired(value)
 
     def remove(self, mapping: dict[str, Any], key: str) -> None:
@@ -178,7 +167,7 @@ class State:
         scope.update(values)
         for value in values.values():
             if value:
-                self.charge(len(value))
+                self.budget.charge(len(value))
                 self.note_brackets(value)
 
     def set_parent(self, name: str, value: str | None) -> None:
@@ -231,10 +220,10 @@ class State:
     def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
         """Call ``run``, which runs a branch, undo the changes that it made, and return its possible exits and its changes.
 
-        Raises BudgetError if branches are nested too deeply.
+        Raises BudgetExceeded if branches are nested too deeply.
         """
         if self._nested > _MOST_NESTED:
-            raise BudgetError
+            raise BudgetExceeded
         self._nested += 1
         outer_log, self.log = self.log, []
         try:

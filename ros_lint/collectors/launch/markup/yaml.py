@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.base.budget import Budget
 from ros_lint.base.safe_yaml import YamlBoundError, YamlError, compose, scalar
 from ros_lint.base.text import Text
 from ros_lint.collectors.launch.markup.collect import launch_file
@@ -46,7 +47,7 @@ class _Reader:
 
     def __init__(self, source: Text) -> None:
         self._source = source
-        self._remaining = _MAX_ENTITIES
+        self._budget = Budget(_MAX_ENTITIES)
 
     def root(self, node: yaml.Node | None) -> Entity | None:
         import yaml  # noqa: PLC0415
@@ -64,11 +65,11 @@ class _Reader:
     def _entity_of_value(self, tag: str, start: int, end: int, value: yaml.Node, depth: int) -> Entity:
         import yaml  # noqa: PLC0415
 
-        self._remaining -= 1 + (len(value.value) if isinstance(value.value, list) else 0)
+        affordable = self._budget.affords(1 + (len(value.value) if isinstance(value.value, list) else 0))
         attributes: dict[str, Any] = {}
         spots: dict[str, tuple[int, int]] = {}
         children: list[Entity] = []
-        if depth >= _MAX_DEPTH or self._remaining <= 0:
+        if depth >= _MAX_DEPTH or not affordable:
             return Entity(self._source, tag, {}, [], start, end, "other", {}, simple=False)
         if isinstance(value, yaml.SequenceNode):
             children = [self._item(item, depth + 1) for item in value.value]

@@ -9,6 +9,7 @@ import ast
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.base.python_parser import compile_error
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.launch.detect import entries
@@ -27,7 +28,7 @@ from ros_lint.collectors.launch.python.runtime_errors import (
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
-from ros_lint.collectors.python.interpreter.values import PERHAPS, BudgetExceeded, Frame, Function, Modules, ProgramRaised, Source
+from ros_lint.collectors.python.interpreter.values import PERHAPS, Frame, Function, Modules, ProgramRaised, Source
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import read, refusal, span_of
 from ros_lint.collectors.symbolic_text import UNKNOWN
@@ -204,7 +205,8 @@ class _Interpretation:
 
     def stop(self, reason: str) -> None:
         """Record that the interpretation stopped early. From then on, every created object may be launched."""
-        self._opaque.append(Opaque(Facet.USES, reason, self._source.text.span(0, 0)))
+        at = self._machine.stopped_at
+        self._opaque.append(Opaque(Facet.USES, reason, span_of(at[1].text, at[0]) if at else self._source.text.span(0, 0)))
         self._machine.grant()
         with suppress(BudgetExceeded, RecursionError, MemoryError):
             self._add_escaped(all_objects=True)
@@ -232,5 +234,7 @@ class _Interpretation:
                 references.note_look_up(package, value, conditions)
         for reason, span in self._walker.unknown_launches:
             references.hide(f"the launched actions are not known: {reason}", span)
+        for what, call, source in self._machine.cut_off:
+            references.hide(f"the file contains {what}", span_of(source.text, call))
         for opaque in self._opaque:
             references.opaque[opaque] = None

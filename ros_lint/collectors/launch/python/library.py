@@ -206,7 +206,7 @@ _ADD_METHODS = frozenset({"add_action", "add_entity", "append"})
 def _method(call: LibraryCall, owner: LaunchObject) -> Value:
     machine, name = call.machine, call.name
     if name in _ADD_METHODS and owner.name == "LaunchDescription":
-        machine.spend(1)
+        machine.budget.step()
         owner.entities.append(machine.guard(call.get(0, "action", "entity")))
         return None
     if name == "extend" and owner.name == "LaunchDescription":

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
 
+from ros_lint.base.budget import Budget
 from ros_lint.collectors.launch.expressions import evaluate
 from ros_lint.collectors.launch.python.library import attribute_of_library, call_library, member_of_library, subscript_library
 from ros_lint.collectors.launch.python.released_helpers import HELPERS, helper
@@ -62,8 +62,8 @@ class LaunchLibraries:
     def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:
         return subscript_library(interpreter, owner, key)
 
-    def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
-        return texts(value, TextEvaluation(spend))
+    def texts(self, value: Value, budget: Budget) -> tuple[str, ...]:
+        return texts(value, TextEvaluation(budget))
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
         defaults = {

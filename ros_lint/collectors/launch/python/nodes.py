@@ -214,14 +214,14 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, launch_object: Laun
     for _ in range(_MAX_PARAMETERS):
         if not pending:
             break
-        walker.machine.spend(_STEPS_PER_PARAMETER)
+        walker.machine.budget.step(_STEPS_PER_PARAMETER)
         name, item, place = pending.pop()
         if isinstance(item, dict):
-            walker.machine.spend(len(item))
+            walker.machine.budget.step(len(item))
             names = [f"{name}.{key}" if name else _key(key) for key in item]
             pending += reversed(list(zip(names, map(plain, item.values()), _elements(place, len(item)), strict=True)))
         elif isinstance(item, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in item):
-            walker.machine.spend(len(item))
+            walker.machine.budget.step(len(item))
             pending += reversed([("", plain(inner), at) for inner, at in zip(item, _elements(place, len(item)), strict=True)])
         elif name:
             result.append((name, walker.text(_list(item), place, launch_object.source)))

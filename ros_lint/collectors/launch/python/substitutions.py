@@ -6,6 +6,7 @@ import posixpath
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ros_lint.base.budget import Budget
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -34,14 +35,14 @@ class TextEvaluation:
     Depth and steps are limited, because objects can contain each other or occur many times.
     """
 
-    __slots__ = ("depth", "remaining", "results", "spend")
+    __slots__ = ("budget", "depth", "of_file", "results")
 
-    def __init__(self, spend: Callable[[int], None] = lambda steps: None) -> None:
-        """Start an evaluation. It calls ``spend`` with the numbers of its steps; ``spend`` may raise an exception to stop it."""
+    def __init__(self, of_file: Budget | None = None) -> None:
+        """Start an evaluation. Its steps are also taken from the budget ``of_file``, which may raise BudgetExceeded."""
         self.depth = 0
-        self.remaining = _MAX_STEPS
+        self.budget = Budget(_MAX_STEPS)
+        self.of_file = of_file
         self.results: dict[int, tuple[Value, tuple[str, ...]]] = {}
-        self.spend = spend
 
 
 def texts(value: Value, evaluation: TextEvaluation | None = None) -> tuple[str, ...]:
@@ -53,10 +54,10 @@ def texts(value: Value, evaluation: TextEvaluation | None = None) -> tuple[str, 
     cached = evaluation.results.get(id(value))
     if cached is not None:
         return cached[1]
-    if evaluation.depth > _MAX_DEPTH or evaluation.remaining <= 0:
+    if evaluation.depth > _MAX_DEPTH or not evaluation.budget.affords():
         return (UNKNOWN,)
-    evaluation.remaining -= 1
-    evaluation.spend(3)
+    if evaluation.of_file is not None:
+        evaluation.of_file.step(3)
     evaluation.depth += 1
     result = _evaluate(value, evaluation)
     evaluation.depth -= 1

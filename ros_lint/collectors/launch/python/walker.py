@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from ros_lint.base.budget import Budget
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, conditions_of, texts
@@ -78,16 +79,18 @@ class Walker:
         """Places where something unknown is launched, with the reasons."""
         self._depth = 0
         self._active: set[int] = set()
-        self._remaining = _MAX_ACTIONS
+        self._budget = Budget(_MAX_ACTIONS)
         self._stopped = False
 
     def actions(self, value: Value, conditions: Conditions = (), at: Span | None = None) -> list[LaunchAction]:
         """Return the actions that launching ``value`` starts, under ``conditions``. ``at`` is the span for an unknown value."""
         actions: list[LaunchAction] = []
-        if self._depth > _MAX_DEPTH or self._remaining <= 0:
-            self._stop("there are too many actions" if self._remaining <= 0 else "the actions are nested too deeply", at)
+        if self._depth > _MAX_DEPTH:
+            self._stop("the actions are nested too deeply", at)
             return actions
-        self._remaining -= 1
+        if not self._budget.affords():
+            self._stop("there are too many actions", at)
+            return actions
         self._depth += 1
         try:
             if not isinstance(value, (Union, Guarded)):
@@ -120,7 +123,7 @@ class Walker:
         conditions = _merged(conditions, launch_object.conditions)
         condition = launch_object.get(-1, "condition")
         if condition is not None:
-            conditions = (*conditions, *conditions_of(condition, TextEvaluation(self.machine.spend)))
+            conditions = (*conditions, *conditions_of(condition, TextEvaluation(self.machine.budget)))
         if isinstance(condition, Function):  # launch rejects a function as condition, but the package look-ups in it count
             self.run(condition, [Context()], {}, launch_object)
         if launch_object.name == "LaunchDescription":
@@ -154,14 +157,14 @@ class Walker:
         return actions
 
     def _alternatives(self, value: Value) -> tuple[str, ...]:
-        return texts(value, TextEvaluation(self.machine.spend)) if value is not None else ()
+        return texts(value, TextEvaluation(self.machine.budget)) if value is not None else ()
 
     def _description(self, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
         actions: list[LaunchAction] = []
         index = 0
         # Functions that are called in the meantime may add entities.
         at = span_of(launch_object.node, launch_object.source)
-        while index < len(launch_object.entities) and self._remaining > 0:
+        while index < len(launch_object.entities) and self._budget.steps > 0:
             actions += self.actions(launch_object.entities[index], conditions, at)
             index += 1
         if index < len(launch_object.entities):
@@ -193,7 +196,7 @@ class Walker:
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return the possible texts of a value, with the span of the literal that the value comes from, else of ``node``."""
-        choices = (str(value),) if isinstance(value, str) else _plain(texts(value, TextEvaluation(self.machine.spend)))
+        choices = (str(value),) if isinstance(value, str) else _plain(texts(value, TextEvaluation(self.machine.budget)))
         origin = plain(value)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))

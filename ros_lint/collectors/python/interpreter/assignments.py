@@ -50,7 +50,7 @@ def _augmented(machine: Interpreter, node: ast.AugAssign, frame: Frame) -> None:
         if elements is None:
             machine.escape(value)
             elements = [more(value)]
-        machine.spend(len(elements))
+        machine.budget.step(len(elements))
         target_value += [machine.guard(element) for element in elements]
         return
     # An augmented text keeps the place of the original text.

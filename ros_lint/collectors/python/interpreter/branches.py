@@ -11,12 +11,12 @@ import ast
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import opposite_of, truth
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
-    BudgetExceeded,
     Conditions,
     Exit,
     Frame,
@@ -34,11 +34,23 @@ from ros_lint.facts.launch import LaunchCondition
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
+_MOST_CONDITIONS = 32
+"""The number of conditions that are distinguished after the statements of a block, for example after early returns.
+
+From the next one on, the rest of the block runs under a single unknown condition in their place."""
+_NAMES_A_STEP = 50
+"""The number of names that are copied and joined for one step of the budget."""
 _MOST_EXITS = 100
 """The number of conditional exits after which an endless loop counts as left."""
 
 NEXT, CONTINUE, BREAK, LEAVE = range(4)
 """The ways in which a statement ends: the next statement follows, or an iteration, loop or function is left."""
+
+
+def forget_conditions(machine: Interpreter, depth: int) -> None:
+    """Replace the conditions beyond the first ``depth`` by an unknown condition if they are too many."""
+    if len(machine.conditions) > depth + _MOST_CONDITIONS:
+        machine.conditions = (*machine.conditions[:depth], machine.fresh(PERHAPS))
 
 
 class _Side(NamedTuple):
@@ -72,6 +84,7 @@ def either(
     """
     condition = machine.fresh(condition, test)
     before, start = machine.conditions, frame.names
+    machine.budget.step(len(start) // _NAMES_A_STEP)
     first = _follow(machine, body, condition, before, start, frame, loop=loop)
     second = _follow(machine, other, opposite_of(condition), before, start, frame)
     # If the sides end differently, the rest runs only after the side that continues, or that leaves fewer blocks.
@@ -170,6 +183,9 @@ def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[Launc
     The first ``depth`` conditions of each exit hold in any case, and are not considered.
     """
     bars: list[LaunchCondition] = []
+    exits = list(exits)
+    if len(exits) > _MOST_CONDITIONS:
+        return [machine.fresh(PERHAPS)]
     for way_out in exits:
         bars.append(_complement(machine, _beyond(way_out, (*way_out.conditions[:depth], *bars))))
     return bars
@@ -252,6 +268,8 @@ class _Loop:
             self.exits.append(way_out)
             self.ended = self.ended or not taken
             self._bars.append(_complement(machine, taken))
+        if len(self._bars) > _MOST_CONDITIONS:
+            self._bars = [machine.fresh(PERHAPS)]
         if guards:
             _join(machine, frame, guards, before, (_complement(machine, guards),))
         machine.conditions = (*self._before, *self._bars)
@@ -293,7 +311,7 @@ def follow_for(machine: Interpreter, node: ast.For | ast.AsyncFor, frame: Frame)
     for turn, value in enumerate(values):
         if turn > machine.most_turns:
             raise BudgetExceeded
-        machine.spend(1)
+        machine.budget.step()
         if not machine.is_here(value):
             continue
         guards = next(alternatives(value)).conditions if isinstance(value, Guarded) else ()
@@ -308,7 +326,7 @@ def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
     """Interpret a while loop, and return how it ends: NEXT, CONTINUE, BREAK or LEAVE. Raises ProgramRaised and BudgetExceeded."""
     loop = _Loop(machine, frame)
     for _ in range(machine.most_turns):
-        machine.spend(1)
+        machine.budget.step()
         answer, _condition = truth(machine, machine.evaluate(node.test, frame))
         if answer is None:
             signal = _perhaps(machine, node.body, frame, node.test)

@@ -210,7 +210,7 @@ def _content(machine: Interpreter, text: Value) -> Value:
     if not isinstance(text, str) or not launch_text.is_plain(text):
         machine.escape(text)
         return text if isinstance(text, Unknown) else Unknown("the content of a file")
-    machine.spend(len(text) // 50)
+    machine.budget.step(len(text) // 50)
     from ros_lint.base.safe_yaml import YamlBoundError, YamlError, load  # noqa: PLC0415  (few launch files read YAML)
 
     try:
@@ -246,7 +246,7 @@ def _deep(machine: Interpreter, value: Value, done: dict[int, Value]) -> Value:
         return tuple([_deep(machine, element, done) for element in value])
     if not isinstance(value, (list, dict)) or id(value) in done:
         return done.get(id(value), value)
-    machine.spend(1 + len(value) // 8)
+    machine.budget.step(1 + len(value) // 8)
     if isinstance(value, list):
         items: list[Value] = SetOf() if isinstance(value, SetOf) else []
         done[id(value)] = items

@@ -137,7 +137,7 @@ def _sum(call: LibraryCall) -> Value:
         inner = items(call.machine, part)
         if inner is None:
             return unknown(call)
-        call.machine.spend(len(inner))
+        call.machine.budget.step(len(inner))
         elements += [_under(around(part), element) for element in inner]
     return elements if isinstance(start, list) else tuple(elements)
 
@@ -167,7 +167,7 @@ def _product(call: LibraryCall) -> Value:
     size = prod(map(len, columns))
     if len(columns) < len(call.arguments) or call.keywords or size * len(columns) > call.machine.most_items:
         return unknown(call)
-    call.machine.spend(size)
+    call.machine.budget.step(size)
     return [
         _under(tuple([condition for part in row for condition in around(part)]), tuple([plain(part) for part in row]))
         for row in product(*columns)

@@ -204,7 +204,7 @@ def _compare(machine: Interpreter, node: ast.Compare, frame: Frame) -> Value:
     for op, right_node in zip(node.ops, node.comparators, strict=True):
         right = machine.evaluate(right_node, frame)
         if isinstance(op, (ast.In, ast.NotIn)) and isinstance(right, (list, tuple, dict, str)):
-            machine.spend(len(right) // 8)
+            machine.budget.step(len(right) // 8)
         elif isinstance(op, (ast.Eq, ast.NotEq)):
             for side, opposite_side in ((left, right), (right, left)):
                 if isinstance(opposite_side, str):
@@ -273,7 +273,7 @@ def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
             continue
         inner_value = plain(value)
         if isinstance(inner_value, dict):
-            machine.spend(len(inner_value) // 8)
+            machine.budget.step(len(inner_value) // 8)
             keywords.update({str(name): alternative for name, alternative in inner_value.items()})
         else:
             machine.escape(value)

@@ -14,6 +14,7 @@ import posixpath
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
+from ros_lint.base.budget import Budget, BudgetExceeded
 from ros_lint.collectors.python.interpreter.branches import LEAVE
 from ros_lint.collectors.python.interpreter.builtins import BUILTINS
 from ros_lint.collectors.python.interpreter.expressions import EVALUATE
@@ -27,7 +28,6 @@ from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     PLAIN_BASES,
     Bound,
-    BudgetExceeded,
     Class,
     FilePath,
     Frame,
@@ -68,25 +68,18 @@ class Machine(Interpreter):
         ``modules`` returns the source and the syntax tree of a module of the workspace, ``files`` the content of a file of the
         workspace. ``library`` has the models of all other modules.
         """
-        super().__init__(library)
+        super().__init__(library, Budget(STEPS))
         self._modules = modules
         self._files = files
         self._sources: dict[str, Source | None] = {}
         self._placed: dict[tuple[int, int], tuple[_Definition, ast.AST, ast.AST]] = {}
-        self._left = STEPS
         self._under_way: list[UnderWay] = []
 
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
-    def spend(self, steps: int) -> None:
-        """Take steps from the budget of the program. Raises BudgetExceeded if fewer are left."""
-        self._left -= steps
-        if self._left < 0:
-            raise BudgetExceeded
-
     def grant(self) -> None:
         """Replace the budget by a smaller one, for the evaluation of results after the program exceeded its budget."""
-        self._left = STEPS // 4
+        self.budget = Budget(STEPS // 4)
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
@@ -141,7 +134,7 @@ class Machine(Interpreter):
         """
         key = id(function.node), id(call)
         if key not in self._placed:
-            self.spend(100)
+            self.budget.step(100)
             self._placed[key] = (
                 placed(function.node, call),
                 function.node,
@@ -154,9 +147,7 @@ class Machine(Interpreter):
 
     def evaluate(self, node: ast.expr, frame: Frame) -> Value:
         """Return the value of an expression. Raises ProgramRaised and BudgetExceeded."""
-        self._left -= 1
-        if self._left < 0:
-            raise BudgetExceeded
+        self.budget.step()
         return EVALUATE[type(node)](self, node, frame)
 
     def execute(self, body: Sequence[ast.stmt], frame: Frame) -> int:
@@ -189,7 +180,7 @@ class Machine(Interpreter):
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
         """Return the result of calling ``function``, which may be a function, class or method of the program or of a library."""
-        self.spend(1)
+        self.budget.step()
         if isinstance(function, LibraryName):
             return self._call_library(function, arguments, keywords, node, frame)
         if isinstance(function, Method):
@@ -255,8 +246,7 @@ class Machine(Interpreter):
         if source.lent:
             node, source = self._lent(function, call, caller.source)
         if len(self._under_way) >= _DEEPEST_CALL:
-            self.escape([arguments, keywords])
-            return Unknown("calls that are nested too deeply")
+            return self._cut_off("calls that are nested too deeply", arguments, keywords, call, caller)
         frame = Frame(source, function.frame, function.taking(arguments, keywords))
         if not begin(self._under_way, function, frame.names, self):
             self.escape([arguments, keywords])
@@ -266,24 +256,27 @@ class Machine(Interpreter):
                 return self.evaluate(node.body, frame)
             finally:
                 self._under_way.pop()
-        before, steps_left = self.conditions, self._left
-        self._left = min(steps_left, _STEPS_A_CALL)
-        allowed = self._left
+        before, budget = self.conditions, self.budget
+        allowed = min(budget.steps, _STEPS_A_CALL)
+        self.budget = Budget(allowed)
+        signal: int | None
         try:
             signal = execute(self, node.body, frame)
         except BudgetExceeded:
-            if steps_left <= allowed:
+            if budget.steps <= allowed:
                 raise
-            self.escape([arguments, keywords])
-            return Unknown("a call that takes too long")
+            signal = None
         except ProgramRaised:
             if not frame.returned:
                 raise
             signal = LEAVE  # this branch raises, but another one returned
         finally:
             self._under_way.pop()
-            self._left = steps_left - (allowed - self._left)
+            budget.steps -= allowed - self.budget.steps
+            self.budget = budget
             self.conditions = before
+        if signal is None:
+            return self._cut_off("a call that takes too many steps", arguments, keywords, call, caller)
         if frame.source.yields and function.yields():
             return frame.yielded
         if signal != LEAVE and frame.returned:
@@ -294,6 +287,13 @@ class Machine(Interpreter):
             return frame.returned[0].value
         count = len(before)
         return self.joined([Guarded(returned.value, returned.conditions[count:]) for returned in frame.returned])
+
+    def _cut_off(self, what: str, arguments: list[Value], keywords: dict[str, Value], call: ast.Call, caller: Frame) -> Unknown:
+        """Record that a call is not interpreted to its end, and return its result, which is unknown."""
+        self.cut_off.append((what, call, caller.source))
+        self.stopped_at = None
+        self.escape([arguments, keywords])
+        return Unknown(what)
 
     # --- what the library needs -----------------------------------------------------------------------------------
 
@@ -329,7 +329,7 @@ class Machine(Interpreter):
         return value
 
     def texts(self, value: Value) -> tuple[str, ...]:
-        return self.library.texts(value, self.spend)
+        return self.library.texts(value, self.budget)
 
     def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
         if isinstance(value, LaunchObject) and (misuse := self.library.misuse(value, how)) and not are_unknown(self.conditions):

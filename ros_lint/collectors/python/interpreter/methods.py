@@ -83,7 +83,7 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
     if isinstance(value, Iterator):
         return list(islice(value, machine.most_items))
     if isinstance(value, (list, tuple, dict)):
-        machine.spend(len(value) // 8)
+        machine.budget.step(len(value) // 8)
     elif not isinstance(value, range) and not (isinstance(value, str) and is_plain(value)):
         return list(value.entities) if isinstance(value, LaunchObject) and value.name == "LaunchDescription" else None
     if len(value) > machine.most_items:
@@ -154,7 +154,7 @@ def call_method(
     """Return the result of calling a method of a text, a collection or a path. Methods of collections change their owner."""
     owner, name = method.owner, method.name
     if isinstance(owner, (list, dict)):
-        machine.spend(1 + len(owner) // 8)
+        machine.budget.step(1 + len(owner) // 8)
     if isinstance(owner, str):
         return _of_text(machine, owner, name, arguments, keywords, node, frame)
     if isinstance(owner, list) and name == "sort":
@@ -200,7 +200,7 @@ def _of_text(
             result = getattr(str(owner), name)(*values, **named)
         except (OverflowError, TypeError, ValueError) as error:
             raise ProgramRaised(type(error).__name__) from None
-        machine.spend(len(result) if isinstance(result, list) else 0)
+        machine.budget.step(len(result) if isinstance(result, list) else 0)
         return result if not isinstance(result, str) or len(result) <= LONGEST else UNKNOWN
     if (
         known
@@ -261,7 +261,7 @@ def _of_set(machine: Interpreter, owner: SetOf, name: str, arguments: list[Value
         elements = items(machine, argument)
         if elements is None or isinstance(result, Unknown):
             return cause(argument, f"{name}() of a set")
-        machine.spend(len(elements))
+        machine.budget.step(len(elements))
         result = of_sets(_OPERATOR_OF[name], result, elements)
     return result
 
@@ -281,7 +281,7 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
     first = arguments[0] if arguments else None
     match name:
         case "append":
-            machine.spend(1)
+            machine.budget.step()
             owner.append(machine.guard(first))
             return None
         case "add" if any(same(element, first) for element in owner):
@@ -295,7 +295,7 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
                 machine.escape(first)
                 owner.append(machine.guard(more(first)))
             else:
-                machine.spend(len(elements))
+                machine.budget.step(len(elements))
                 owner += [machine.guard(element) for element in elements]
             if name == "update":
                 owner[:] = unique(owner)

@@ -221,7 +221,7 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
         if isinstance(left, Unknown) and isinstance(right, str):
             return written(UNKNOWN + right, node, frame.source)
         if isinstance(left, (list, tuple)) and isinstance(right, (list, tuple)):
-            machine.spend(len(left) + len(right))
+            machine.budget.step(len(left) + len(right))
             if machine.caught and isinstance(left, tuple) is not isinstance(right, tuple):
                 raise ProgramRaised("TypeError")
             return [*left, *right] if isinstance(left, list) else (*left, *right)
@@ -241,7 +241,7 @@ def _single(machine: Interpreter, op: ast.operator, left: Value, right: Value, n
     if isinstance(op, ast.BitOr) and isinstance(left, dict) and isinstance(right, dict):
         return {**left, **right}
     if isinstance(left, SetOf) and isinstance(right, SetOf) and type(op) in _SETS:
-        machine.spend(len(left) + len(right))
+        machine.budget.step(len(left) + len(right))
         return of_sets(op, left, right)
     if isinstance(left, _NUMBERS) and isinstance(right, _NUMBERS) and type(op) in _OPERATORS:
         try:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import ast
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import Protocol
 
+from ros_lint.base.budget import Budget
 from ros_lint.collectors.python.interpreter.recorder import How, Recorder
 from ros_lint.collectors.python.interpreter.values import Frame, Function, LaunchObject, Method, Source, Value
 from ros_lint.facts.launch import LaunchCondition
@@ -58,11 +59,8 @@ class Library(Protocol):
         """Return the value of ``owner[key]``, where ``owner`` is neither a known collection nor a known text."""
         ...
 
-    def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:
-        """Return every symbolic text that a value can become at launch.
-
-        The function calls ``spend`` with the number of its steps; ``spend`` may raise BudgetExceeded.
-        """
+    def texts(self, value: Value, budget: Budget) -> tuple[str, ...]:
+        """Return every symbolic text that a value can become at launch. The steps are taken from ``budget``."""
         ...
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
@@ -82,13 +80,9 @@ class Interpreter(Recorder, ABC):
     most_turns = 2_000
     """The maximum number of turns of a loop."""
 
-    def __init__(self, library: Library) -> None:
-        super().__init__()
+    def __init__(self, library: Library, budget: Budget) -> None:
+        super().__init__(budget)
         self.library = library
-
-    @abstractmethod
-    def spend(self, steps: int) -> None:
-        """Take steps from the budget of the program. Raises BudgetExceeded if fewer are left."""
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:

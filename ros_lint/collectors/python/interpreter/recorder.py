@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
+from ros_lint.base.budget import Budget
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -27,6 +28,12 @@ How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
 """The operation that uses a substitution or condition as a text or truth value."""
 
 
+_MOST_ESCAPING = 1_000
+"""The maximum number of values that are marked as escaped at a time."""
+_VALUES_A_STEP = 10
+"""The number of values that are marked for one step of the budget."""
+
+
 class Misused(NamedTuple):
     """An operation that uses a substitution or condition of launch as a text or truth value."""
 
@@ -44,12 +51,17 @@ def are_unknown(conditions: Conditions) -> bool:
 class Recorder:
     """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present."""
 
-    def __init__(self) -> None:
+    def __init__(self, budget: Budget) -> None:
+        self.budget = budget
         self._branches = 0
         self._variables: dict[str, Value] = {}
         self._removed: dict[tuple[str, ...], frozenset[LaunchCondition]] = {}
         """The conditions under which elements were removed, by the texts of the conditions under which they remain."""
         self.conditions: Conditions = ()
+        self.cut_off: list[tuple[str, ast.expr, Source]] = []
+        """Calls that are not interpreted to their end: what they are, and their places."""
+        self.stopped_at: tuple[ast.stmt, Source] | None = None
+        """The innermost statement of the outermost module at which the budget was exceeded."""
         self.tests: dict[tuple[str, ...], ast.expr] = {}
         """The expressions that are tested, by the texts of their conditions."""
         self.made: list[LaunchObject] = []
@@ -151,6 +163,11 @@ class Recorder:
             self._removed[remains.texts] = frozenset(self.conditions)
         return Guarded(value, (remains,))
 
+    def stop_at(self, statement: ast.stmt, source: Source) -> None:
+        """Record a statement at which the budget was exceeded. The outer statements are recorded after the inner ones."""
+        if self.stopped_at is None or self.stopped_at[1] is not source:
+            self.stopped_at = statement, source
+
     def joined(self, values: Sequence[Guarded]) -> Value:
         """Return the union of values. If there are too many, the result is Unknown and the values escape."""
         joined_value = union(values)
@@ -161,9 +178,11 @@ class Recorder:
     def escape(self, value: Value) -> None:
         """Mark the launch objects in a value as escaped: code that is not interpreted gets the value, and may launch them."""
         waiting, count = [value], 0
-        while waiting and count < 1_000:
+        while waiting and count < _MOST_ESCAPING:
             item = waiting.pop()
             count += 1
+            if count % _VALUES_A_STEP == 0:
+                self.budget.step()
             if isinstance(item, LaunchObject):
                 if not item.escaped:
                     item.escaped = True

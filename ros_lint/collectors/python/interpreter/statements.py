@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.collectors.python.exceptions import catching, kind_raised
 from ros_lint.collectors.python.interpreter import assignments
 from ros_lint.collectors.python.interpreter.assignments import bind
@@ -17,6 +18,7 @@ from ros_lint.collectors.python.interpreter.branches import (
     either,
     follow_for,
     follow_while,
+    forget_conditions,
     gives_up,
 )
 from ros_lint.collectors.python.interpreter.operations import truth
@@ -49,12 +51,18 @@ def execute(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame) -> int
 
     Raises ProgramRaised and BudgetExceeded.
     """
+    depth = len(machine.conditions)
     for statement in body:
         handler = _STATEMENTS.get(type(statement))
         if handler is not None:
-            signal = handler(machine, statement, frame)
+            try:
+                signal = handler(machine, statement, frame)
+            except BudgetExceeded:
+                machine.stop_at(statement, frame.source)
+                raise
             if signal:
                 return signal
+            forget_conditions(machine, depth)
     return NEXT
 
 

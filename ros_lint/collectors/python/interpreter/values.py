@@ -390,10 +390,6 @@ class ProgramRaised(Exception):  # noqa: N818  (it represents any exception of t
         self.deliberate = deliberate
 
 
-class BudgetExceeded(Exception):  # noqa: N818
-    """The program needs too many steps or too much memory."""
-
-
 def union(values: Iterable[Value]) -> Value:
     """Return a Union of all alternatives of values. If all alternatives are the same, the result is the value itself.
 

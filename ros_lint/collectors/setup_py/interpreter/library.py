@@ -9,6 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from ros_lint.base.budget import Budget
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS as PYTHON
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing
 from ros_lint.collectors.python.interpreter.operations import each
@@ -131,7 +132,7 @@ class SetupLibrary:
     def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:  # noqa: ARG002
         return Unknown("element of an unknown value")
 
-    def texts(self, value: Value, spend: Callable[[int], None]) -> tuple[str, ...]:  # noqa: ARG002
+    def texts(self, value: Value, budget: Budget) -> tuple[str, ...]:  # noqa: ARG002
         return (UNKNOWN,)
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:  # noqa: ARG002

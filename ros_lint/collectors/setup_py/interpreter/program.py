@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable
 
+from ros_lint.base.budget import BudgetExceeded
 from ros_lint.base.text import Text
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.operations import TOO_LARGE
 from ros_lint.collectors.python.interpreter.statements import execute
 from ros_lint.collectors.python.interpreter.values import (
     Bound,
-    BudgetExceeded,
     Class,
     Frame,
     Function,
@@ -57,6 +57,8 @@ class Program(Machine):
         try:
             if execute(self, tree.body, frame):
                 self.end = "it ends before its last line"
+            elif self.cut_off:
+                self.end = f"it contains {self.cut_off[0][0]}"
         except BudgetExceeded:
             self.end = "it takes more steps than the limit"
         except ProgramRaised:
