@@ -54,6 +54,8 @@ from ros_lint.facts.launch import LaunchCondition
 
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
+_STEPS_AFTER_A_CALL = 1_000
+"""The number of steps that are left to the caller if the steps of a call do not suffice."""
 _DEEPEST_CALL = 40
 
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
@@ -256,8 +258,10 @@ class Machine(Interpreter):
                 return self.evaluate(node.body, frame)
             finally:
                 self._under_way.pop()
-        before, budget = self.conditions, self.budget
+        before, budget, made = self.conditions, self.budget, len(self.made)
         allowed = min(budget.steps, _STEPS_A_CALL)
+        if budget.steps >= 2 * _STEPS_AFTER_A_CALL:
+            allowed = min(allowed, budget.steps - _STEPS_AFTER_A_CALL)
         self.budget = Budget(allowed)
         signal: int | None
         try:
@@ -276,6 +280,8 @@ class Machine(Interpreter):
             self.budget = budget
             self.conditions = before
         if signal is None:
+            for launch_object in self.made[made:]:
+                launch_object.escaped = True
             return self._cut_off("a call that takes too many steps", arguments, keywords, call, caller)
         if frame.source.yields and function.yields():
             return frame.yielded
@@ -289,11 +295,12 @@ class Machine(Interpreter):
         return self.joined([Guarded(returned.value, returned.conditions[count:]) for returned in frame.returned])
 
     def _cut_off(self, what: str, arguments: list[Value], keywords: dict[str, Value], call: ast.Call, caller: Frame) -> Unknown:
-        """Record that a call is not interpreted to its end, and return its result, which is unknown."""
-        self.cut_off.append((what, call, caller.source))
+        """Record that a call is not interpreted to its end, and where. Return its result, which is unknown."""
+        node, source = self.stopped_at or (call, caller.source)
+        self.cut_off.append((what, node, source))
         self.stopped_at = None
         self.escape([arguments, keywords])
-        return Unknown(what)
+        return Unknown("")  # the call is recorded already
 
     # --- what the library needs -----------------------------------------------------------------------------------
 

@@ -58,8 +58,8 @@ class Recorder:
         self._removed: dict[tuple[str, ...], frozenset[LaunchCondition]] = {}
         """The conditions under which elements were removed, by the texts of the conditions under which they remain."""
         self.conditions: Conditions = ()
-        self.cut_off: list[tuple[str, ast.expr, Source]] = []
-        """Calls that are not interpreted to their end: what they are, and their places."""
+        self.cut_off: list[tuple[str, ast.expr | ast.stmt, Source]] = []
+        """Calls that are not interpreted to their end: what they are, and where their interpretation ends."""
         self.stopped_at: tuple[ast.stmt, Source] | None = None
         """The innermost statement of the outermost module at which the budget was exceeded."""
         self.tests: dict[tuple[str, ...], ast.expr] = {}

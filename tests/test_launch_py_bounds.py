@@ -1,0 +1,76 @@
+"""What Python launch files with too many steps, branches and nested calls hide, and where. Their other actions are known."""
+
+import pytest
+
+from ros_lint.base.text import Text
+from ros_lint.collectors.launch.python.collect import collect
+from ros_lint.facts.launch import LaunchFile, walk_actions
+
+HEAD = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+"""
+"""Three lines."""
+GENERATE = "def generate_launch_description():\n"
+MANY = 100
+
+
+def read(program: str) -> LaunchFile:
+    return collect(Text("a.launch.py", HEAD + program))
+
+
+def nodes(file: LaunchFile) -> list[str]:
+    return [
+        text for action in walk_actions(file.actions) if action.kind == "node" and action.target for text in action.target.texts
+    ]
+
+
+def test_the_statement_at_which_the_steps_end_is_named() -> None:
+    loops = "    y = [a for a in range(1000) for b in range(1000)]\n"
+    file = read(f"{GENERATE}    x = [Node(package='a', executable='b')]\n{loops * 3}    return LaunchDescription(x)\n")
+    assert {(opaque.reason, opaque.span.line) for opaque in file.opaque} == {
+        ("the file contains a call that takes too many steps", 6)
+    }
+    assert nodes(file) == ["b"]
+
+
+def test_a_call_that_takes_too_many_steps_hides_what_it_adds() -> None:
+    helper = (
+        "def more(x):\n    y = [a for a in range(1000) for b in range(1000)]\n    x.append(Node(package='a', executable='c'))\n\n"
+    )
+    body = "    x = [Node(package='a', executable='b')]\n    more(x)\n    return LaunchDescription(x)\n"
+    file = read(f"{helper}{GENERATE}{body}")
+    assert [(opaque.reason, opaque.span.line) for opaque in file.opaque] == [
+        ("the file contains a call that takes too many steps", 5)
+    ]
+    assert nodes(file) == ["b"]
+
+
+def test_calls_that_are_nested_too_deeply_hide_what_they_add() -> None:
+    helper = "def more(x, n):\n    if n:\n        x.append(Node(package='a', executable=f'c{n}'))\n        more(x, n - 1)\n\n"
+    file = read(f"{helper}{GENERATE}    x = []\n    more(x, {MANY})\n    return LaunchDescription(x)\n")
+    assert [(opaque.reason, opaque.span.line) for opaque in file.opaque] == [
+        ("the file contains calls that are nested too deeply", 7)
+    ]
+    assert 0 < len(nodes(file)) < MANY
+
+
+RETURN = "    if unknown({0}):\n        return LaunchDescription([Node(package='a', executable='b{0}')])\n"
+RETURNS = "".join(map(RETURN.format, range(MANY)))
+TURNS = """\
+    for y in range(100):
+        if unknown(y):
+            break
+        x.append(Node(package='a', executable=f'b{y}'))
+"""
+
+
+@pytest.mark.parametrize("branches", [RETURNS, TURNS])
+def test_nodes_after_many_ways_out_are_under_few_conditions(branches: str) -> None:
+    file = read(f"{GENERATE}    x = []\n{branches}    return LaunchDescription(x)\n")
+    assert nodes(file) == [f"b{n}" for n in range(MANY)]
+    counts = [len(action.conditions) for action in file.actions]
+    assert min(counts) > 0
+    assert max(counts) < 40
+    assert sum(counts) > 2 * MANY
