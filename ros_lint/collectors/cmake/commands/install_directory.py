@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import posixpath
 import re
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
+from ros_lint.base.budget import Budget
 from ros_lint.base.paths import is_outside
 from ros_lint.base.paths import join as join_path
 from ros_lint.base.text import Span, octets
@@ -17,6 +18,9 @@ from ros_lint.collectors.cmake.evaluator.values import ATOM, FILE, HOLE, is_know
 from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet
 
+if TYPE_CHECKING:
+    from ros_lint.collectors.cmake.evaluator.regex import Searcher
+
 _WORDS: Final = {
     "TYPE": 1, "DESTINATION": 1, "FILE_PERMISSIONS": -1, "DIRECTORY_PERMISSIONS": -1, "USE_SOURCE_PERMISSIONS": 0,
     "OPTIONAL": 0, "MESSAGE_NEVER": 0, "CONFIGURATIONS": -1, "COMPONENT": 1, "EXCLUDE_FROM_ALL": 0, "FILES_MATCHING": 0,
@@ -24,7 +28,7 @@ _WORDS: Final = {
 
 
 class _Pattern(NamedTuple):
-    matches: re.Pattern[str]
+    matches: re.Pattern[str] | Searcher
     excluded: bool
     executable: bool | None
     """True if its PERMISSIONS include an execute permission, None if it has no PERMISSIONS."""
@@ -46,7 +50,7 @@ def install_directories(run: Run, args: list[str]) -> None:
     at = min([args.index(word) for word in ("PATTERN", "REGEX") if word in args], default=len(args))
     parts = sections(args[:at], _WORDS)
     destination = destination_of(run, parts)
-    patterns = _patterns(args[at:]) if at < len(args) else []
+    patterns = _patterns(args[at:], run.budget) if at < len(args) else []
     if patterns is None:
         hide(run, destination, "a pattern of install(DIRECTORY) is unknown")
         return
@@ -170,7 +174,7 @@ def _selection(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
     return True, any(permissions) if permissions else None
 
 
-def _patterns(args: list[str]) -> list[_Pattern] | None:
+def _patterns(args: list[str], budget: Budget) -> list[_Pattern] | None:
     patterns: list[_Pattern] = []
     index = 0
     while index < len(args):
@@ -182,7 +186,7 @@ def _patterns(args: list[str]) -> list[_Pattern] | None:
         if not is_known(text):
             return None
         index += 1
-        regex = _regex(text) if word == "REGEX" else end_pattern(text)
+        regex = _regex(text, budget) if word == "REGEX" else end_pattern(text)
         if regex is None:
             return None
         excluded, executable = False, None
@@ -196,7 +200,7 @@ def _patterns(args: list[str]) -> list[_Pattern] | None:
     return patterns
 
 
-def _regex(text: str) -> re.Pattern[str] | None:
+def _regex(text: str, budget: Budget) -> Searcher | None:
     from ros_lint.collectors.cmake.evaluator.regex import translated  # noqa: PLC0415  (few packages use REGEX)
 
-    return translated(text)
+    return translated(text, budget)

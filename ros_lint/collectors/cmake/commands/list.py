@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Final
 
+from ros_lint.base.budget import Budget
 from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.commands.string import ascii_lower, ascii_upper, genex_strip, replace_all, strip
 from ros_lint.collectors.cmake.evaluator.regex import RegexError, forget, independent_of_folder, is_in, translated
@@ -123,7 +124,7 @@ def _filter(run: Run, name: str, args: list[str]) -> None:
     value = run.get(name)
     if not value or len(args) < 3 or args[1] != "REGEX":
         return
-    pattern = translated(args[2]) if is_known(args[2]) else None
+    pattern = translated(args[2], run.budget) if is_known(args[2]) else None
     if pattern is None:
         run.set(name, HOLE)
         return
@@ -211,13 +212,13 @@ def _transform(run: Run, name: str, args: list[str]) -> None:
     if not args:
         return
     count = {"APPEND": 1, "PREPEND": 1, "REPLACE": 2}.get(args[0], 0)
-    action = _action(args[0], args[1 : 1 + count])
+    action = _action(args[0], args[1 : 1 + count], run.budget)
     items = elements(value or "")
     if args[0] == "REPLACE" or "REGEX" in args[1 + count :]:
         forget(run)
     try:
         size = len(value or "")
-        for index in _selected(items, args[1 + count :]):
+        for index in _selected(items, args[1 + count :], run.budget):
             size -= len(items[index])
             items[index] = _transformed(items[index], action)
             size += len(items[index])
@@ -228,13 +229,13 @@ def _transform(run: Run, name: str, args: list[str]) -> None:
         run.set(output, HOLE)
 
 
-def _action(mode: str, args: list[str]) -> Callable[[str], str]:
+def _action(mode: str, args: list[str], budget: Budget) -> Callable[[str], str]:
     if mode == "APPEND":
         return lambda text: text + embeddable(args[0])
     if mode == "PREPEND":
         return lambda text: embeddable(args[0]) + text
     if mode == "REPLACE":
-        return lambda text: independent_of_folder(lambda piece: replace_all(args[0], args[1], piece), text)
+        return lambda text: independent_of_folder(lambda piece: replace_all(args[0], args[1], piece, budget), text)
     functions = {"TOUPPER": ascii_upper, "TOLOWER": ascii_lower, "STRIP": strip, "GENEX_STRIP": genex_strip}
     return functions.get(mode, lambda _: HOLE)
 
@@ -247,7 +248,7 @@ def _transformed(item: str, action: Callable[[str], str]) -> str:
     return MAYBE + value if ";" not in value else HOLE
 
 
-def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
+def _selected(items: list[str], selector: list[str], budget: Budget) -> Sequence[int]:
     """Return the indices that a selector of list(TRANSFORM) selects: ``["AT", "-1", "0"]`` -> the last and the first.
 
     An index may occur repeatedly. Raises ValueError if CMake stops with an error or the elements are unknown.
@@ -258,7 +259,7 @@ def _selected(items: list[str], selector: list[str]) -> Sequence[int]:
         raise ValueError(selector)
     mode, args = selector[0], selector[1:]
     if mode == "REGEX":
-        pattern = translated(args[0])
+        pattern = translated(args[0], budget)
         if pattern is None or not is_known(join(items)):
             raise ValueError(selector)
         return [index for index, item in enumerate(items) if is_in(pattern, item)]

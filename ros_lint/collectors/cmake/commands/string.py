@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from typing import Final
 
+from ros_lint.base.budget import Budget
 from ros_lint.base.text import to_bytes
 from ros_lint.collectors.cmake.evaluator.regex import RegexError, all_matches, clear, find, forget, independent_of_folder, store
 from ros_lint.collectors.cmake.evaluator.run import Handler, Run
@@ -278,7 +279,7 @@ def _regex_all(run: Run, regex: str, text: str) -> str:
         forget(run)
         return HOLE
     try:
-        matches = all_matches(regex, text)[:-1]
+        matches = all_matches(regex, text, run.budget)[:-1]
     except RegexError:
         forget(run)
         return HOLE
@@ -294,10 +295,10 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
         forget(run)
         return HOLE
     try:
-        value = independent_of_folder(lambda piece, template: replace_all(regex, template, piece), text, new)
+        value = independent_of_folder(lambda piece, template: replace_all(regex, template, piece, run.budget), text, new)
         if is_known(text):
             clear(run)
-            for _, _, groups in all_matches(regex, text)[:-1]:
+            for _, _, groups in all_matches(regex, text, run.budget)[:-1]:
                 clear(run)
                 store(run, groups)
     except RegexError:
@@ -308,7 +309,7 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
     return value
 
 
-def replace_all(regex: str, template: str, text: str) -> str:
+def replace_all(regex: str, template: str, text: str, budget: Budget) -> str:
     """Return ``text`` with every match of ``regex`` replaced by ``template``, as string(REGEX REPLACE) does.
 
     HOLE if the result is too long. Raises RegexError if the expression or the template cannot be evaluated.
@@ -316,7 +317,7 @@ def replace_all(regex: str, template: str, text: str) -> str:
     parts = _replacement(template)
     pieces: list[str] = []
     size = 0
-    for unmatched, _, groups in all_matches(regex, text):
+    for unmatched, _, groups in all_matches(regex, text, budget):
         pieces.append(unmatched)
         if groups:
             size += len(template) + sum(map(len, groups))

@@ -6,11 +6,13 @@ CMake's expressions have fewer constructs than Python's, and match bytes.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
+from ros_lint.base.budget import Budget
 from ros_lint.base.text import from_bytes, octets
+from ros_lint.collectors.cmake.evaluator.regex_matching import Anchor, Expression, Instruction, Jump, Letter, Match, Save, Split
 from ros_lint.collectors.cmake.evaluator.values import BINARY, HOLE, PREFIX, TREE, is_fixed, is_known, natural
 
 if TYPE_CHECKING:
@@ -25,28 +27,47 @@ class RegexError(Exception):
 
 
 @lru_cache(maxsize=512)
-def _compiled(text: str) -> re.Pattern[str]:
-    return re.compile(_Translator(octets(text)).whole(), re.DOTALL)
+def _compiled(text: str) -> Expression:
+    translator = _Translator(octets(text))
+    pattern, program = translator.whole()
+    ambiguous = translator.ambiguous or translator.choices > _MOST_CHOICES
+    return Expression(re.compile(pattern, re.DOTALL), tuple(program), translator.repeats, ambiguous)
 
 
-def translated(text: str) -> re.Pattern[str] | None:
-    """Return the expression for Python's re, which matches the octets of a text (see :func:`is_in`).
+class Searcher(NamedTuple):
+    """An expression, and the budget from which its searches take their steps."""
+
+    expression: Expression
+    budget: Budget
+
+    def search(self, text: str, at: int = 0) -> Match | None:
+        """Return the first match in the octets of a text (see :func:`is_in`) from ``at`` on, None if there is none.
+
+        Raises BudgetExceeded.
+        """
+        return self.expression.search(text, self.budget, at)
+
+
+def translated(text: str, budget: Budget) -> Searcher | None:
+    """Return the expression that CMake writes as ``text``.
 
     None if the expression cannot be evaluated (see :class:`RegexError`) or is too long.
     """
     try:
-        return _compiled(text) if len(text) <= _LONGEST else None
+        return Searcher(_compiled(text), budget) if len(text) <= _LONGEST else None
     except RegexError:
         return None
 
 
+_MOST_CHOICES: Final = 12
+"""Alternatives and optional pieces of an expression that Python's re matches, because each may double its time."""
 _LONGEST: Final = 4096
 """Characters of the longest expression that is evaluated, because a longer one takes long to compile."""
 
 
-def is_in(pattern: re.Pattern[str], text: str) -> bool:
-    """Return whether a translated expression matches anywhere in a text."""
-    return pattern.search(octets(text)) is not None
+def is_in(searcher: Searcher, text: str) -> bool:
+    """Return whether an expression matches anywhere in a text."""
+    return searcher.search(octets(text)) is not None
 
 
 def _text(text: str) -> str:
@@ -57,80 +78,112 @@ _MOST_MATCHES: Final = 10_000
 """Matches of one expression in a text. If there are more, the result is unknown."""
 
 
+class _Piece(NamedTuple):
+    """A part of an expression, translated."""
+
+    pattern: str
+    """The part as an expression of Python."""
+    program: list[Instruction]
+    """The part as instructions. Their targets are relative to the first of them."""
+    empty: bool
+    """True if it can match the empty text."""
+
+
 class _Translator:
     def __init__(self, text: str) -> None:
         self.text = text
         self.at = 0
+        self.groups = 0
         self.repeats = 0
         """Number of pieces so far with an unlimited repetition (``*`` or ``+``)."""
+        self.choices = 0
+        """Number of alternatives and optional pieces so far."""
+        self.ambiguous = False
+        """True if a repeated piece has alternatives or optional pieces."""
 
-    def whole(self) -> str:
-        pattern = self.branches()
+    def whole(self) -> tuple[str, list[Instruction]]:
+        piece = self.branches()
         if self.at != len(self.text):
             raise RegexError(self.text)
-        return pattern[0]
+        return piece.pattern, piece.program
 
-    def branches(self) -> tuple[str, bool]:
-        """Return the translated alternatives ``a|b`` up to a closing parenthesis or the end of the expression.
-
-        The second value is True if an alternative can match the empty text.
-        """
-        pieces, empty = self.branch()
+    def branches(self) -> _Piece:
+        """Return the translated alternatives ``a|b`` up to a closing parenthesis or the end of the expression."""
+        branch = self.branch()
+        alternatives = [branch]
         while self.text[self.at : self.at + 1] == "|":
             self.at += 1
-            branch, may_be_empty = self.branch()
-            pieces, empty = f"{pieces}|{branch}", empty or may_be_empty
-        return pieces, empty
+            self.choices += 1
+            alternatives.append(self.branch())
+        program = alternatives[-1].program
+        for alternative in reversed(alternatives[:-1]):
+            first = alternative.program
+            jump = Jump(len(first) + 2 + len(program))
+            program = [Split(1, len(first) + 2), *_moved(first, 1), jump, *_moved(program, len(first) + 2)]
+        pattern = "|".join(alternative.pattern for alternative in alternatives)
+        return _Piece(pattern, program, any(alternative.empty for alternative in alternatives))
 
-    def branch(self) -> tuple[str, bool]:
+    def branch(self) -> _Piece:
         pieces: list[str] = []
+        program: list[Instruction] = []
         empty = True
         while self.at < len(self.text) and self.text[self.at] not in "|)":
-            piece, may_be_empty = self.piece()
-            pieces.append(piece)
-            empty = empty and may_be_empty
-        return "".join(pieces), empty
+            piece = self.piece()
+            pieces.append(piece.pattern)
+            program += _moved(piece.program, len(program))
+            empty = empty and piece.empty
+        return _Piece("".join(pieces), program, empty)
 
-    def piece(self) -> tuple[str, bool]:
-        repeats_before = self.repeats
-        atom, empty = self.atom()
+    def piece(self) -> _Piece:
+        repeats_before, choices_before = self.repeats, self.choices
+        pattern, program, empty = atom = self.atom()
         sign = self.text[self.at : self.at + 1]
         if sign not in ("*", "+", "?"):
-            return atom, empty
+            return atom
         if empty and sign != "?":
             raise RegexError(self.text)
         self.at += 1
         if self.text[self.at : self.at + 1] in ("*", "+", "?"):
             raise RegexError(self.text)
-        if sign != "?":
-            if self.repeats > repeats_before:
-                raise RegexError(self.text)  # (a+)+ takes exponential time
-            self.repeats += 1
-        return f"{atom}{sign}", empty or sign != "+"
+        size = len(program)
+        if sign == "?":
+            self.choices += 1
+            return _Piece(f"{pattern}?", [Split(1, size + 1), *_moved(program, 1)], empty=True)
+        if self.repeats > repeats_before:
+            raise RegexError(self.text)  # (a+)+ takes exponential time
+        self.repeats += 1
+        self.ambiguous = self.ambiguous or self.choices > choices_before
+        if sign == "+":
+            return _Piece(f"{pattern}+", [*program, Split(0, size + 1)], empty=False)
+        return _Piece(f"{pattern}*", [Split(1, size + 2), *_moved(program, 1), Jump(0)], empty=True)
 
-    def atom(self) -> tuple[str, bool]:
+    def atom(self) -> _Piece:
         letter = self.text[self.at]
         self.at += 1
         if letter == "^":
-            return r"(?:\A)", True
+            return _Piece(r"(?:\A)", [Anchor(end=False)], empty=True)
         if letter == "$":
-            return r"(?:\Z)", True
+            return _Piece(r"(?:\Z)", [Anchor(end=True)], empty=True)
         if letter == ".":
-            return ".", False
+            return _Piece(".", [Letter(_OCTETS)], empty=False)
         if letter == "[":
-            return self.letters(), False
+            letters = self.letters()
+            return _Piece(letters, [Letter(frozenset(re.findall(letters, "".join(sorted(_OCTETS)))))], empty=False)
         if letter == "(":
-            group, empty = self.branches()
+            self.groups += 1
+            slot = 2 * self.groups
+            group = self.branches()
             if self.text[self.at : self.at + 1] != ")":
                 raise RegexError(self.text)
             self.at += 1
-            return f"({group})", empty
+            program: list[Instruction] = [Save(slot), *_moved(group.program, 1), Save(slot + 1)]
+            return _Piece(f"({group.pattern})", program, group.empty)
         if letter in "*+?" or (letter == "\\" and self.at == len(self.text)):
             raise RegexError(self.text)
         if letter == "\\":
             letter = self.text[self.at]
             self.at += 1
-        return re.escape(letter), False
+        return _Piece(re.escape(letter), [Letter(frozenset(letter))], empty=False)
 
     def letters(self) -> str:
         end = self.at + (self.text[self.at : self.at + 1] == "^")
@@ -154,6 +207,20 @@ class _Translator:
                 ranges.append(re.escape(body[index]))
                 index += 1
         return f"[{'^' if negated else ''}{''.join(ranges)}]"
+
+
+_OCTETS: Final = frozenset(map(chr, range(256)))
+
+
+def _moved(program: Iterable[Instruction], by: int) -> list[Instruction]:
+    """Return instructions that begin ``by`` instructions later."""
+    moved: list[Instruction] = []
+    for instruction in program:
+        if isinstance(instruction, Split):
+            moved.append(Split(instruction.first + by, instruction.second + by))
+        else:
+            moved.append(Jump(instruction.to + by) if isinstance(instruction, Jump) else instruction)
+    return moved
 
 
 # --- use -----------------------------------------------------------------------------------------------------------
@@ -194,7 +261,7 @@ def find(run: Run, regex: str, text: str) -> bool | None:
 
     None if the expression cannot be evaluated.
     """
-    pattern = translated(regex)
+    pattern = translated(regex, run.budget)
     if pattern is None:
         forget(run)
         return None
@@ -206,17 +273,17 @@ def find(run: Run, regex: str, text: str) -> bool | None:
     return True
 
 
-def _groups(match: re.Match[str]) -> tuple[str, ...]:
+def _groups(match: Match) -> tuple[str, ...]:
     return tuple(_text(group or "") for group in (match[0], *match.groups()))
 
 
-def all_matches(regex: str, text: str) -> list[tuple[str, str, tuple[str, ...]]]:
+def all_matches(regex: str, text: str, budget: Budget) -> list[tuple[str, str, tuple[str, ...]]]:
     """Return all matches from left to right, each as the text before it, the match and its groups.
 
     The last entry is the text after the last match, without groups. Raises RegexError for empty matches, where CMake has an
     error, and for ``^`` with more than one match, where the versions of CMake differ (policy CMP0186).
     """
-    pattern = translated(regex)
+    pattern = translated(regex, budget)
     if pattern is None:
         raise RegexError(regex)
     encoded = octets(text)

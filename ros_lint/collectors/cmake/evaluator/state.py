@@ -96,7 +96,7 @@ Real packages need less than 20."""
 
 MOST_STEPS: Final = 100_000
 """Commands that one package may run. Most real packages run less than 3,000, the largest about 93,000."""
-MOST_CHARACTERS: Final = 1 << 28
+MOST_CHARACTERS: Final = 1 << 26
 """Characters of values that the scripts of one package may write and read.
 
 Other work that costs memory or time is converted into characters. Real packages need less than a million for 1,000 commands."""
