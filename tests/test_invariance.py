@@ -44,6 +44,9 @@ def found(tree: Tree, case: Case, *, default: bool = False) -> Counter[tuple[str
     )
 
 
+LINE_OF_INCLUDE = r"('[^']*') is looked up here, and its ('[^']*') is included in line \d+"
+
+
 def spelt(path: str, text: str) -> str:
     """Return a file that says the same in another spelling, as another editor or formatter would have left it."""
     if path.endswith(("CMakeLists.txt", ".cmake")):
@@ -85,8 +88,15 @@ def _on_lines(tag: re.Match[str]) -> str:
 def test_another_spelling_of_a_file_keeps_the_findings(case: Case) -> None:
     if case.source.stem.endswith("-suppression"):
         return  # the comments are what these rules are about
-    other = {path: spelt(path, text) for path, text in case.files.items()}
-    assert found(MemoryTree(other, case.executable), case) == found(case.tree(), case)
+    other = MemoryTree({path: spelt(path, text) for path, text in case.files.items()}, case.executable)
+    assert _without_lines(found(other, case)) == _without_lines(found(case.tree(), case))
+
+
+def _without_lines(issues: Counter[tuple[str, ...]]) -> Counter[tuple[str, ...]]:
+    """Return findings without the lines that messages name, which change with the spelling of a file."""
+    return Counter(
+        tuple(re.sub(LINE_OF_INCLUDE, r"\2 of \1 is included here", part) for part in issue) for issue in issues.elements()
+    )
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.source.stem}: {case.title}")

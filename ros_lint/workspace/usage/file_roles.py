@@ -113,7 +113,7 @@ class FileRoles:
             if of_tests and path not in self._production:
                 return Role.TEST, True
             unused = path in self._headers_of_uncompiled_sources or path in self._unreferenced_headers or self._is_of_ros_1(path)
-            return PUBLIC, path in self._production or not unused
+            return PUBLIC, path in self._production or not (unused or self._may_serve_tests_only(path))
         if path in self._production:
             return PRODUCTION, True
         if path in self._tests:
@@ -312,6 +312,10 @@ class FileRoles:
         """True if the package has targets, and builds them only together with tests."""
         targets = self._script.products.targets
         return self._targets_known and bool(targets) and all(target.test for target in targets)
+
+    def _may_serve_tests_only(self, header: str) -> bool:
+        """Return whether a header may serve only tests, because no target and no installation of the header is known."""
+        return not self._targets_known and not self._script.products.targets and header not in self._installed_headers
 
     @cached_property
     def _generates(self) -> frozenset[str] | None:
