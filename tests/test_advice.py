@@ -70,6 +70,14 @@ def test_a_tag_for_other_distributions_has_a_condition_and_no_fix() -> None:
         assert older.conditional
 
 
+def test_a_condition_needs_format_3() -> None:
+    old = manifest_text("robot").replace('format="3"', 'format="2"')
+    for text, remark in ((old, " (a condition needs format 3 of package.xml)"), (manifest_text("robot"), "")):
+        loaded = Loader(MemoryTree({"robot/package.xml": text}), ("",), TargetDistro("jazzy", "test")).load()
+        _, _, end = remedy(loaded.packages[0], loaded, "gazebo_ros", Role.EXEC).written.partition("</exec_depend>")
+        assert end == f"{remark}, because jazzy has no 'gazebo_ros'"
+
+
 def test_what_is_unsafe_anyway_stays_so() -> None:
     fix = naming_fix(workspace("jazzy", told=True), "rclcpp", "declare it", EDIT, safe=False)
     assert fix is not None

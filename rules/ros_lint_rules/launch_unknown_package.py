@@ -90,7 +90,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
         hint = _hint_to_declare(name, package, workspace) if left_out and not verdict.known else ""
         yield Finding(
-            f"there is no package '{name}'{verdict.hint}{hint}",
+            f"there is no package '{name}'{_joined(verdict.hint, hint)}",
             best.reference.package_span,
             name,
             first_related(Related("also named here", span) for span in spans[1:]),
@@ -117,11 +117,19 @@ class _Place(NamedTuple):
     reference: LaunchReference
 
 
+def _joined(question: str, hint: str) -> str:
+    """Return a question with a hint after it, which is a new sentence if the question ends with a question mark."""
+    if not (hint and question.endswith("?")):
+        return f"{question}{hint}"
+    first = hint.removeprefix("; ")
+    return f"{question} {first[0].upper()}{first[1:]}"
+
+
 def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
     """Return the end of the message about an undeclared package that may be available elsewhere."""
     tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
     if condition := dependencies.condition_for(workspace, name):
-        return f'; add <{tag} condition="{condition}">{name}</{tag}>'
+        return f'; add <{tag} condition="{condition}">{name}</{tag}>{dependencies.condition_format(package)}'
     return f"; if '{name}' is available elsewhere, add <{tag}>{name}</{tag}>"
 
 

@@ -73,7 +73,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if interface in script.products.interfaces or not name.isidentifier():
             continue
         required = "" if file.endswith(".idl") or names.interfaces.is_message(name) else names.interfaces.camel(name)
-        rejection = next(iter(_rejections(package, file)), "")
+        rejection = next(_rejections(package, workspace, file), "")
         commented_out = interface in script.cmake.commented_interfaces
         if required or rejection or commented_out:
             yield _finding(package, calls, file, required, rejection, commented_out=commented_out)
@@ -111,10 +111,15 @@ def _here(package: Package, file: str) -> Related:
     return Related("this file", package.start_of(file))
 
 
-def _rejections(package: Package, file: str) -> list[str]:
-    """Return the reasons why rosidl rejects a file."""
-    parsed = [interface for interface in package.interface_files if package.relative(interface.path) == file]
-    return [problem.message for interface in parsed for problem in interface.problems]
+def _rejections(package: Package, workspace: Workspace, file: str) -> Iterator[str]:
+    """Yield the reasons why no code can be generated for a file: rosidl rejects it, or the package of a field type is unknown."""
+    for interface in package.interface_files:
+        if package.relative(interface.path) == file:
+            yield from (problem.message for problem in interface.problems)
+            for field_type, _ in interface.types:
+                owner = field_type.partition("/")[0] if "/" in field_type else package.name
+                if owner != package.name and workspace.world.resolution(owner) == "unknown":
+                    yield f"there is no package '{owner}'"
 
 
 def _finding(

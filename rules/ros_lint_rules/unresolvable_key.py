@@ -49,7 +49,8 @@ def _key(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) ->
     place = f"{knowledge.platform}, the platform of {distro}" if anywhere else "any Ubuntu that ROS 2 supports"
     remedy = f"use '{meant.name}'" if meant else "use another key, or add a rule to rosdistro"
     if condition := dependencies.condition_for(workspace, name):
-        remedy = f'write <{unresolved.declared.depend.tag} condition="{condition}">, or use another key'
+        needs = dependencies.condition_format(unresolved.package)
+        remedy = f'write <{unresolved.declared.depend.tag} condition="{condition}">{needs}, or use another key'
     return Finding(
         f"rosdep key '{name}' has no rule for {place}; {remedy}",
         unresolved.declared.depend.name_span,
@@ -64,7 +65,8 @@ def _package(unresolved: dependencies.UnresolvedDependency, workspace: Workspace
     others = ", ".join(world.where_else(name))
     remedy = "add its sources to the workspace, or remove the dependency"
     if condition := dependencies.condition_for(workspace, name):
-        remedy = f'write <{unresolved.declared.depend.tag} condition="{condition}">, or add its sources to the workspace'
+        needs = dependencies.condition_format(unresolved.package)
+        remedy = f'write <{unresolved.declared.depend.tag} condition="{condition}">{needs}, or add its sources to the workspace'
     return Finding(
         f"'{name}' is not released for {distro}, only for {others} (as of {world.knowledge.date}); {remedy}",
         unresolved.declared.depend.name_span,

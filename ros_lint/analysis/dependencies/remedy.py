@@ -63,6 +63,8 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
     of_pip = is_of_pip(workspace, name)
     if of_pip:
         written += " (installed by pip: a released package cannot depend on it)"
+    if only_in:
+        written += condition_format(package)
     written += f", because {_lack(availability.without)} no '{name}'" if only_in else availability_remark(workspace, name)
     if _is_exported(package, name):
         written += " (the tag in <export> declares nothing)"
@@ -81,6 +83,12 @@ def _condition(distros: Sequence[str], active: Sequence[str]) -> str:
     if len(others) < len(distros):
         return " and ".join(f"$ROS_DISTRO != {distro}" for distro in others)
     return " or ".join(f"$ROS_DISTRO == {distro}" for distro in distros)
+
+
+def condition_format(package: Package) -> str:
+    """Return the remark that the manifest needs format 3 for a condition (REP 149), with a leading space; "" if it has it."""
+    manifest = package.manifest
+    return " (a condition needs format 3 of package.xml)" if manifest and manifest.format < 3 else ""
 
 
 def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
