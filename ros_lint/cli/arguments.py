@@ -17,6 +17,11 @@ _COMMON_OPTIONS = (
     *(BY_NAME[name] for name in ("underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")),
 )
 """The options of the commands that answer for one distribution."""
+_LSP_OPTIONS = (
+    "distro", "underlay", "select", "extend-select", "ignore", "pedantic", "min-severity", "exclude", "plugins", "jobs", "cache",
+    "config", "isolated",
+)  # fmt: skip
+"""The options of the language server."""
 _WORKSPACE_HELP = "workspace (default: the workspace that contains the current folder)"
 _EPILOG = """\
 commands (see also ros-lint COMMAND --help):
@@ -138,6 +143,11 @@ def _add_launch(parser: argparse.ArgumentParser) -> None:
     _add_workspace(parser)
 
 
+def _add_lsp(parser: argparse.ArgumentParser) -> None:
+    for name in _LSP_OPTIONS:
+        _add_option(parser, BY_NAME[name])
+
+
 def _add_index(parser: argparse.ArgumentParser) -> None:
     actions = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
     refresh = actions.add_parser("refresh", help="rebuild the data of distributions from rosdistro's index", allow_abbrev=False)
@@ -189,6 +199,7 @@ _ADDERS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "why": _add_why,
     "explain-package": _add_explain_package,
     "launch": _add_launch,
+    "lsp": _add_lsp,
     "index": _add_index,
     "cache": _add_cache,
     "rules": _add_rules,

@@ -109,6 +109,10 @@ def _run_command(command: str, options: dict[str, object]) -> int:
         from ros_lint.cli.commands import check  # noqa: PLC0415
 
         return check.run(options)
+    if command == "lsp":
+        from ros_lint.cli.commands.lsp import lsp  # noqa: PLC0415
+
+        return lsp.run(options)
     if command == "launch":
         from ros_lint.cli.commands.launch import launch  # noqa: PLC0415
 

@@ -116,6 +116,7 @@ COMMANDS = {
     "graph": "print the dependency graph",
     "explain-package": "show what a package declares, uses, provides and installs",
     "launch": "show what a launch file would start, without starting it",
+    "lsp": "run the language server for editors",
     "overlay": "show packages that exist in several layers, and which layer wins",
     "rules": "list the rules",
     "rule": "explain a rule",

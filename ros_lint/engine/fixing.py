@@ -7,6 +7,7 @@ another fix declares. So no fix is written that, for example, closes a dependenc
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.engine import edits
@@ -64,9 +65,12 @@ class Trials(Protocol):
         """Return the issues whose fixes must not be written, each with the reason."""
 
 
-def fix(trials: Trials) -> FixResult:
-    """Return all fixes that can be verified. Nothing is written."""
-    changed: Mapping[str, bytes] = {}
+def fix(trials: Trials, unsaved: Mapping[str, bytes] = MappingProxyType({})) -> FixResult:
+    """Return all fixes that can be verified. Nothing is written.
+
+    ``unsaved`` has the contents of files, by path, that replace those on disk; they are part of the changed files.
+    """
+    changed = unsaved
     applied: list[Issue] = []
     for _ in range(_MOST_ROUNDS):
         last_round = _Round(trials, changed)

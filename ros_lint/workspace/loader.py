@@ -223,6 +223,14 @@ class Loader:
         self.tree = OverlayTree(self._original_tree, self.pinned)
         self._collected = dict(self._collected_with(self.pinned))
 
+    def forget(self, paths: Iterable[str]) -> bool:
+        """Read files again at the next load, because they may have changed on disk.
+
+        Returns False if one of the files is not among those that were read: its facts may be kept elsewhere.
+        """
+        forgotten = [self._collected.pop(path, None) for path in paths]
+        return None not in forgotten
+
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if it cannot be read."""
         return text_of(self.tree, path)
@@ -263,7 +271,7 @@ class Loader:
 
     def _collect(self, discovered: Sequence[DiscoveredPackage], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
         paths = [join(package.path, file) for package in discovered for file in package.files if kind_of(file)]
-        if new := [path for path in paths if path not in self._collected and path not in changed]:
+        if new := [path for path in paths if path not in self._collected]:
             self._collected |= collect_all(
                 self.tree, new, self._jobs, self._cache, lambda finished: self._progress("reading", finished, len(new))
             )

@@ -47,7 +47,7 @@ def run(options: Mapping[str, Any]) -> int:
             if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = fix.run(open_session(request, progress.update), _selection(request.settings))
+                report, code = fix.run(open_session(request, progress.update), selection_of(request.settings))
             else:
                 report, code = _report(request, progress), 0
             if request.settings["write-baseline"]:
@@ -135,12 +135,12 @@ def _report(request: Request, progress: Progress) -> Report:
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
     context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.roots, session.warnings)
-    report = check(session.loader.load_all(), session.loader.suppressions(), _selection(request.settings), context)
+    report = check(session.loader.load_all(), session.loader.suppressions(), selection_of(request.settings), context)
     cache.store(recorded, report)
     return report
 
 
-def _selection(settings: Settings) -> Selection:
+def selection_of(settings: Settings) -> Selection:
     """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
     from ros_lint.engine import registry  # noqa: PLC0415  (not needed for a cached report)
     from ros_lint.engine.selection import select  # noqa: PLC0415

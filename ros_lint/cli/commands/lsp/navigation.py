@@ -1,0 +1,240 @@
+"""What is at a place of a file, where it is defined and used, and what can be written there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.analysis.launch.files import installed_programs
+from ros_lint.base.text import Span
+from ros_lint.facts.manifest import DEPENDENCY_KINDS
+
+if TYPE_CHECKING:
+    from ros_lint.base.text import Text
+    from ros_lint.cli.commands.lsp.positions import Place
+    from ros_lint.cli.commands.lsp.project import Snapshot
+    from ros_lint.workspace.model import Package, Workspace
+
+_MOST_USES = 5
+"""Number of uses that a hover lists."""
+
+MOST_COMPLETIONS = 200
+
+
+class Target(NamedTuple):
+    """Something in a file that has a definition: a package, or something in a package."""
+
+    span: Span
+    """The place that names it."""
+    package: str
+    """Name of the package or rosdep key."""
+    name: str = ""
+    """Name in the package, "" for the package itself."""
+    kind: str = "package"
+    """Kind of the name: package, node, component, include (of a launch file), file, header or import."""
+
+
+def targets(workspace: Workspace, path: str) -> Iterator[Target]:
+    """Yield what a file names, in no particular order."""
+    for package in workspace.packages:
+        if package.manifest is not None and package.manifest.path == path:
+            yield Target(package.manifest.name_span, package.name)
+            for depend in package.manifest.depends:
+                yield Target(depend.span, depend.name)
+        for launch in package.launch:
+            if launch.path == path:
+                for reference in launch.references:
+                    yield Target(reference.package_span, reference.package)
+                    if reference.name:
+                        yield Target(reference.span, reference.package, reference.name, reference.kind)
+        for use in package.uses:
+            if use.span.path == path:
+                kind = {"include": "header", "import": "import"}.get(use.via, "package")
+                yield Target(use.span, use.package, use.name if kind != "package" else "", kind)
+        for lookup in package.lookups:
+            if lookup.span.path == path:
+                yield Target(lookup.span, lookup.package, lookup.path, "file")
+
+
+def target_at(workspace: Workspace, path: str, place: Place) -> Target | None:
+    """Return what is named at a place: of several things, the one with the shortest span; None if there is nothing."""
+    here = [target for target in targets(workspace, path) if place.is_in(target.span)]
+    return min(here, key=lambda target: _size(target.span), default=None)
+
+
+def _size(span: Span) -> tuple[int, int]:
+    return span.end_line - span.line, span.end_column - span.column
+
+
+def definitions(workspace: Workspace, target: Target) -> list[Span]:
+    """Return where a target is defined: the name in a manifest, a CMake target, an entry point's module, or a file.
+
+    The list is empty for packages outside of the workspace. If the thing itself is not found, its package is the answer.
+    """
+    packages = workspace.called(target.package)
+    found = [span for package in packages for span in _in_package(package, target)]
+    return list(dict.fromkeys(found)) or [package.span for package in packages]
+
+
+def _in_package(package: Package, target: Target) -> Iterator[Span]:
+    name = target.name
+    if not name:
+        return
+    products = package.built.products
+    if target.kind == "node":
+        modules = {entry.name: entry.module for entry in products.entry_points if entry.group == "console_scripts"}
+        if name in modules:
+            yield from _module(package, modules[name])
+            return
+        for installed in products.installs:
+            if installed.path == f"lib/{package.name}/{name}":
+                yield from _source(package, installed.source, installed.target)
+    elif target.kind in ("include", "file"):
+        for installed in products.installs:
+            if installed.path == f"share/{package.name}/{name}" and installed.source:
+                yield package.start_of(installed.source)
+    elif target.kind == "header":
+        ending = f"/{name}"
+        for installed in products.installs:
+            if installed.source and installed.path.startswith("include/") and installed.path.endswith(ending):
+                yield package.start_of(installed.source)
+    elif target.kind == "component":
+        yield from (registration.span for registration in package.registrations if registration.name == name)
+    elif target.kind == "import":
+        yield from _module(package, name)
+
+
+def _module(package: Package, name: str) -> Iterator[Span]:
+    """Yield the file of a dotted module of a package."""
+    path = name.replace(".", "/")
+    for file in (f"{path}.py", f"{path}/__init__.py"):
+        if file in package.files:
+            yield package.start_of(file)
+
+
+def _source(package: Package, source: str, target: str) -> Iterator[Span]:
+    """Yield the definition of an installed program: its source file, or the command that creates its CMake target."""
+    if source:
+        yield package.start_of(source)
+    for built in package.built.products.targets:
+        if target and built.name == target:
+            yield built.span
+
+
+def references(workspace: Workspace, name: str) -> list[Span]:
+    """Return the places that name a package: dependency tags, uses and launch files."""
+    spans = []
+    for package in workspace.packages:
+        if package.manifest is not None:
+            spans += [depend.name_span for depend in package.manifest.depends if depend.name == name]
+        spans += [use.span for use in package.uses if use.package == name]
+        spans += [
+            reference.package_span for launch in package.launch for reference in launch.references if reference.package == name
+        ]
+    return sorted(set(spans))
+
+
+def describe(snapshot: Snapshot, target: Target, owner: Package | None) -> str:
+    """Return a description of a target in Markdown: what it is, where it comes from, and where ``owner`` uses it."""
+    workspace = snapshot.workspace
+    lines = [f"**{target.package}**: {_origin(workspace, target.package)}"]
+    if target.name:
+        lines.append(f"`{target.name}`: {_thing(workspace, target)}")
+    if owner is not None:
+        tags = sorted({f"`<{declared.depend.tag}>`" for declared in owner.tags(target.package)})
+        uses = [use for use in owner.uses if target.package in use.providers]
+        if tags:
+            lines.append(f"Declared by '{owner.name}' as {', '.join(tags)}.")
+        if uses:
+            listed = "\n".join(f"- `{use.what}` in {use.span.path}:{use.span.line}" for use in uses[:_MOST_USES])
+            more = f"\n- and {len(uses) - _MOST_USES} more" if len(uses) > _MOST_USES else ""
+            lines.append(f"Used by '{owner.name}':\n\n{listed}{more}")
+        elif tags:
+            lines.append(f"No use in '{owner.name}' was found.")
+    return "\n\n".join(lines)
+
+
+def _origin(workspace: Workspace, name: str) -> str:
+    world, distro = workspace.world, workspace.target.distro
+    packages = workspace.called(name)
+    if packages:
+        return f"package of this workspace in {packages[0].path or '.'}"
+    version = world.version(name)
+    match world.layer(name):
+        case "underlay":
+            return f"package of an underlay{f', version {version}' if version else ''}"
+        case "index":
+            return f"released in {distro}{f', version {version}' if version else ''}"
+    if world.is_key(name):
+        return "rosdep key"
+    return {
+        "elsewhere": f"not released in {distro}, but in another distribution",
+        "end-of-life": "released in distributions at their end of life only",
+        "unknowable": "not found, but a repository or data is missing",
+    }.get(world.resolution(name), f"unknown in {distro}")
+
+
+def _thing(workspace: Workspace, target: Target) -> str:
+    spans = [span for package in workspace.called(target.package) for span in _in_package(package, target)]
+    if spans:
+        return f"defined in {spans[0].path}:{spans[0].line}"
+    return f"not found in '{target.package}'" if workspace.called(target.package) else f"in '{target.package}'"
+
+
+_TAGS = "|".join(tag for tag in DEPENDENCY_KINDS if tag not in ("member_of_group", "group_depend"))
+_IN_TAG = re.compile(rf"<(?:{_TAGS})\b[^<>]*>([\w.+-]*)\Z")
+_PACKAGE_VALUE = re.compile(
+    r"""(?:\b(?:package|pkg)\s*=\s*|\bpkg:\s*|\b(?:get_package_share_directory|FindPackageShare)\(\s*)["']?([\w-]*)\Z"""
+)
+_EXECUTABLE_VALUE = re.compile(r"""(?:\bexecutable\s*=\s*|\bexec\s*=\s*|\bexec:\s*)["']?([\w.-]*)\Z""")
+_PACKAGE = re.compile(r"""\b(?:package|pkg)\s*[=:]\s*["']?([\w-]+)""")
+_MOST_LINES = 6
+"""Number of lines above an executable in which its package is searched."""
+
+
+def completions(workspace: Workspace, text: Text, place: Place) -> tuple[str, Sequence[str]]:
+    """Return the word before a place, and the names that can be written in its place, at most 200.
+
+    These are names of packages and rosdep keys in a dependency tag; in a launch file, packages and the programs they install.
+    """
+    try:
+        before = text.line(place.line)[: place.column - 1]
+    except IndexError:
+        return "", ()
+    if (match := _IN_TAG.search(before)) and text.path.endswith("package.xml"):
+        world = workspace.world
+        names = {*workspace.by_name, *world.knowledge.index.names(), *world.knowledge.rosdep.names()}
+    elif match := _PACKAGE_VALUE.search(before):
+        names = set(workspace.by_name)
+    elif match := _EXECUTABLE_VALUE.search(before):
+        names = _programs(workspace, text, place)
+    else:
+        return "", ()
+    word = match[1]
+    of_workspace = set(workspace.by_name)
+    fitting = sorted((name for name in names if name.startswith(word)), key=lambda name: (name not in of_workspace, name))
+    return word, fitting[:MOST_COMPLETIONS]
+
+
+def _programs(workspace: Workspace, text: Text, place: Place) -> set[str]:
+    """Return the programs of the package that the lines around a place name nearest."""
+    above = [text.line(number) for number in range(max(1, place.line - _MOST_LINES), place.line)]
+    before = "\n".join([*above, text.line(place.line)])
+    names = _PACKAGE.findall(before)
+    programs = [installed_programs(package) for package in workspace.called(names[-1])] if names else []
+    return {name for installed in programs if installed for name in installed.names}
+
+
+def links(workspace: Workspace, path: str) -> Iterator[tuple[Span, Span]]:
+    """Yield the places in a launch file that name another file of the workspace, each with that file."""
+    for target in targets(workspace, path):
+        if target.kind in ("include", "file") and target.name:
+            for package in workspace.called(target.package):
+                yield from ((target.span, span) for span in _in_package(package, target))
+
+
+def owner_of(workspace: Workspace, path: str) -> Package | None:
+    """Return the package that contains a file."""
+    inside = [package for package in workspace.packages if path.startswith(f"{package.path}/" if package.path else "")]
+    return max(inside, key=lambda package: len(package.path), default=None)

@@ -1,0 +1,111 @@
+"""A workspace that is open in an editor: it is checked again and again with the unsaved texts of the editor."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ros_lint.base.paths import is_below
+from ros_lint.base.text import Text, read
+from ros_lint.base.tree import text_of
+from ros_lint.cli.commands.check import selection_of
+from ros_lint.cli.session import open_session, parse_request
+from ros_lint.cli.settings import find
+from ros_lint.engine import registry
+from ros_lint.engine.check import ReportContext, check
+from ros_lint.engine.fix_trials import FixTrials
+from ros_lint.engine.fixing import fix
+
+if TYPE_CHECKING:
+    from ros_lint.cli.session import Request, Session
+    from ros_lint.engine.report import Report
+    from ros_lint.engine.selection import Selection
+    from ros_lint.workspace.model import Workspace
+
+Progress = Callable[[str, int, int], None]
+
+
+class Snapshot(NamedTuple):
+    """A workspace as it was checked: the disk, with the unsaved texts of the editor in place of some files."""
+
+    base: str
+    """Absolute folder to which all paths are relative."""
+    workspace: Workspace
+    """The workspace for the first distribution."""
+    report: Report
+    text: Callable[[str], Text | None]
+    """Returns the text of a file as it was checked; None if the file cannot be read."""
+
+
+class Project:
+    """A folder of the editor. Its files are read once, and again only after :meth:`refresh`.
+
+    ``options`` are those of the command line. The constructor reads the configuration and raises UserError.
+    """
+
+    def __init__(self, folder: str, options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> None:
+        self.folder = os.path.realpath(folder)
+        self._options = {**options, "paths": [folder]}
+        self._environment = environment
+        self._progress = progress
+        self._open()
+
+    def _open(self) -> None:
+        self._request: Request = parse_request(self._options, self._environment)
+        self._session: Session = open_session(self._request, self._progress)
+        settings = self._request.settings
+        self._rules = registry.load(settings["plugins"])
+        self._selection: Selection = selection_of(settings)
+
+    @property
+    def base(self) -> str:
+        """Absolute folder to which the paths of findings are relative: the repository or the workspace."""
+        return self._request.base
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings about the settings."""
+        return (*self._request.settings.warnings, *self._session.warnings)
+
+    def contains(self, path: str) -> bool:
+        """Return whether an absolute path is in the folder."""
+        return is_below(path, self.folder)
+
+    def check(self, unsaved: Mapping[str, bytes]) -> Snapshot:
+        """Return the workspace and its report. ``unsaved`` has the texts of the editor by path, relative to the base.
+
+        Raises KnowledgeError if the data of released packages cannot be read.
+        """
+        loader = self._session.loader
+        workspaces = loader.load_all(unsaved)
+        report = check(workspaces, loader.suppressions(unsaved), self._selection, self._context)
+
+        def text(path: str) -> Text | None:
+            return read(path, unsaved[path]) if path in unsaved else text_of(loader.tree, path)
+
+        return Snapshot(self.base, workspaces[0], report, text)
+
+    def fixes(self, unsaved: Mapping[str, bytes], rule: str = "") -> Mapping[str, bytes]:
+        """Return the new contents of files after all safe fixes, or those of one rule, by path.
+
+        Each fix is verified: it causes no other finding. Nothing is written.
+        """
+        selection = self._selection
+        if rule:
+            selection = selection._replace(rules=tuple([other for other in selection.rules if other.name == rule]))
+        trials = FixTrials(self._session.loader, self._session.roots, selection, self._rules)
+        changed = fix(trials, unsaved).changed
+        self._open()  # the loader of the trials keeps the contents of the edited files
+        return {path: data for path, data in changed.items() if unsaved.get(path) != data}
+
+    def refresh(self, paths: Mapping[str, object]) -> None:
+        """Note that files changed on disk. ``paths`` are absolute. Raises UserError for a configuration that is now invalid."""
+        relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}
+        if not self._session.loader.forget(relative) or find(self.folder) in paths:
+            self._open()
+
+    @property
+    def _context(self) -> ReportContext:
+        session = self._session
+        return ReportContext(self._rules, session.knowledge.date, session.roots, session.warnings)
