@@ -17,8 +17,9 @@ Remove the `find_package()` and the linked target, and the dependency from `pack
 Not reported:
 
 - The package provides CMake macros, plugins or components, or is a build tool.
-- The code contains the name, as a namespace that a header of another package may declare, or another file of the package does;
-  or the code uses one of its types by the bare name.
+- The code contains the name of the package, for example as a namespace, which a header of another package may declare.
+- Another file of the package contains the name.
+- The code uses a type of the package by its bare name.
 - The code includes a header of an unknown package, in a folder whose name begins like that of the package.
 - The script uses more of the package's variables than those for linking.
 - The package is found for tests, or it is optional.

@@ -56,7 +56,7 @@ class FactCache:
     def fetch(self, tree: Tree, disk: Tree, paths: Sequence[str]) -> dict[str, ReadFile]:
         """Return the cached facts of files that have not changed.
 
-        Stamps are read from ``tree``. The contents of files whose stamps do not decide are read from ``disk``.
+        Stamps are read from ``tree``. If the stamp of a file may be the same after a change, its contents are compared; they are read from ``disk``.
         """
         if not self._file:
             return {}

@@ -72,7 +72,10 @@ def _lines(tree: Tree, path: str) -> list[str]:
 
 
 def _in_build_file(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
-    """Yield the distributions in images, in values of variables and keys, and in block lists of YAML below a key."""
+    """Yield the distributions that a build file names.
+
+    They are in the names of container images, in the values of variables and keys, and in YAML lists below a key.
+    """
     in_list = False
     for number, line in enumerate(lines, 1):
         code = line.partition(" #")[0]
