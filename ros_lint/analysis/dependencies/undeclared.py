@@ -74,9 +74,10 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 
 
 def _must_come_with(unknown: Iterable[str], package: Package, workspace: Workspace, need: Need) -> bool:
-    """Return whether a found package of ``unknown`` must provide the needed package, because compiled files only include it.
+    """Return whether one of the packages ``unknown`` must provide the needed package.
 
-    The headers of a ROS package are not found without find_package() of it or of a package that exports it.
+    That is so if the package only includes its headers in compiled files: the compiler finds the headers of a ROS package only
+    after find_package() of it or of a package that exports it. ``unknown`` are declared packages with unknown dependencies.
     """
     name = need.name
     if not workspace.world.is_package(name) or any(use.via != "include" for use in need.uses if use.certain):

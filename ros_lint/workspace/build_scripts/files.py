@@ -200,10 +200,10 @@ def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> 
 
 
 def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
-    """Return the scripts with the ``ros2 run`` commands that start them, and with started programs that are not installed.
+    """Return the scripts that are not installed, each with the ``ros2 run`` command in a text of the package that starts it.
 
-    Such a program is one of ``files`` in a CMake package. In a Python package it may also be a module, because entry
-    points make programs of modules.
+    A script is one of ``files`` in a CMake package. In a Python package it may also be a module, because entry points make
+    programs of modules.
     """
     if script.of_cmake:
         installed = script.products.installed
