@@ -154,10 +154,10 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
     name = path[-1]
     if _comes_by_design(package, workspace, need, path):
         confidence = Confidence.LOW
-    between = " > ".join(f"'{package_between}'" for package_between in path[:-1])
+    between = " through ".join(f"'{package_between}'" for package_between in path[:-1])
     proposal = dependencies.remedy(package, workspace, name, need.role)
     return Finding(
-        f"'{name}' is used here, but is only available through {between}{proposal.ending}",
+        f"'{name}' is used here, but package.xml does not declare it; it comes with {between}{proposal.ending}",
         best.span,
         name,
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),

@@ -29,7 +29,8 @@ Declare the package in `package.xml`, with the tag that the message names. The f
 - `<exec_depend>`: needed only at run time;
 - `<test_depend>`: needed only for tests.
 
-If `find_package()` names a package that a package of interfaces does not use, remove the call.
+If `find_package()` finds a package that no code uses, remove the call. There is no fix here, because only you know whether the
+code shall use the package.
 
 If the package is declared under a condition that is false, widen the condition.
 
@@ -141,6 +142,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             finding = finding._replace(message=message, fix=None)
         elif call := _leftover(package, workspace, need):
             message = f"package.xml does not declare '{need.name}', and nothing in this package uses it; remove {call}"
+            finding = finding._replace(message=message, fix=None)
+        elif call := _unused_find(package, workspace, need):
+            message = (
+                f"package.xml does not declare '{need.name}', and no code uses it; remove {call}, or declare '{need.name}' "
+                "if the code needs it"
+            )
             finding = finding._replace(message=message, fix=None)
         if finding.fix:
             finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
@@ -255,10 +262,30 @@ def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -
     products = package.built.products
     if not products.interfaces or any(target.kind != "other" for target in products.targets):
         return ""
-    finds = {mention.span: mention.name for mention in dependencies.unused_find_packages(package, workspace)}
-    name = next((finds[use.span] for use in need.uses if use.span in finds), "")
-    if not name:
+    name = _unused_name(package, workspace, need)
+    return _calls(name, need) if name else ""
+
+
+def _unused_find(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
+    """Return the find_package() of an undeclared package that no code of a package with targets uses, "" if there is none.
+
+    The build script may link the package. Left out are packages that other uses may need.
+    """
+    if workspace.unread() or not dependencies.is_build_visible(package) or not package.built.products.targets:
         return ""
+    name = _unused_name(package, workspace, need)
+    if not name or _condition(package, need.name) or any(use.via not in _IN_BUILD_SCRIPT for use in need.uses):
+        return ""
+    return "" if dependencies.finding_others(package, workspace, (name,)) else _calls(name, need)
+
+
+def _unused_name(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
+    """Return the name by which an unused find_package() finds the needed package, "" if there is none."""
+    finds = {mention.span: mention.name for mention in dependencies.unused_find_packages(package, workspace)}
+    return next((finds[use.span] for use in need.uses if use.span in finds), "")
+
+
+def _calls(name: str, need: dependencies.Need) -> str:
     return f"find_package({name})" + (" and the other places that name it" if len(need.uses) > 1 else "")
 
 
@@ -296,6 +323,7 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
 
 _PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
+_IN_BUILD_SCRIPT = frozenset({"cmake", "target"})
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
 """Headers of interfaces, which packages declare even if another package provides them."""
 

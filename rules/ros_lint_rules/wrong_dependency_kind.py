@@ -231,7 +231,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
         if not is_provided(~_TEST):
             return _Lack(role, why)
         named = any(use.certain and use.via != "macro" and _is_about(use, role) for use in need.uses)
-        indirect = f"{why}, where it is only available through other dependencies"
+        indirect = f"{why}, where it comes with other dependencies"
         return _Lack(role, indirect, Confidence.LOW) if named and is_provided(~_TEST, surely=True) else None
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
         # The sources of the package may not need the headers that include it.
