@@ -45,6 +45,7 @@ group_depend, member_of_group, export. Another fix corrects the format in the ad
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 from ros_lint.api import (
     Confidence,
@@ -110,14 +111,15 @@ def _invalid(manifest: Manifest) -> Iterator[Finding]:
 
 
 def _order(manifest: Manifest, children: list[Element | Depend]) -> Finding | None:
-    """Return the finding about the first element that is in the wrong order: an element before it has to come after it."""
-    highest = children[0]
-    for child in children:
-        if edits.manifest.schema_rank(child.tag) < edits.manifest.schema_rank(highest.tag):
+    """Return the finding about the first element that is in the wrong order: the element before it has to come after it."""
+    ranks = [edits.manifest.schema_rank(child.tag) for child in children]
+    for number, (earlier, child) in enumerate(pairwise(children), 1):
+        if ranks[number] < ranks[number - 1]:
             fix = Fix.of("sort the elements", *edits.manifest.sort(manifest))
-            message = f"<{child.tag}> after <{highest.tag}> violates the schema; move it before <{highest.tag}>"
+            several_follow = number + 1 < len(children) and ranks[number - 1] > max(ranks[number:])
+            step = f"move <{earlier.tag}> to the end" if several_follow else f"move it before <{earlier.tag}>"
+            message = f"<{child.tag}> after <{earlier.tag}> violates the schema; {step}"
             return _finding(message, child.span, "order")._replace(fix=fix)
-        highest = child
     return None
 
 
