@@ -94,7 +94,7 @@ The severity is lower if the package works where it is built, launched and teste
 - info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
 - warning for `python3-pytest`, because colcon itself depends on it;
 - warning for libraries in requirement files or `install_requires`, if rosdep installs them by pip or only on some platforms;
-- warning for public headers of a package that compiles nothing, because dependents that declare the package build;
+- warning for public headers that the package itself does not compile, because dependents that declare the package build;
 - warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs;
 - warning for files that a model looks up in `<xacro:if value="$(arg x)">`, if the default of the argument `x` is false.
 """
@@ -235,15 +235,19 @@ def _is_in_unreached_module(package: Package, use: Use) -> bool:
 
 
 def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
-    """Return whether only public headers need the package, and this package compiles nothing.
+    """Return whether only public headers that this package does not compile need the package.
 
     Then this package builds without the needed package, and only dependents that do not declare the needed package fail.
     """
+    targets = package.built.products.targets
     if package.hidden(Facet.LIBRARIES | Facet.EXECUTABLES) or any(
-        target.sources or not target.sources_known for target in package.built.products.targets
+        target.optional_sources or target.test or not target.sources_known for target in targets
     ):
         return False
-    return all(use.via in _CODE and use.role & Role.EXPORT for use in need.uses)
+    compiled = frozenset().union(*package.compiled_headers.values())
+    return all(
+        use.via in _CODE and use.role & Role.EXPORT and package.relative(use.span.path) not in compiled for use in need.uses
+    )
 
 
 def _is_left_to_pip(package: Package, workspace: Workspace, need: dependencies.Need) -> bool:
