@@ -56,7 +56,8 @@ class FactCache:
     def fetch(self, tree: Tree, disk: Tree, paths: Sequence[str]) -> dict[str, ReadFile]:
         """Return the cached facts of files that have not changed.
 
-        Stamps are read from ``tree``. If the stamp of a file may be the same after a change, its contents are compared; they are read from ``disk``.
+        Stamps are read from ``tree``. If the stamp of a file may be the same after a change, its contents are
+        read from ``disk`` and compared.
         """
         if not self._file:
             return {}
