@@ -1,12 +1,12 @@
 """Which fixes are applied, for trials in which it is known which fixes cause which regressions."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from random import Random
 from types import SimpleNamespace
 
 import pytest
 
-from ros_lint.analysis.finding import Finding, Fix, Severity
+from ros_lint.analysis.finding import Confidence, Finding, Fix, Severity
 from ros_lint.analysis.rule import Rule
 from ros_lint.base.diff import line_before
 from ros_lint.base.edit import Edit
@@ -16,6 +16,10 @@ from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import Regression, fix
 from ros_lint.engine.report import Issue
 from ros_lint.engine.selection import Selection
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.model import Package, Workspace
+from ros_lint.workspace.target import TargetDistro
+from tests.packages import manifest_text
 
 RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda package, workspace: ())
 
@@ -96,3 +100,25 @@ def test_a_line_of_the_new_text_corresponds_to_a_line_of_the_old_text() -> None:
     assert [line_before(before, "b\nc\nnew\nd\n", line) for line in (1, 2, 4)] == [2, 3, 4]
     assert [line_before(before, "a\nB\nc\nd\n", line) for line in (1, 2, 3, 9)] == [1, 2, 3, 4]
     assert line_before("", "a\n", 1) == 1
+
+
+def test_a_finding_whose_confidence_becomes_high_is_new() -> None:
+    text = manifest_text("p")
+    line, column = next((line, at + 1) for line, words in enumerate(text.splitlines(), 1) if (at := words.find("0.1.0")) >= 0)
+    place = Span("p/package.xml", line, column, line, column + len("0.1.0"))
+
+    def version(package: Package) -> str:
+        return package.manifest.version if package.manifest else ""
+
+    def fixed(package: Package, _: Workspace) -> Iterator[Finding]:
+        if version(package) == "0.1.0":
+            yield Finding("m", place, "x", fix=Fix("raise", (Edit(place, "0.2.0"),)))
+
+    def doubted(package: Package, _: Workspace) -> Iterator[Finding]:
+        yield Finding("n", place, "x", confidence=Confidence.MEDIUM if version(package) == "0.1.0" else Confidence.HIGH)
+
+    loader = Loader(MemoryTree({"p/package.xml": text, "p/CMakeLists.txt": "project(p)\n"}), ("",), TargetDistro("jazzy", "test"))
+    rules = (RULE._replace(package=fixed), RULE._replace(name="d", code="ROS998", package=doubted))
+    trials = FixTrials(loader, ("",), Selection(rules, frozenset(), {}, pedantic=False, ignores=()), rules)
+    [(skipped, reason)] = fix(trials).skipped
+    assert (skipped.rule.name, reason) == ("r", "it would cause a new finding: n")

@@ -41,7 +41,19 @@ class Trial(NamedTuple):
 
     def identity_counts(self) -> Counter[DistroIdentity]:
         """Return the number of issues with the same identity in the same distribution."""
-        return Counter(identity for issue in self.issues for identity in self.identities(issue))
+        return self._counts(self.issues)
+
+    def serious_counts(self) -> Counter[DistroIdentity]:
+        """Return the number of serious issues with the same identity in the same distribution."""
+        return self._counts(self.serious)
+
+    def _counts(self, issues: Iterable[Issue]) -> Counter[DistroIdentity]:
+        return Counter(identity for issue in issues for identity in self.identities(issue))
+
+    @property
+    def serious(self) -> list[Issue]:
+        """The issues of high confidence, of rules that are on by default."""
+        return [issue for issue in self.issues if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
 
     def identities(self, issue: Issue) -> list[DistroIdentity]:
         """Return the identity of an issue in each distribution that has it."""
@@ -120,7 +132,7 @@ class FixTrials:
             new = self.applied(changed, group)
         except edits.EditError as error:
             return (Regression(str(error)),)
-        before = self.trial(changed).identity_counts()
+        before = self.trial(changed)
         after = self.trial(new)
         unresolved = _unresolved(before, after, group)
         new_findings = _new_findings(before, after)
@@ -157,7 +169,7 @@ class FixTrials:
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or self._unsafe)]
 
     def _recovers_next_round(
-        self, before: Counter[DistroIdentity], changed: Mapping[str, bytes], group: Sequence[Issue], new_findings: Sequence[Issue]
+        self, before: Trial, changed: Mapping[str, bytes], group: Sequence[Issue], new_findings: Sequence[Issue]
     ) -> bool:
         """Return whether fixes of the next round resolve all findings that the fixes of a group cause."""
         names = {issue.identity for issue in new_findings}
@@ -183,17 +195,17 @@ def _edited_files(issue: Issue) -> Iterable[str]:
     return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
-def _new_findings(before: Counter[DistroIdentity], after: Trial) -> list[Issue]:
+def _new_findings(before: Trial, after: Trial) -> list[Issue]:
     """Return the new findings in any distribution, limited to high confidence and to rules that are on by default.
 
-    Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
+    A finding whose confidence becomes high is new. Other findings may change: an undeclared dependency, for example, can become
+    a transitive dependency.
     """
-    count = after.identity_counts()
-    serious = [issue for issue in after.issues if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
-    return [issue for issue in serious if any(count[name] > before[name] for name in after.identities(issue))]
+    earlier, count = before.serious_counts(), after.serious_counts()
+    return [issue for issue in after.serious if any(count[name] > earlier[name] for name in after.identities(issue))]
 
 
-def _unresolved(before: Counter[DistroIdentity], after: Trial, group: Sequence[Issue]) -> list[Issue]:
+def _unresolved(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
     """Return the issues of a group that are not resolved by their fixes in all their distributions."""
-    count = after.identity_counts()
-    return [issue for issue in group if any(count[name] >= before[name] for name in after.identities(issue))]
+    earlier, count = before.identity_counts(), after.identity_counts()
+    return [issue for issue in group if any(count[name] >= earlier[name] for name in after.identities(issue))]
