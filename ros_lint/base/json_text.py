@@ -32,3 +32,8 @@ def _lines(value: Any, levels: int, indent: str) -> str:
 
 def _block(signs: str, inner: list[str], indent: str) -> str:
     return f"{signs[0]}\n{indent} " + f",\n{indent} ".join(inner) + f"\n{indent}{signs[1]}"
+
+
+def for_html(value: Any) -> str:
+    """Return a value as JSON for a ``<script>`` element: it contains no ``<``, so it cannot end the element."""
+    return encode(value, 0).replace("<", "\\u003c")

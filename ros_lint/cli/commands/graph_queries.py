@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from ros_lint.cli.commands import explain_package, explain_silence, graph, order, overlay, why
+from ros_lint.cli.commands.graph_view import KINDS, ViewOptions
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, run_query
-from ros_lint.cli.session import Session, no_packages
+from ros_lint.cli.session import Session, UsageError, no_packages
 from ros_lint.workspace.model import Workspace
+
+
+def _graph(workspace: Workspace, options: Mapping[str, Any]) -> CommandOutput:
+    unknown = set(options.get("edges", KINDS)) - set(KINDS)
+    if unknown:
+        raise UsageError(f"--edges: unknown kind '{min(unknown)}'; available: {', '.join(KINDS)}")
+    chosen = ViewOptions(
+        options.get("focus", ""),
+        options.get("depth", 0),
+        options.get("external", False),
+        tuple(options.get("edges", KINDS)),
+        options.get("reduce", False),
+    )
+    title = os.path.basename(os.path.realpath(options["paths"][0]))
+    return graph.run(workspace, options["format"], chosen, metrics=options.get("metrics", False), title=title)
+
 
 _COMMANDS: Mapping[str, Callable[[Workspace, Mapping[str, Any]], CommandOutput]] = {
     "order": lambda workspace, options: order.run(workspace),
     "overlay": lambda workspace, options: overlay.run(workspace),
-    "graph": lambda workspace, options: graph.run(workspace, options["format"], metrics=options.get("metrics", False)),
+    "graph": _graph,
     "explain-package": lambda workspace, options: explain_package.run(workspace, options["package"], options["format"]),
     "why": lambda workspace, options: (
         explain_silence.run(workspace, options["package"], options["dependency"])

@@ -1,0 +1,136 @@
+"""What ``ros-lint graph`` draws, and its page in a browser."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from ros_lint.cli.commands import graph
+from ros_lint.cli.commands.graph_view import ViewOptions, view
+from ros_lint.cli.session import UsageError
+from ros_lint.workspace.model import Workspace
+from tests.one_package import loaded
+from tests.packages import manifest_text
+
+DIAMOND = {
+    "top": ["<depend>left</depend>", "<depend>right</depend>", "<depend>low</depend>"],
+    "left": ["<depend>low</depend>"],
+    "right": ["<depend>low</depend>", "<test_depend>rclcpp</test_depend>"],
+    "low": ["<depend>rclcpp</depend>"],
+    "apart": [],
+}
+KNOT = {"a": ["<depend>b</depend>"], "b": ["<test_depend>a</test_depend>"], "c": ["<depend>a</depend>"]}
+
+
+def workspace(depends: dict[str, list[str]]) -> Workspace:
+    files = {f"{name}/package.xml": manifest_text(name, tags) for name, tags in depends.items()}
+    return loaded({**files, **{f"{name}/CMakeLists.txt": f"project({name})\n" for name in depends}})
+
+
+def edges(options: ViewOptions, depends: dict[str, list[str]] | None = None) -> set[tuple[str, str]]:
+    return {(edge.start, edge.end) for edge in view(workspace(depends or DIAMOND), options).edges}
+
+
+def names(options: ViewOptions) -> list[str]:
+    return [node.name for node in view(workspace(DIAMOND), options).nodes]
+
+
+def test_an_edge_that_a_longer_path_implies_is_left_out_on_request() -> None:
+    assert ("top", "low") in edges(ViewOptions())
+    assert edges(ViewOptions()) - edges(ViewOptions(reduce=True)) == {("top", "low")}
+
+
+def test_edges_of_a_cycle_are_never_implied() -> None:
+    assert edges(ViewOptions(reduce=True), KNOT) == {("a", "b"), ("b", "a"), ("c", "a")}
+    assert {(edge.start, edge.end) for edge in view(workspace(KNOT), ViewOptions()).edges if edge.in_cycle} == {
+        ("a", "b"),
+        ("b", "a"),
+    }
+
+
+def test_a_focus_has_its_dependencies_and_dependents() -> None:
+    assert names(ViewOptions(focus="left")) == ["left", "low", "top"]
+    assert names(ViewOptions(focus="low", depth=1)) == ["left", "low", "right", "top"]
+    assert names(ViewOptions(focus="apart")) == ["apart"]
+
+
+def test_an_unknown_focus_is_an_error_with_a_hint() -> None:
+    with pytest.raises(UsageError, match="there is no package 'lef' in the graph; did you mean 'left'"):
+        names(ViewOptions(focus="lef"))
+
+
+def test_external_packages_are_drawn_on_request() -> None:
+    drawn = view(workspace(DIAMOND), ViewOptions(external=True))
+    assert [node.path for node in drawn.nodes if node.name == "rclcpp"] == [""]
+    assert [(edge.start, edge.test_only) for edge in drawn.edges if edge.end == "rclcpp"] == [("low", False), ("right", True)]
+    assert ("right", "rclcpp") not in edges(ViewOptions(external=True, kinds=("build",)))
+
+
+def test_options_of_a_drawing_do_not_go_with_the_whole_graph() -> None:
+    with pytest.raises(UsageError, match="--format json is about the whole graph"):
+        graph.run(workspace(DIAMOND), "json", ViewOptions(reduce=True))
+
+
+def page(depends: dict[str, list[str]], title: str = "robot") -> str:
+    return graph.run(workspace(depends), "html", title=title)[0]
+
+
+def test_the_page_has_the_data_and_loads_nothing() -> None:
+    text = page(DIAMOND, "</script><b>")
+    assert "<title>Dependencies of &lt;/script&gt;&lt;b&gt;</title>" in text
+    assert text.count("</script>") == 2, "the data cannot end its element"
+    found = re.search(r'<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)
+    assert found
+    data = json.loads(found[1])
+    assert data["title"] == "</script><b>"
+    assert [node["name"] for node in data["nodes"]] == sorted(DIAMOND)
+    [implied] = [edge for edge in data["edges"] if edge["implied"]]
+    assert implied["reasons"] == [{"tag": "depend", "place": "top/package.xml:9", "kinds": ["build", "run"], "certain": True}]
+    assert not re.search(r"""(?:src|href)=|url\((?!#)|@import|fetch\(|XMLHttpRequest""", text)
+
+
+@pytest.mark.slow
+def test_the_page_in_a_browser(tmp_path: Path) -> None:
+    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    chromium = shutil.which("chromium")
+    if not chromium:
+        pytest.skip("chromium is not installed")
+    file = tmp_path / "graph.html"
+    file.write_text(page({**DIAMOND, **KNOT}), "utf-8")
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", "--disable-gpu"])
+        tab = browser.new_page()
+        errors: list[str] = []
+        tab.on("pageerror", lambda error: errors.append(str(error)))
+        tab.goto(file.as_uri())
+
+        def shown() -> list[str]:
+            return sorted(tab.locator(".node text").all_text_contents())
+
+        assert shown() == sorted([*DIAMOND, *KNOT])
+        assert "There is a dependency cycle" in tab.inner_text("#status")
+        tab.fill("#search", "left")
+        assert shown() == ["left", "low", "top"]
+        assert tab.inner_text("#details h2") == "left"
+        assert tab.evaluate("document.activeElement.getAttribute('aria-label')").startswith("left, ros.ament_cmake")
+        tab.keyboard.press("ArrowRight")
+        assert tab.inner_text("#details h2") == "low"
+        tab.keyboard.press("Enter")
+        assert shown() == ["left", "low", "right", "top"]
+        tab.keyboard.press("Escape")
+        assert len(shown()) == len(DIAMOND) + len(KNOT)
+        count = tab.locator("path.edge").count()
+        tab.check("#implied")
+        assert tab.locator("path.edge").count() == count + 1
+        tab.click("#matrix-button")
+        assert tab.locator("td button").count() == count + 1
+        assert tab.locator("td button.cycle").count() == 2
+        tab.fill("#search", "nothing_like_it")
+        tab.press("#search", "Enter")
+        assert tab.inner_text("#status") == "No package contains 'nothing_like_it'."
+        assert not errors
+        browser.close()
