@@ -135,7 +135,7 @@ class FixTrials:
         before = self.trial(changed)
         after = self.trial(new)
         unresolved = _unresolved(before, after, group)
-        new_findings = _new_findings(before, after)
+        new_findings = _new_findings(before, after, group)
         if new_findings and not unresolved and self._recovers_next_round(before, new, group, new_findings):
             return ()
         regressions = [
@@ -181,7 +181,7 @@ class FixTrials:
             after = self.trial(self.applied(changed, issues))
         except edits.EditError:
             return False
-        return not _new_findings(before, after) and not _unresolved(before, after, group)
+        return not _new_findings(before, after, group) and not _unresolved(before, after, group)
 
     def _text(self, changed: Mapping[str, bytes], path: str) -> Text:
         if path in changed:
@@ -195,14 +195,22 @@ def _edited_files(issue: Issue) -> Iterable[str]:
     return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
-def _new_findings(before: Trial, after: Trial) -> list[Issue]:
+def _new_findings(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
     """Return the new findings in any distribution, limited to high confidence and to rules that are on by default.
 
-    A finding whose confidence becomes high is new. Other findings may change: an undeclared dependency, for example, can become
-    a transitive dependency.
+    A finding about the subject of a fix is also new if its confidence becomes high. Other findings may change: an undeclared
+    dependency, for example, can become a transitive dependency.
     """
-    earlier, count = before.serious_counts(), after.serious_counts()
-    return [issue for issue in after.serious if any(count[name] > earlier[name] for name in after.identities(issue))]
+    earlier, count = before.identity_counts(), after.identity_counts()
+    earlier_serious, serious = before.serious_counts(), after.serious_counts()
+    fixed = {(issue.package, issue.finding.subject) for issue in group}
+
+    def is_new(issue: Issue, name: DistroIdentity) -> bool:
+        if count[name] > earlier[name]:
+            return True
+        return (issue.package, issue.finding.subject) in fixed and serious[name] > earlier_serious[name]
+
+    return [issue for issue in after.serious if any(is_new(issue, name) for name in after.identities(issue))]
 
 
 def _unresolved(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
