@@ -44,9 +44,12 @@ Not reported:
 - Libraries outside of ROS that are found with components, and all such libraries if nothing else is missing, because another
   exported package may find them.
 
+An included package that another exported package depends on is an info, because dependents find it as long as that package
+exports it.
+
 Reported with medium confidence:
 
-- An exported dependency provides the package, or may provide it.
+- An exported dependency whose own dependencies are unknown may provide the package.
 - The package exports no include directories, so its headers may be only for itself.
 - An exported target or `ament_export_include_directories()` contains the include directories of the other package literally.
 - The package exports no library that it builds, and the header belongs to a source of a program or of a plugin. Its
@@ -110,7 +113,7 @@ Lack = tuple[tuple[str, ...], Finding]
 
 def _is_certain(lack: Lack) -> bool:
     all_names, finding = lack
-    return bool(all_names) and finding.confidence is Confidence.HIGH
+    return bool(all_names) and finding.confidence is Confidence.HIGH and finding.severity is None
 
 
 def _together(lacks: Sequence[Lack], linked: Sequence[Lack], of_system: tuple[str, ...]) -> Lack:
@@ -300,16 +303,18 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
         remedy = f"add {'' if found else f'find_package({cmake_name} REQUIRED) and '}ament_export_dependencies({cmake_name})"
         if not compiled:
             remedy += ", or do not install the header, because other packages cannot compile it"
-        confidence = _confidence(package, workspace, name, exported, compiled) if compiled else Confidence.LOW
+        confidence, severity = _certainty(package, workspace, name, exported, compiled) if compiled else (Confidence.LOW, None)
+        lost = "; " if severity is None else ", so dependents only find it if another exported package does; "
         yield (
             (cmake_name,) if found and confidence is Confidence.HIGH else (),
             Finding(
-                f"'{name}' is included by this installed header, but not exported; {remedy}",
+                f"'{name}' is included by this installed header, but not exported{lost}{remedy}",
                 first.span,
                 name,
                 first_related(Related(f"also included here: {use.what}", use.span) for use in others),
                 None,
                 confidence,
+                severity,
             ),
         )
 
@@ -322,17 +327,24 @@ def _can_be_found(package: Package, workspace: Workspace, name: str) -> bool:
     return built == {"ament_cmake"} and bool(package.declares(name) & ~Role.TEST)
 
 
-def _confidence(package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]) -> Confidence:
+def _certainty(
+    package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]
+) -> tuple[Confidence, Severity | None]:
+    """Return the confidence and the severity of the finding for a package that installed headers include.
+
+    It is an info if a package in ``exported`` depends on ``name``, and has the severity of the rule (None) otherwise.
+    """
     script = package.script
     assert script is not None
     closure = dependencies.partial_closure(workspace, exported)
     provided = all(any(provider in closure for provider in use.providers) for use in uses)
-    if provided or (not closure.complete and dependencies.may_provide(closure.unknown, name, workspace)):
-        return Confidence.MEDIUM
+    if not (provided or closure.complete) and dependencies.may_provide(closure.unknown, name, workspace):
+        return Confidence.MEDIUM, None
+    severity = Severity.INFO if provided else None
     if _internal_sources(package, script).issuperset([build.stem(use.span.path) for use in uses]):
-        return Confidence.MEDIUM
+        return Confidence.MEDIUM, severity
     sure = _EXPORTS.intersection(script.commands.names) and not _is_written_out(package, workspace, name)
-    return Confidence.HIGH if sure else Confidence.MEDIUM
+    return Confidence.HIGH if sure else Confidence.MEDIUM, severity
 
 
 def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:

@@ -42,8 +42,12 @@ Reported with medium confidence:
 
 Reported with low confidence:
 
-- `<test_depend>` on a package that another dependency provides: it works until that dependency drops it.
 - Headers of a library that are not installed: their installation may have been forgotten.
+- `<test_depend>` on parts of launch that launch files import, if another dependency provides them.
+
+Two cases are infos, because they work for now:
+
+- `<test_depend>` on a package that another dependency provides: it works until that dependency drops it.
 - `<build_depend>` together with `<exec_depend>` for a package that is exported. Both are installed where other packages are
   built, but REP 149 requires `<build_export_depend>`.
 """
@@ -92,6 +96,7 @@ class _Wrong(NamedTuple):
     why: str
     uses: list[Use]
     confidence: Confidence
+    severity: Severity
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -107,6 +112,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first_related(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
             Fix(f"declare '{name}' as <{tag}>", dependencies.change_dependency(package, wrong.depends, tag, same_tag)),
             wrong.confidence,
+            wrong.severity,
         )
 
 
@@ -143,7 +149,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
         reported.add(name)
         depends = [declared.depend for declared in tags if declared.name == name]
         tag = dependencies.tag_for(package, workspace, name, exported.role | (_given(tags, name) & ~_TEST))
-        yield _Wrong(name, depends, tag, lacking.why, uses, lacking.confidence)
+        yield _Wrong(name, depends, tag, lacking.why, uses, lacking.confidence, lacking.severity)
 
 
 def _is_for_all(declared: Declared) -> bool:
@@ -186,6 +192,7 @@ class _Lack(NamedTuple):
     role: Role
     why: str
     confidence: Confidence = Confidence.HIGH
+    severity: Severity = Severity.WARNING
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
@@ -232,7 +239,10 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
             return _Lack(role, why)
         named = any(use.certain and use.via != "macro" and _is_about(use, role) for use in need.uses)
         indirect = f"{why}, where it comes with other dependencies"
-        return _Lack(role, indirect, Confidence.LOW) if named and is_provided(~_TEST, surely=True) else None
+        if not (named and is_provided(~_TEST, surely=True)):
+            return None
+        by_launch = dependencies.is_part_of_launch(package, workspace, [use for use in need.uses if use.role & ~_TEST])
+        return _Lack(role, indirect, Confidence.LOW if by_launch else Confidence.HIGH, Severity.INFO)
     if not given & _TEST and missing(Role.BUILD, _TO_BUILD):
         # The sources of the package may not need the headers that include it.
         handed_on = given & Role.EXPORT and all(use.role & Role.EXPORT for use in need.uses if _is_about(use, Role.BUILD))
@@ -252,7 +262,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
     if missing(Role.EXPORT, Role.EXPORT):
         if packages:
             why = "but it is part of the public interface, so REP 149 requires <build_export_depend> as well"
-            return _Lack(Role.EXPORT, why, Confidence.LOW)
+            return _Lack(Role.EXPORT, why, severity=Severity.INFO)
         return _Lack(Role.EXPORT, "but packages that build against this package need it, too", Confidence.MEDIUM)
     return None
 
