@@ -48,7 +48,7 @@ def test_the_output_equals_the_golden_file(file: str, name: str, form: str, styl
 
 def test_an_unknown_format_raises_an_error() -> None:
     with pytest.raises(KeyError):
-        reporter("html")
+        reporter("word")
 
 
 @pytest.mark.parametrize("form", FORMATS)

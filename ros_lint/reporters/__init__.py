@@ -29,4 +29,4 @@ def reporter(name: str) -> Reporter:
     return render
 
 
-FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab")
+FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab", "html")
