@@ -47,7 +47,7 @@ A folder that nothing in the package names is reported with high confidence in t
 - It contains models or worlds, and the package has files only and installs no other model.
 - A file is looked up in it that does not exist and is not ignored by git.
 - It is the only folder of resources that is left out, and the package installs at least two others. The finding is an info.
-  Folders of maps and meshes are excepted, because maps are recorded and most unused meshes are left over.
+  Folders of maps, meshes and launch files of ROS 1 are excepted, because maps are recorded and the others are left over.
 """
 
 from __future__ import annotations
@@ -248,19 +248,19 @@ class _FolderFindings:
         in_sources = f"{folder}/" in self._script.files.build_inputs
         if any(file in self._node_parameters for file in file_paths) and not in_sources:
             return Confidence.HIGH, Severity.WARNING
-        for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in file_paths)
-        if copied or in_sources or not for_run_time:
+        if copied or in_sources or not file_paths:
             return Confidence.MEDIUM, Severity.WARNING
+        for_run_time = any(file.lower().endswith(_RUN_TIME) or "/textures/" in file for file in file_paths)
         lost = self._lacks_models and any(file.lower().endswith(_OF_MODELS) for file in file_paths)
-        if "/" in folder or self._resources_only or lost:
+        if for_run_time and ("/" in folder or self._resources_only or lost):
             return Confidence.HIGH, Severity.WARNING
         if folder == self._only_one_left_out and folder not in _KEPT_IN_SOURCES:
             return Confidence.HIGH, Severity.INFO
         return Confidence.MEDIUM, Severity.WARNING
 
 
-_KEPT_IN_SOURCES = ("map", "maps", "mesh", "meshes")
-"""Folders whose files are often recorded or left over."""
+_KEPT_IN_SOURCES = ("launch", "map", "maps", "mesh", "meshes")
+"""Folders whose files are often recorded or left over, such as launch files of ROS 1."""
 
 
 def _only_one_left_out(package: Package, script: BuildScript, folders: Iterable[str]) -> str:
