@@ -15,8 +15,8 @@ Via = Literal["package", "cmake", "macro", "target", "include", "import", "inter
 Example: the rosdep key ``eigen`` is ``Eigen3`` to find_package() and ``Eigen/`` in an include.
 """
 
-Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool", "conditional"]
-"""Purpose for which CMake or a model uses a package; "" is the usual case: code.
+Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool", "conditional", "unused"]
+"""Purpose for which a package is used, as far as a collector knows it; "" is the usual case: code.
 
 * "export": to pass the package on to dependents.
 * "interfaces": to generate the code of interfaces.
@@ -24,6 +24,7 @@ Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool", "cond
 * "helper": a command of another package of the workspace calls the package.
 * "tool": to run a program of the package in the build.
 * "conditional": for a part of a model that xacro leaves out unless an argument is passed.
+* "unused": for an import whose names the source never uses.
 """
 
 
@@ -46,7 +47,7 @@ class Mention(NamedTuple):
     test: bool = False
     """True if the place is known to serve tests only."""
     purpose: Purpose = ""
-    """Purpose for which CMake or a model uses the package."""
+    """Purpose for which the package is used."""
 
 
 class Use(NamedTuple):
@@ -72,6 +73,8 @@ class Use(NamedTuple):
     """Name at the place, in the name space ``via``: a header path, a module, a name of find_package."""
     conditional: bool = False
     """True if the place is in a part of a model that xacro leaves out unless an argument is passed."""
+    unused: bool = False
+    """True if the place is an import whose names the source never uses."""
 
 
 class LookUp(NamedTuple):

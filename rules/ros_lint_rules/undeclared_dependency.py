@@ -93,8 +93,10 @@ The severity is lower if the package works where it is built, launched and teste
 
 - info for modules of launch and its dependencies that only launch files import, because `ros2 launch` provides them;
 - warning for `python3-pytest`, because colcon itself depends on it;
-- warning for libraries in requirement files or `install_requires`, if rosdep installs them by pip or only on some platforms;
+- warning for libraries that rosdep installs by pip, because released packages cannot depend on them;
+- warning for libraries in requirement files or `install_requires`, if rosdep installs them only on some platforms;
 - warning for public headers that the package itself does not compile, because dependents that declare the package build;
+- warning for imports whose names the file never uses: remove the import, or declare the package; the fix is unsafe;
 - warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs;
 - warning for files that a model looks up in `<xacro:if value="$(arg x)">`, if the default of the argument `x` is false.
 """
@@ -134,12 +136,19 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             or _is_unreached(package, need)
             or _is_only_in_uncompiled_headers(package, need)
             or _is_left_to_pip(package, workspace, need)
+            or _is_unused(need)
         )
         severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
             message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
             finding = finding._replace(message=message, fix=None)
+        elif _is_unused(need) and finding.fix:
+            message = (
+                f"'{need.name}' is imported but unused, and package.xml does not declare it: remove the import, or declare "
+                f"'{need.name}'"
+            )
+            finding = finding._replace(message=message, fix=finding.fix._replace(safe=False))
         elif call := _leftover(package, workspace, need):
             message = f"package.xml does not declare '{need.name}', and nothing in this package uses it; remove {call}"
             finding = finding._replace(message=message, fix=None)
@@ -193,6 +202,8 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         )
     else:
         message = f"'{name}' {problem}: add {proposal.written}{_provided_elsewhere(package, workspace, name)}"
+        if instead := _instead_of_distutils(best):
+            message = f"Python 3.12 removed '{best.name}': use {instead}, or add {proposal.written}, which still provides it"
         if _needs_back(name, package, workspace):
             message = (
                 f"'{name}' {problem}; '{name}' also uses '{package.name}', but two packages cannot declare each other: "
@@ -234,6 +245,11 @@ def _is_in_unreached_module(package: Package, use: Use) -> bool:
     return use.via == "import" and package.relative(use.span.path) in package.unreached_modules
 
 
+def _is_unused(need: dependencies.Need) -> bool:
+    """Return whether only imports need the package whose names the sources never use."""
+    return all(use.unused for use in need.uses)
+
+
 def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
     """Return whether only public headers that this package does not compile need the package.
 
@@ -251,14 +267,18 @@ def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) ->
 
 
 def _is_left_to_pip(package: Package, workspace: Workspace, need: dependencies.Need) -> bool:
-    """Return whether a requirement file or setup.py names a library that rosdep installs by pip, or not on every platform."""
+    """Return whether rosdep installs a needed library by pip.
+
+    True also for a library that rosdep does not install on every platform, if a requirement file or setup.py names it.
+    """
     if workspace.world.is_package(need.name) or not all(use.via == "import" for use in need.uses):
         return False
+    if dependencies.is_of_pip(workspace, need.name):
+        return True
     library = need.name.removeprefix("python3-").removesuffix("-pip").replace("-", "_").lower()
     modules = {use.name.partition(".")[0].lower() for use in need.uses}
-    if package.pip_requirements.isdisjoint({library, *modules}):
-        return False
-    return dependencies.is_of_pip(workspace, need.name) or bool(dependencies.availability_remark(workspace, need.name))
+    is_required = not package.pip_requirements.isdisjoint({library, *modules})
+    return is_required and bool(dependencies.availability_remark(workspace, need.name))
 
 
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
@@ -325,6 +345,23 @@ def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Ne
     )
 
 
+def _instead_of_distutils(use: Use) -> str:
+    """Return the replacement for a module of distutils that an import names, "" for any other use."""
+    module = use.name if use.via == "import" else ""
+    return _INSTEAD_OF_DISTUTILS.get(module, "setuptools") if module.partition(".")[0] == "distutils" else ""
+
+
+_INSTEAD_OF_DISTUTILS = {
+    "distutils.archive_util": "shutil.make_archive()",
+    "distutils.dir_util": "shutil.copytree(), shutil.rmtree() and os.makedirs()",
+    "distutils.file_util": "shutil.copy() and shutil.move()",
+    "distutils.log": "logging",
+    "distutils.spawn": "subprocess.run() and shutil.which()",
+    "distutils.sysconfig": "sysconfig",
+    "distutils.util": "a function of your own, such as for strtobool(), or sysconfig.get_platform()",
+    "distutils.version": "packaging.version.Version (key python3-packaging)",
+}
+"""Replacements for the modules of distutils, as PEP 632 recommends; setuptools replaces all others."""
 _PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
 _IN_BUILD_SCRIPT = frozenset({"cmake", "target"})

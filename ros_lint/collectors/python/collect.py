@@ -11,6 +11,7 @@ from ros_lint.collectors.python.imports import added_folders, scan
 from ros_lint.collectors.python.lookups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python.source_errors import NotPythonError, TooDeepError
 from ros_lint.collectors.python.syntax import parse, refusal
+from ros_lint.collectors.python.unused_imports import unused_imports
 from ros_lint.facts.sources import FileFacts, ImportedType, Mention
 from ros_lint.facts.visibility import Facet, Opaque
 
@@ -32,7 +33,8 @@ _LONGEST_NAME = 100
 def collect(source: Text, *, launch: bool = False) -> FileFacts:
     """Return the modules that a Python file imports and the packages that it looks up.
 
-    - An absolute import is a mention of the dotted module, with ``via="import"``. Relative imports are omitted.
+    - An absolute import is a mention of the dotted module, with ``via="import"``. Relative imports are omitted. The purpose is
+      "unused" if the source never uses the imported names.
     - A look-up such as ``get_package_share_directory("p")`` is a mention of ``p``, with ``via="package"``. If the name
       of the package is computed, the look-up is opaque instead.
     - Paths of files in the share folder of a package, such as ``get_package_share_directory("p") + "/a.yaml"``, are in
@@ -49,8 +51,16 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
     spans = list(source.spans([(item.start, item.start + len(item.module)) for item in named]))
     folders = added_folders(source.text) if "sys.path" in source.text else ()
     added = tuple([span for item, span in zip(named, spans, strict=True) if not item.caught and _is_added(item, folders)])
+    unused = unused_imports(source.text, source.path, named)
     mentions = [
-        Mention(item.module, "import", span, f"import of {item.module}{_remark(item, span in added)}", item.optional)
+        Mention(
+            item.module,
+            "import",
+            span,
+            f"import of {item.module}{_remark(item, span in added)}",
+            item.optional,
+            purpose="unused" if item.start in unused else "",
+        )
         for item, span in zip(named, spans, strict=True)
     ]
     opaque = [

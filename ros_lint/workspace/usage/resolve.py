@@ -312,6 +312,7 @@ class _Uses:
                     in_use and certain,
                     name,
                     purpose == "conditional",
+                    purpose == "unused",
                 ),
             )
 
