@@ -36,6 +36,9 @@ Reported with medium confidence:
 - Executables that are not nodes and are installed to `lib/` together with a library.
 - Executables that only launch files start that are not installed, if a rule excludes one of them on purpose (`PATTERN x
   EXCLUDE`).
+
+Executables with the same problem are one finding. It is an error if launch files start them, and a warning if nothing does,
+because they may be run from the build folder.
 """
 
 from __future__ import annotations
@@ -46,6 +49,7 @@ from ros_lint.api import (
     BuildScript,
     BuildTarget,
     Confidence,
+    Consequence,
     Facet,
     Finding,
     Fix,
@@ -60,6 +64,7 @@ from ros_lint.api import (
     edits,
     first_related,
     launch,
+    names,
 )
 
 _BIN = ("bin", "${CMAKE_INSTALL_BINDIR}", "lib", "${CMAKE_INSTALL_LIBDIR}")
@@ -69,6 +74,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake":
         return
+    alike: dict[tuple[str, Confidence, Severity | None, bool], list[Finding]] = {}
+    for problem, finding in _problems(package, script, workspace):
+        alike.setdefault((problem, finding.confidence, finding.severity, finding.fix is None), []).append(finding)
+    for (problem, *_), findings in alike.items():
+        yield _merged(problem, findings, script, package)
+
+
+def _problems(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[tuple[str, Finding]]:
+    """Yield each executable that is not installed to lib/<package>: the problem, and a finding without a message."""
     unseen, own = build.opaque_except_undefined_targets(package, Facet.EXECUTABLES), f"lib/{package.name}"
     if any("INSTALL_TO_PATH" in call.texts for call in package.calls("ament_auto_package", anywhere=True)):
         return
@@ -94,29 +108,55 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 folder != "lib" or _installs_executables_only(package, span, script.products.targets)
                 for folder, _, span in installed
             )
+        consequence = (Consequence("launch-unknown-executable", target.name),)
         if installed and (
             sure or nowhere or any(file.startswith("include/") for file in build.files_using_client_library(package))
         ):
             folder, _, span = installed[0]
-            finders = "ros2 run, launch and the shell" if nowhere else "ros2 run and launch"
-            yield Finding(
-                f"'{target.name}' is installed to {folder}/, where {finders} do not find it; install it to {own}",
+            uncertain = not sure or any(opaque.reaches(own) for opaque in unseen)
+            finding = Finding(
+                "",
                 span,
                 target.name,
                 (*related, Related("built here", target.span)),
                 _destination_fix(package, span, script.products.targets),
-                Confidence.MEDIUM if not sure or any(opaque.reaches(own) for opaque in unseen) else Confidence.HIGH,
+                Confidence.MEDIUM if uncertain else Confidence.HIGH,
+                None if launched else Severity.WARNING,
+                explains=consequence,
             )
-        elif not installed and launched and not unseen:
-            state = ", but not installed, so launch does not find it"
+            finders = "ros2 run, launch and the shell" if nowhere else "ros2 run and launch"
+            yield f"installed to {folder}/, where {finders} do not find {{them}}", finding
+            continue
+        finding = Finding("", target.span, target.name, related, explains=consequence, severity=Severity.WARNING)
+        if not installed and launched and not unseen:
             confidence = Confidence.MEDIUM if _only_excluded_start(package, target.name, launched, workspace) else Confidence.HIGH
-            yield _uninstalled(package, script, target, state)._replace(related=related, confidence=confidence)
+            problem = "built, but not installed, so launch does not find {them}"
+            yield problem, finding._replace(confidence=confidence, severity=None)
         elif target.name in forgotten:
-            yield _uninstalled(package, script, target, ", but nothing that the package builds is installed")
+            yield "built, but nothing that the package builds is installed", finding
         elif target.name in left_out:
-            state = ", but not installed, unlike other nodes of the package"
             confidence = Confidence.MEDIUM if _only_excluded_start(package, target.name, (), workspace) else Confidence.HIGH
-            yield _uninstalled(package, script, target, state)._replace(severity=Severity.WARNING, confidence=confidence)
+            yield "built, but not installed, unlike other nodes of the package", finding._replace(confidence=confidence)
+
+
+def _merged(problem: str, findings: Sequence[Finding], script: BuildScript, package: Package) -> Finding:
+    """Return one finding for executables with the same problem."""
+    first, *others = findings
+    subjects = [finding.subject for finding in findings]
+    are, them = ("are", "them") if others else ("is", "it")
+    fixes = [finding.fix for finding in findings if finding.fix]
+    place = "installed here" if "do not find" in problem else "built here"
+    if place == "built here":
+        fix = Fix.of(f"install {names.shorten_list(subjects)}", edits.cmake.install_program(script, "TARGETS", *subjects))
+    else:
+        changes = dict.fromkeys(edit for fix in fixes for edit in fix.edits)
+        fix = fixes[0]._replace(edits=tuple(changes)) if fixes else None
+    return first._replace(
+        message=f"{names.shorten_list(subjects)} {are} {problem.format(them=them)}; install {them} to lib/{package.name}",
+        related=(*first.related, *first_related(Related(f"'{other.subject}' is {place}", other.span) for other in others)),
+        fix=fix,
+        explains=tuple(consequence for finding in findings for consequence in finding.explains),
+    )
 
 
 def _is_outside_packages(folder: str) -> bool:
@@ -143,11 +183,6 @@ def _only_excluded_start(package: Package, name: str, launched: Sequence[LaunchR
         else ()
     )
     return not any(launch_file.file.path in paths for launch_file in files)
-
-
-def _uninstalled(package: Package, script: BuildScript, target: BuildTarget, state: str) -> Finding:
-    fix = Fix.of(f"install '{target.name}'", edits.cmake.install_program(script, "TARGETS", target.name))
-    return Finding(f"'{target.name}' is built{state}; install it to lib/{package.name}", target.span, target.name, fix=fix)
 
 
 def _installs_executables_only(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> bool:

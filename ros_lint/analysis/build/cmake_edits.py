@@ -38,9 +38,9 @@ def install_library(script: BuildScript, name: str) -> Edit | None:
     return at_end(script, _LIBRARY.format(name))
 
 
-def install_program(script: BuildScript, kind: str, name: str) -> Edit | None:
-    """Return the edit that installs a program into ``lib/<package>``. ``kind`` is TARGETS or PROGRAMS."""
-    return at_end(script, f"install({kind} {_word(name)} DESTINATION lib/${{PROJECT_NAME}})")
+def install_program(script: BuildScript, kind: str, *names: str) -> Edit | None:
+    """Return the edit that installs programs into ``lib/<package>``. ``kind`` is TARGETS or PROGRAMS."""
+    return at_end(script, f"install({kind} {' '.join(map(_word, names))} DESTINATION lib/${{PROJECT_NAME}})")
 
 
 def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
