@@ -154,3 +154,18 @@ def test_an_unused_find_package_explains_that_its_tag_does_not_cover_the_export(
     (issue,) = without_explained(issues)
     assert issue.rule.name == "unused-find-package"
     assert [(explained.rule, explained.subject) for explained in issue.explained] == [("wrong-dependency-kind", "std_msgs")]
+
+
+def test_a_remapping_to_its_own_name_explains_that_the_argument_is_unused() -> None:
+    files = {
+        "arm/package.xml": manifest("launch_ros"),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\n"
+        "install(DIRECTORY launch DESTINATION share/arm)\nament_package()\n",
+        "arm/launch/arm.launch.xml": '<launch><arg name="in/a" default="a"/>'
+        '<node pkg="tf2_ros" exec="x"><remap from="in/a" to="in/a"/></node></launch>',
+    }
+    names_of_rules = ("remap-no-effect", "launch-unused-argument")
+    issues, _ = run_rules(loaded(files), tuple(rule for rule in registry.load() if rule.name in names_of_rules))
+    (issue,) = without_explained(issues)
+    assert issue.rule.name == "remap-no-effect"
+    assert [(explained.rule, explained.subject) for explained in issue.explained] == [("launch-unused-argument", "in/a")]

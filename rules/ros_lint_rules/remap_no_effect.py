@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, LaunchValue, Package, Rule, Severity, Span, Workspace, launch
+from ros_lint.api import Confidence, Consequence, Finding, LaunchValue, Package, Rule, Severity, Span, Workspace, launch
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -63,6 +63,7 @@ def _of_pair(before: LaunchValue, after: LaunchValue, arguments: set[str]) -> It
             name,
             confidence=Confidence.HIGH if is_argument else Confidence.MEDIUM,
             severity=Severity.WARNING if is_argument else None,
+            explains=(Consequence("launch-unused-argument", name),) if is_argument else (),
         )
 
 

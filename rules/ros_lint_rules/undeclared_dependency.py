@@ -95,6 +95,8 @@ The severity is lower if the package works where it is built, launched and teste
 - warning for `python3-pytest`, because colcon itself depends on it;
 - warning for libraries that rosdep installs by pip, because released packages cannot depend on them;
 - warning for libraries in requirement files or `install_requires`, if rosdep installs them only on some platforms;
+- warning for `ros_environment`, which `ros_core` installs, so that the variables are unset only on the build farm;
+- warning for packages that other dependencies provide in some distributions, if no distribution was chosen;
 - warning for public headers that the package itself does not compile, because dependents that declare the package build;
 - warning for imports whose names the file never uses: remove the import, or declare the package; the fix is unsafe;
 - warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs;
@@ -137,6 +139,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             or _is_only_in_uncompiled_headers(package, need)
             or _is_left_to_pip(package, workspace, need)
             or _is_unused(need)
+            or _is_of_environment(need)
         )
         severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
@@ -180,6 +183,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     proposal = dependencies.remedy(package, workspace, name, role)
     elsewhere = _elsewhere(name, workspace)
     condition, suggestion = _condition(package, name), _suggestion(name, workspace)
+    is_partial = proposal.conditional or bool(_provided_elsewhere(package, workspace, name))
     if proposal.circular:
         message = f"'{name}' is used here, but cannot be declared: {proposal.obstacle}"
     elif elsewhere:
@@ -216,7 +220,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         first_related(Related(f"also used here: {use.what}", use.span) for use in others),
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
-        Severity.WARNING if (proposal.conditional and not workspace.target.explicit) or _is_conditional(need) else None,
+        Severity.WARNING if _is_conditional(need) or (not workspace.target.explicit and is_partial) else None,
     )
 
 
@@ -243,6 +247,11 @@ def _is_unreached(package: Package, need: dependencies.Need) -> bool:
 
 def _is_in_unreached_module(package: Package, use: Use) -> bool:
     return use.via == "import" and package.relative(use.span.path) in package.unreached_modules
+
+
+def _is_of_environment(need: dependencies.Need) -> bool:
+    """Return whether only environment variables need the package: ros_core installs ros_environment, which sets them."""
+    return all(use.what.startswith("$ENV{") for use in need.uses)
 
 
 def _is_unused(need: dependencies.Need) -> bool:

@@ -49,7 +49,6 @@ from ros_lint.api import (
     BuildScript,
     BuildTarget,
     Confidence,
-    Consequence,
     Facet,
     Finding,
     Fix,
@@ -108,7 +107,6 @@ def _problems(package: Package, script: BuildScript, workspace: Workspace) -> It
                 folder != "lib" or _installs_executables_only(package, span, script.products.targets)
                 for folder, _, span in installed
             )
-        consequence = (Consequence("launch-unknown-executable", target.name),)
         if installed and (
             sure or nowhere or any(file.startswith("include/") for file in build.files_using_client_library(package))
         ):
@@ -122,12 +120,11 @@ def _problems(package: Package, script: BuildScript, workspace: Workspace) -> It
                 _destination_fix(package, span, script.products.targets),
                 Confidence.MEDIUM if uncertain else Confidence.HIGH,
                 None if launched else Severity.WARNING,
-                explains=consequence,
             )
             finders = "ros2 run, launch and the shell" if nowhere else "ros2 run and launch"
             yield f"installed to {folder}/, where {finders} do not find {{them}}", finding
             continue
-        finding = Finding("", target.span, target.name, related, explains=consequence, severity=Severity.WARNING)
+        finding = Finding("", target.span, target.name, related, severity=Severity.WARNING)
         if not installed and launched and not unseen:
             confidence = Confidence.MEDIUM if _only_excluded_start(package, target.name, launched, workspace) else Confidence.HIGH
             problem = "built, but not installed, so launch does not find {them}"
@@ -155,7 +152,6 @@ def _merged(problem: str, findings: Sequence[Finding], script: BuildScript, pack
         message=f"{names.shorten_list(subjects)} {are} {problem.format(them=them)}; install {them} to lib/{package.name}",
         related=(*first.related, *first_related(Related(f"'{other.subject}' is {place}", other.span) for other in others)),
         fix=fix,
-        explains=tuple(consequence for finding in findings for consequence in finding.explains),
     )
 
 
