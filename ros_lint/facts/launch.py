@@ -30,6 +30,8 @@ class LaunchValue(NamedTuple):
     """True if ``span`` covers exactly the only text, without its quotes, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
     """Conditions of a parameter or parameter file; it is passed only if all of them hold."""
+    guards: tuple[tuple[LaunchCondition, ...], ...] = ()
+    """For each of ``texts`` the conditions under which it applies; () if no text has conditions."""
 
 
 class LaunchCondition(NamedTuple):

@@ -388,7 +388,7 @@ class _Run:
                 *(
                     (name, self._texts(value, scope))
                     for name, value in action.parameters
-                    if not value.conditions or self._filling.truth(value.conditions, scope)[0] is not False
+                    if self._filling.may_hold(value.conditions, scope)
                 ),
             ),
             (

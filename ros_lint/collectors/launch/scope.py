@@ -62,7 +62,13 @@ class Filling:
 
     def texts(self, value: LaunchValue | None, scope: LaunchScope) -> Texts:
         """Return the possible texts of a value in a scope, () if ``value`` is None."""
-        return () if value is None else self._filled(value.texts, scope)
+        if value is None:
+            return ()
+        if not value.guards:
+            return self._filled(value.texts, scope)
+        pairs = zip(value.texts, value.guards, strict=True)
+        possible = tuple([text for text, guards in pairs if self.may_hold(guards, scope)])
+        return self._filled(possible or value.texts, scope)
 
     def _filled(self, texts: Texts, scope: LaunchScope) -> Texts:
         if len(texts) == 1 and is_settled(texts[0]) and OWN_FOLDER not in texts[0]:
@@ -106,6 +112,13 @@ class Filling:
                 yield f"the launch configuration '{name}' is not set"
         if UNKNOWN in text:
             yield "it is computed in a way that ros-lint cannot follow"
+
+    def may_hold(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> bool:
+        """Return False if one of the conditions is false in a scope. No reason is recorded for unknown conditions."""
+        reasons = dict(self.unknown)
+        truth, _ = self.truth(conditions, scope)
+        self.unknown = reasons
+        return truth is not False
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
         """Return whether all conditions hold in a scope, None if unknown, and the conditions whose truth is unknown."""

@@ -20,6 +20,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Value,
     Written,
     alternatives,
+    around,
     plain,
     union,
 )
@@ -210,26 +211,32 @@ def _parameters(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[str,
 
 def _parameter(walker: Walker, value: Value, node: ast.expr, launch_object: LaunchObject) -> list[tuple[str, LaunchValue]]:
     result: list[tuple[str, LaunchValue]] = []
-    pending = [("", value, node)]
+    pending: list[tuple[str, Value, ast.expr, Conditions]] = [("", value, node, ())]
     for _ in range(_MAX_PARAMETERS):
         if not pending:
             break
         walker.machine.budget.step(_STEPS_PER_PARAMETER)
-        name, item, place = pending.pop()
+        name, item, place, conditions = pending.pop()
         if isinstance(item, dict):
             walker.machine.budget.step(len(item))
             names = [f"{name}.{key}" if name else _key(key) for key in item]
-            pending += reversed(list(zip(names, map(plain, item.values()), _elements(place, len(item)), strict=True)))
+            rows = zip(names, item.values(), _elements(place, len(item)), strict=True)
+            pending += reversed([(key, plain(inner), at, (*conditions, *around(inner))) for key, inner, at in rows])
         elif isinstance(item, (list, tuple)) and not name and not all(_names_file(plain(part)) for part in item):
             walker.machine.budget.step(len(item))
-            pending += reversed([("", plain(inner), at) for inner, at in zip(item, _elements(place, len(item)), strict=True)])
+            places = _elements(place, len(item))
+            pending += reversed(
+                [("", plain(inner), at, (*conditions, *around(inner))) for inner, at in zip(item, places, strict=True)]
+            )
         elif name:
-            result.append((name, walker.text(_list(item), place, launch_object.source)))
+            text = walker.text(_list(item), place, launch_object.source)
+            result.append((name, text._replace(conditions=(*conditions, *text.conditions))))
         else:
             # An unknown value is usually a dictionary of parameters, not a file.
             is_file = isinstance(item, (list, tuple)) or _names_file(item)
             name = "" if is_file else UNKNOWN
-            result += [(name, value) for value in walker.each_text(item, place, launch_object.source)]
+            separate = walker.each_text(item, place, launch_object.source)
+            result += [(name, text._replace(conditions=(*conditions, *text.conditions))) for text in separate]
     return result
 
 

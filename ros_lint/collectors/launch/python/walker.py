@@ -150,7 +150,7 @@ class Walker:
             actions.append(
                 action._replace(
                     target=LaunchValue((str(text),), action.target.span),
-                    package=action.package._replace(texts=together or action.package.texts) if action.package else None,
+                    package=action.package._replace(texts=together, guards=()) if action.package and together else action.package,
                     conditions=_merged(action.conditions, conditions),
                 )
             )
@@ -196,7 +196,9 @@ class Walker:
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
         """Return the possible texts of a value, with the span of the literal that the value comes from, else of ``node``."""
-        choices = (str(value),) if isinstance(value, str) else _plain(texts(value, TextEvaluation(self.machine.budget)))
+        symbolic = (value,) if isinstance(value, str) else texts(value, TextEvaluation(self.machine.budget))
+        choices = _plain(symbolic)
+        guards = _guards(symbolic, choices)
         origin = plain(value)
         while isinstance(origin, LaunchObject) and origin.name in ("TextSubstitution", "ParameterFile", "ParameterValue"):
             origin = plain(origin.get(0, "text", "param_file", "value"))
@@ -206,7 +208,7 @@ class Walker:
             node, source = origin.node, origin.source
         span = span_of(node, source)
         if not isinstance(node, ast.Constant) or len(choices) != 1 or not choices[0] or node.value != choices[0]:
-            return LaunchValue(choices, span)
+            return LaunchValue(choices, span, guards=guards)
         path, line, column, last, end = span
         if line == last and end - column == len(choices[0]) + 2:  # the literal contains no escapes
             return LaunchValue(choices, Span(path, line, column + 1, last, end - 1), exact=True)
@@ -226,7 +228,7 @@ class Walker:
         pairs = [(text, symbolic_text.conditions_of(text)) for text in self._alternatives(value)]
         if not all(conditions for _, conditions in pairs):
             return [combined]
-        return [combined._replace(texts=(str(text),), conditions=conditions) for text, conditions in pairs]
+        return [combined._replace(texts=(str(text),), conditions=conditions, guards=()) for text, conditions in pairs]
 
     def package_span(self, value: LaunchValue | None) -> Span | None:
         """Return the span of the first look-up of a package whose install path is in a value, None if there is none."""
@@ -256,6 +258,21 @@ class Walker:
 
 def _plain(texts: Iterable[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys([str(text) for text in texts]))
+
+
+def _guards(texts: Iterable[str], choices: tuple[str, ...]) -> tuple[Conditions, ...]:
+    """Return the conditions of each of ``choices``, the distinct ones of ``texts``; () if there is one choice, or no conditions.
+
+    A choice that occurs under several conditions has none.
+    """
+    if len(choices) < 2:
+        return ()
+    conditions: dict[str, Conditions] = {}
+    for text in texts:
+        own = symbolic_text.conditions_of(text)
+        conditions[str(text)] = own if conditions.get(str(text), own) == own else ()
+    guards = tuple([conditions[choice] for choice in choices])
+    return guards if any(guards) else ()
 
 
 def _merged(left: Conditions, right: Conditions) -> Conditions:

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.python.interpreter.dictionaries import store
 from ros_lint.collectors.python.interpreter.methods import items, more, replace
 from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
 from ros_lint.collectors.python.interpreter.values import (
@@ -19,6 +20,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Value,
     Written,
     alternatives,
+    around,
     cause,
     plain,
     union,
@@ -70,7 +72,7 @@ def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> 
     elif isinstance(target, ast.Attribute):
         for alternative in alternatives(machine.evaluate(target.value, frame)):
             if isinstance(alternative.value, Instance):
-                alternative.value.attributes[target.attr] = value
+                _set_attribute(machine, alternative.value, target.attr, value)
             elif isinstance(alternative.value, LaunchObject):
                 alternative.value.keywords[target.attr] = value
             else:
@@ -79,6 +81,15 @@ def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> 
         _store(machine, target, value, frame)
     elif isinstance(target, ast.Starred):
         bind(machine, target.value, value, frame)
+
+
+def _set_attribute(machine: Interpreter, owner: Instance, name: str, value: Value) -> None:
+    """Set an attribute of an object. If conditions hold that did not hold when it was created, the old value remains possible."""
+    beyond = tuple([condition for condition in machine.conditions if condition not in owner.conditions])
+    before = owner.attributes[name] if name in owner.attributes else owner.cls.find(name)
+    if beyond and before is not None:
+        value = union([machine.removed(before), Guarded(value, beyond)])
+    owner.attributes[name] = value
 
 
 def _unpack(machine: Interpreter, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
@@ -102,11 +113,7 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
         if isinstance(owner, list) and isinstance(key, slice):
             _store_slice(machine, owner, key, value)
         elif isinstance(owner, dict):
-            name = hashable(machine, key)
-            if machine.conditions and name in owner:
-                owner[name] = union([owner[name], machine.guard(value)])
-            else:
-                owner[name] = value
+            store(machine, owner, hashable(machine, key), value)
         elif isinstance(owner, list) and isinstance(key, int) and -len(owner) <= key < len(machine.present(owner)):
             replace(machine, owner, key, [value])
         elif isinstance(owner, LibraryName) and owner.name == "os.environ":
@@ -232,7 +239,7 @@ def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
     try:
         if isinstance(owner, list):
             replace(machine, owner, key, [])
-        elif machine.conditions:
+        elif machine.conditions and around(owner[key]) != machine.conditions:
             owner[key] = machine.removed(owner[key])
         else:
             del owner[key]

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import BudgetExceeded
 from ros_lint.collectors.python.interpreter.assignments import bind
+from ros_lint.collectors.python.interpreter.complements import complement, opposite_of
 from ros_lint.collectors.python.interpreter.methods import items
-from ros_lint.collectors.python.interpreter.operations import opposite_of, truth
+from ros_lint.collectors.python.interpreter.operations import truth
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -28,7 +29,6 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
 )
 from ros_lint.collectors.python.string_values import callee
-from ros_lint.collectors.symbolic_text import UNKNOWN, expression, package_of_presence, quoted
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str,
 
 def _join_exit(machine: Interpreter, frame: Frame, way_out: Exit, around: Conditions) -> None:
     taken = _beyond(way_out, around)
-    _join(machine, frame, (_complement(machine, taken),), way_out.names, taken)
+    _join(machine, frame, (complement(taken, machine.fresh),), way_out.names, taken)
 
 
 def _beyond(way_out: Exit, around: Iterable[LaunchCondition]) -> Conditions:
@@ -187,31 +187,8 @@ def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[Launc
     if len(exits) > _MOST_CONDITIONS:
         return [machine.fresh(PERHAPS)]
     for way_out in exits:
-        bars.append(_complement(machine, _beyond(way_out, (*way_out.conditions[:depth], *bars))))
+        bars.append(complement(_beyond(way_out, (*way_out.conditions[:depth], *bars)), machine.fresh))
     return bars
-
-
-def _complement(machine: Interpreter, conditions: Conditions) -> LaunchCondition:
-    """Return the condition that holds if and only if at least one of ``conditions`` does not hold."""
-    if len(conditions) == 1:
-        return opposite_of(conditions[0])
-    parts = [_negated(condition) for condition in conditions]
-    if not parts or None in parts:
-        return machine.fresh(PERHAPS)
-    return LaunchCondition((expression(" or ".join(part for part in parts if part)),), None)
-
-
-def _negated(condition: LaunchCondition) -> str | None:
-    """Return a Python expression for the opposite of a condition: ``'x' != 'a'`` for ``x`` equals ``a``.
-
-    The result is None if no such expression exists, because a value in the condition is unknown.
-    """
-    text = condition.texts[0]
-    if len(condition.texts) > 1 or UNKNOWN in text or package_of_presence(text):
-        return None
-    if condition.equals is not None:
-        return f"{quoted(text)} {'!=' if condition.wanted else '=='} {quoted(condition.equals)}"
-    return f"{quoted(text)}.strip().lower() {'not in' if condition.wanted else 'in'} ('true', '1')"
 
 
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
@@ -267,11 +244,11 @@ class _Loop:
             taken = _beyond(way_out, (*self._before, *self._bars))
             self.exits.append(way_out)
             self.ended = self.ended or not taken
-            self._bars.append(_complement(machine, taken))
+            self._bars.append(complement(taken, machine.fresh))
         if len(self._bars) > _MOST_CONDITIONS:
             self._bars = [machine.fresh(PERHAPS)]
         if guards:
-            _join(machine, frame, guards, before, (_complement(machine, guards),))
+            _join(machine, frame, guards, before, (complement(guards, machine.fresh),))
         machine.conditions = (*self._before, *self._bars)
 
     def end(self, orelse: Sequence[ast.stmt]) -> int:

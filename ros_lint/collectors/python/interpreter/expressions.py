@@ -8,6 +8,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.python.interpreter.assignments import bind
+from ros_lint.collectors.python.interpreter.complements import opposite_of
+from ros_lint.collectors.python.interpreter.dictionaries import value_or_default
 from ros_lint.collectors.python.interpreter.methods import attribute, items, more
 from ros_lint.collectors.python.interpreter.operations import (
     INSTALLED,
@@ -16,7 +18,6 @@ from ros_lint.collectors.python.interpreter.operations import (
     hashable,
     negated,
     operation,
-    opposite_of,
     sliced,
     subscript,
     text_of,
@@ -274,7 +275,7 @@ def _call(machine: Interpreter, node: ast.Call, frame: Frame) -> Value:
         inner_value = plain(value)
         if isinstance(inner_value, dict):
             machine.budget.step(len(inner_value) // 8)
-            keywords.update({str(name): alternative for name, alternative in inner_value.items()})
+            keywords.update({str(name): value_or_default(machine, inner_value, name, None) for name in inner_value})
         else:
             machine.escape(value)
             keywords[UNKNOWN] = cause(inner_value, "keywords that are not known")

@@ -228,7 +228,7 @@ class Machine(Interpreter):
         return self.call(bound.function, [*bound.arguments, *arguments], {**kept, **keywords}, node, frame)
 
     def _make(self, cls: Class, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        made = Instance(cls)
+        made = Instance(cls, self.conditions)
         init = cls.find("__init__")
         if isinstance(init, Function):
             self._run_function(init, [made, *arguments], keywords, node, frame)

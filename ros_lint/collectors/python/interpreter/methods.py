@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.python.interpreter.dictionaries import entries, guarded, store, value_or_default
 from ros_lint.collectors.python.interpreter.operations import (
     chosen,
     hashable,
@@ -40,6 +41,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Unknown,
     Value,
     alternatives,
+    around,
     cause,
     plain,
     same,
@@ -88,6 +90,8 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
         return list(value.entities) if isinstance(value, LaunchObject) and value.name == "LaunchDescription" else None
     if len(value) > machine.most_items:
         return None
+    if isinstance(value, dict):
+        return [guarded(key, conditions) for key, _, conditions in entries(machine, value)]
     return machine.present(value) if isinstance(value, (list, tuple)) else list(value)
 
 
@@ -102,7 +106,7 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
     if isinstance(owner, LibraryName):
         return machine.library.member(f"{owner.name}.{name}", node, frame.source)
     if isinstance(owner, Instance):
-        return of_instance(owner, name)
+        return machine.possible(of_instance(owner, name))
     if isinstance(owner, Super):
         inherited = owner.instance.cls.inherited(owner.cls, name)
         return Unknown(f"attribute {name} of super()") if inherited is None else _bound(inherited, owner.instance)
@@ -369,11 +373,11 @@ def _of_dict(
     key = hashable(machine, plain(arguments[0])) if arguments else None
     match name:
         case "items":
-            return list(owner.items())
+            return [guarded((key, value), conditions) for key, value, conditions in entries(machine, owner)]
         case "keys":
-            return list(owner)
+            return [guarded(key, conditions) for key, _, conditions in entries(machine, owner)]
         case "values":
-            return list(owner.values())
+            return [guarded(value, conditions) for _, value, conditions in entries(machine, owner)]
         case "copy":
             return dict(owner)
         case "get" | "pop" | "setdefault":
@@ -381,9 +385,11 @@ def _of_dict(
             if isinstance(key, str) and not is_plain(key):
                 return union([*chosen(owner, key), Guarded(default, without(owner, key))])
             if key in owner:
-                value = owner[key]
-                if name == "pop" and machine.conditions:
-                    owner[key] = machine.removed(value)
+                value = value_or_default(machine, owner, key, default)
+                if name == "setdefault":
+                    store(machine, owner, key, value)
+                elif name == "pop" and machine.conditions:
+                    owner[key] = machine.removed(owner[key])
                 elif name == "pop":
                     del owner[key]
                 return value
@@ -392,7 +398,7 @@ def _of_dict(
             if name == "pop" and len(arguments) == 1 and key != UNKNOWN:
                 raise ProgramRaised("KeyError")
             if name == "setdefault":
-                owner[key] = default
+                store(machine, owner, key, default)
             return default
         case "clear":
             if machine.conditions:
@@ -412,17 +418,25 @@ def _of_dict(
 def _updated(machine: Interpreter, owner: dict[Any, Value], arguments: list[Value], keywords: dict[str, Value]) -> None:
     for argument in arguments:
         for alternative in alternatives(argument):
-            if isinstance(alternative.value, dict):
-                owner.update(alternative.value)
-                continue
-            pairs = items(machine, alternative.value)
-            for pair in pairs or ():
-                parts = items(machine, pair)
-                if parts is not None and len(parts) == 2:
-                    owner[hashable(machine, plain(parts[0]))] = parts[1]
-                else:
-                    owner[UNKNOWN] = cause(pair, "elements that are not known")
-            if pairs is None:
-                owner[UNKNOWN] = cause(alternative.value, "elements that are not known")
-                machine.escape(alternative.value)
-    owner.update(keywords)
+            with machine.under(*alternative.conditions):
+                _update_with(machine, owner, alternative.value)
+    for key, value in keywords.items():
+        store(machine, owner, key, value)
+
+
+def _update_with(machine: Interpreter, owner: dict[Any, Value], argument: Value) -> None:
+    if isinstance(argument, dict):
+        for key, value in list(argument.items()):
+            store(machine, owner, key, value)
+        return
+    pairs = items(machine, argument)
+    for pair in pairs or ():
+        parts = items(machine, pair)
+        if parts is not None and len(parts) == 2:
+            with machine.under(*around(pair)):
+                store(machine, owner, hashable(machine, plain(parts[0])), parts[1])
+        else:
+            owner[UNKNOWN] = cause(pair, "elements that are not known")
+    if pairs is None:
+        owner[UNKNOWN] = cause(argument, "elements that are not known")
+        machine.escape(argument)

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.python.interpreter.complements import opposite_of
 from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small, unique
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -93,6 +94,8 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
         return None, LaunchCondition((str(value),), "", wanted=False)
     if isinstance(value, list) and value and isinstance(value[0], Guarded):
         return _truth_of_list(machine, value)
+    if isinstance(value, dict) and value and all(isinstance(item, Guarded) for item in value.values()):
+        return _truth_of_list(machine, list(value.values()))
     if value is None or isinstance(value, (*_NUMBERS, list, dict, tuple, range)):
         return bool(value), PERHAPS
     return (None if isinstance(value, LibraryName) else True), PERHAPS
@@ -371,11 +374,18 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
     elif isinstance(right, range):
         return (left in right) is wanted if isinstance(left, int) else Unknown("membership that is not known")
     elif isinstance(right, (list, tuple, dict)) and isinstance(left, (str, *_NUMBERS, type(None))):
+        if isinstance(right, dict):
+            right = [Guarded(key, around(value)) if isinstance(value, Guarded) else key for key, value in right.items()]
         inner = [plain(item) for item in right]
         equal = [isinstance(item, (str, *_NUMBERS, type(None))) and item == left for item in inner]
         if any(equal):
             certain = any(match and not isinstance(item, Guarded) for match, item in zip(equal, right, strict=True))
-            return wanted if certain else Unknown("membership that is not known")
+            if certain:
+                return wanted
+            guards = [around(item) for match, item in zip(equal, right, strict=True) if match]
+            if len(guards) > 1 or len(guards[0]) > 1:
+                return Unknown("membership that is not known")
+            return Unknown("membership that is not known", guards[0][0] if wanted else opposite_of(guards[0][0]))
         known = all(isinstance(item, (*_NUMBERS, type(None))) or (isinstance(item, str) and is_plain(item)) for item in inner)
         if known and (not isinstance(left, str) or is_plain(left)):
             return not wanted
@@ -392,11 +402,6 @@ def _asked(question: str) -> Unknown:
     if UNKNOWN in question:
         return Unknown("comparison with an unknown value")
     return Unknown("a truth", LaunchCondition((expression(question),), None))
-
-
-def opposite_of(condition: LaunchCondition) -> LaunchCondition:
-    """Return the opposite of a condition."""
-    return condition._replace(wanted=not condition.wanted)
 
 
 def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
@@ -460,7 +465,7 @@ def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:
             return union(chosen(owner, key)) if owner else Unknown("element of an empty dictionary")
         name = hashable(machine, key)
         if name in owner:
-            return owner[name]
+            return machine.possible(plain(owner[name]))  # otherwise, the program raises KeyError
         if isinstance(key, Unknown):
             return union(owner.values()) if owner else Unknown("element of an empty dictionary")
         if UNKNOWN in owner:

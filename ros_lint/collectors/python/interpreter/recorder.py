@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
 from ros_lint.base.budget import Budget
+from ros_lint.collectors.python.interpreter.complements import complement
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -17,6 +18,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
+    alternatives,
     around,
     environment,
     union,
@@ -137,6 +139,13 @@ class Recorder:
             (*self.conditions, *conditions)
         )
 
+    def possible(self, value: Value) -> Value:
+        """Return a value without the alternatives that contradict the present conditions."""
+        if not self.conditions or not isinstance(value, Union):
+            return value
+        here = [alternative for alternative in alternatives(value) if self.is_here(alternative)]
+        return union(here) if here else value
+
     def present(self, values: Sequence[Value]) -> list[Value]:
         """Return the elements of ``values`` that may exist under the present conditions."""
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
@@ -159,7 +168,7 @@ class Recorder:
         first, *others = self.conditions
         remains = first._replace(wanted=not first.wanted)
         if others:
-            remains = self.fresh(PERHAPS)
+            remains = complement(self.conditions, self.fresh)
             self._removed[remains.texts] = frozenset(self.conditions)
         return Guarded(value, (remains,))
 

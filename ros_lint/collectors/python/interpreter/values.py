@@ -326,10 +326,12 @@ class Instance:
     If a launch class is the base of that class, ``made`` is the launch object that the object represents.
     """
 
-    __slots__ = ("attributes", "cls", "made")
+    __slots__ = ("attributes", "cls", "conditions", "made")
 
-    def __init__(self, cls: Class) -> None:
+    def __init__(self, cls: Class, conditions: Conditions = ()) -> None:
         self.cls = cls
+        self.conditions = conditions
+        """The conditions under which the object is created."""
         self.attributes: dict[str, Value] = {}
         self.made: LaunchObject | None = None
 
