@@ -32,7 +32,8 @@ def evaluate(text: str) -> str:
     if len(text) > _MAX_LENGTH:
         return UNKNOWN
     try:
-        return str(_value(read_expression(text.strip())))
+        value = _value(read_expression(text.strip()))
+        return UNKNOWN if isinstance(value, _SETS) and len(value) > 1 else str(value)  # the order of a set is not defined
     except (_Unknown, NotPythonError, ValueError, TypeError, ArithmeticError, LookupError, RecursionError, MemoryError):
         return UNKNOWN
 
@@ -72,6 +73,8 @@ _COMPARE: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.In: lambda a, b: a in b,
     ast.NotIn: lambda a, b: a not in b,
 }
+_SETS = (set, frozenset)
+_SET_METHODS = frozenset({"difference", "intersection", "isdisjoint", "issubset", "issuperset", "symmetric_difference", "union"})
 _METHODS = LENGTH_PRESERVING | {"strip", "lstrip", "rstrip", "replace", "split", "find", "count"}
 
 
@@ -105,6 +108,8 @@ def _value(node: ast.expr) -> Any:
             return _value(body) if _value(test) else _value(orelse)
         case ast.List(elts=elts):
             return _small([_value(element) for element in elts])
+        case ast.Set(elts=elts):
+            return _small({_value(element) for element in elts})
         case ast.Tuple(elts=elts):
             return _small(tuple([_value(element) for element in elts]))
         case ast.Dict(keys=keys, values=values):
@@ -120,9 +125,13 @@ def _value(node: ast.expr) -> Any:
 
 def _call(node: ast.Call) -> Any:
     arguments = [_value(argument) for argument in node.args]
-    if isinstance(node.func, ast.Attribute) and node.func.attr in _METHODS:
+    if node.keywords:
+        return _unknown()
+    if isinstance(node.func, ast.Attribute) and node.func.attr in _METHODS | _SET_METHODS:
         owner = _value(node.func.value)
-        if not isinstance(owner, str):
+        if isinstance(owner, _SETS) and node.func.attr in _SET_METHODS:
+            return _small(getattr(owner, node.func.attr)(*arguments))
+        if not isinstance(owner, str) or node.func.attr not in _METHODS:
             return _unknown()
         if node.func.attr == "replace" and len(owner) * sum(map(len, arguments[1:2])) > _MAX_SIZE:
             return _unknown()
@@ -150,6 +159,17 @@ _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "float": float,
     "bool": bool,
     "len": len,
+    "abs": abs,
+    "all": all,
+    "any": any,
+    "list": list,
+    "max": max,
+    "min": min,
+    "round": round,
+    "set": set,
+    "sorted": sorted,
+    "sum": sum,
+    "tuple": tuple,
     "_equals": _equals,
     "_not_equals": lambda left, right: not _equals(left, right),
     "_if": lambda condition, if_value, else_value: if_value if _truth(condition) else else_value,
@@ -173,7 +193,7 @@ def _small(value: Any) -> Any:
     """Return ``value`` unchanged. Raises _Unknown if it is too large."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
-    if isinstance(value, (str, list, tuple, dict)) and _size(value) > _MAX_SIZE:
+    if isinstance(value, (str, list, tuple, dict, *_SETS)) and _size(value) > _MAX_SIZE:
         raise _Unknown
     return value
 
@@ -184,10 +204,10 @@ def _size(value: Any) -> int:
     pending = [value]
     while pending and size <= _MAX_SIZE:
         item = pending.pop()
-        size += len(item) if isinstance(item, (str, list, tuple, dict)) else 1
+        size += len(item) if isinstance(item, (str, list, tuple, dict, *_SETS)) else 1
         if isinstance(item, dict):
             pending += [*item.keys(), *item.values()]
-        elif isinstance(item, (list, tuple)):
+        elif isinstance(item, (list, tuple, *_SETS)):
             pending += item
     return size
 

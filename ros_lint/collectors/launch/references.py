@@ -213,7 +213,8 @@ class References:
                 path = place.share
                 from_default = default and place not in fixed
                 is_computed = from_default and self._is_computed(place.package, value)
-                if path:
+                # A default that is an empty text as a folder, as in ``robots//a.yaml``, is meant to be replaced.
+                if path and not (from_default and "//" in text):
                     self._add(
                         "file",
                         place.package,
