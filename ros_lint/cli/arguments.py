@@ -229,7 +229,8 @@ def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
         case "number":
             parser.add_argument(flag, type=int, metavar=option.metavar, help=text)
         case "words":
-            parser.add_argument(flag, action=_Words, metavar=option.metavar, help=text)
+            several = "+" if option.several else None
+            parser.add_argument(flag, action=_Words, nargs=several, metavar=option.metavar, help=text)
         case "paths":
             parser.add_argument(flag, action="append", metavar=option.metavar, help=text)
         case _:
@@ -237,7 +238,10 @@ def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
 
 
 class _Words(argparse.Action):
-    """Splits values at commas: ``--select a,b --select c`` results in the tuple a, b, c."""
+    """Splits values at commas: ``--select a,b --select c`` results in the tuple a, b, c.
+
+    The values of a flag with several values are not split.
+    """
 
     def __call__(  # signature of argparse
         self,
@@ -246,5 +250,5 @@ class _Words(argparse.Action):
         values: Any,
         option_string: str | None = None,  # noqa: ARG002
     ) -> None:
-        words = [word.strip() for word in str(values).split(",") if word.strip()]
+        words = values if isinstance(values, list) else [word.strip() for word in str(values).split(",") if word.strip()]
         setattr(namespace, self.dest, (*getattr(namespace, self.dest, ()), *words))

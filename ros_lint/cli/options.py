@@ -33,6 +33,8 @@ class CliOption(NamedTuple):
     """Short form of the flag, such as "-q"; "" if there is none."""
     single: bool = False
     """True if a file may set the type ``words`` to a string, too, which is a single word."""
+    several: bool = False
+    """True if a flag of the type ``words`` takes several values, as the flags of colcon do."""
     loads_code: bool = False
     """True if the option loads code. Files cannot set it, because they can be part of the checked workspace."""
 
@@ -74,6 +76,16 @@ OPTIONS: tuple[CliOption, ...] = (
         True,
         "also read the packages around the requested ones, without reporting their findings",
         in_file=False,
+    ),
+    *(
+        CliOption(f"packages-{name}", "words", (), text, metavar=metavar, in_file=False, several=True)
+        for name, metavar, text in (
+            ("select", "PKG_NAME", "report only these packages"),
+            ("up-to", "PKG_NAME", "report only these packages and their direct and indirect dependencies"),
+            ("above", "PKG_NAME", "report only these packages and the packages that depend on them, directly or indirectly"),
+            ("select-regex", "PATTERN", "report only packages whose names begin with a match of a regular expression"),
+            ("skip", "PKG_NAME", "do not report these packages"),
+        )
     ),
     CliOption(
         "severity",

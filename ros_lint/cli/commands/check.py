@@ -134,8 +134,13 @@ def _report(request: Request, progress: Progress) -> Report:
     from ros_lint.engine import registry  # noqa: PLC0415
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
-    context = ReportContext(registry.load(request.settings["plugins"]), session.knowledge.date, session.roots, session.warnings)
-    report = check(session.loader.load_all(), session.loader.suppressions(), selection_of(request.settings), context)
+    from ros_lint.cli.selected_packages import selected_folders  # noqa: PLC0415
+
+    workspaces = session.loader.load_all()
+    folders, warnings = selected_folders(request.settings, session.roots, lambda: workspaces)
+    rules = registry.load(request.settings["plugins"])
+    context = ReportContext(rules, session.knowledge.date, folders, (*session.warnings, *warnings))
+    report = check(workspaces, session.loader.suppressions(), selection_of(request.settings), context)
     cache.store(recorded, report)
     return report
 

@@ -6,6 +6,7 @@ import gc
 import sys
 from typing import TYPE_CHECKING
 
+from ros_lint.cli.selected_packages import selected_folders
 from ros_lint.engine import edits, registry
 from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.fix_trials import FixTrials
@@ -27,8 +28,9 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     gc.enable()  # the workspace is loaded several times, and the memory of a trial has to be freed
     settings = session.settings
     rules = registry.load(settings["plugins"])
-    trials = FixTrials(session.loader, session.roots, selection, rules, unsafe=settings["unsafe-fixes"])
-    context = ReportContext(rules, session.knowledge.date, session.roots, session.warnings)
+    folders, warnings = selected_folders(settings, session.roots, session.loader.load_all)
+    trials = FixTrials(session.loader, folders, selection, rules, unsafe=settings["unsafe-fixes"])
+    context = ReportContext(rules, session.knowledge.date, folders, (*session.warnings, *warnings))
 
     def report(changed: Mapping[str, bytes]) -> Report:
         return check(trials.trial(changed).workspaces, session.loader.suppressions(changed), selection, context)
