@@ -23,6 +23,8 @@ _LSP_OPTIONS = (
 )  # fmt: skip
 """The options of the language server."""
 _WORKSPACE_HELP = "workspace (default: the workspace that contains the current folder)"
+_SIMILAR = 0.75
+"""Minimum similarity of an option to suggest: ``--exit-zero`` does not mean ``--distro``."""
 _EPILOG = """\
 commands (see also ros-lint COMMAND --help):
 {}
@@ -35,11 +37,11 @@ class _ArgumentParser(argparse.ArgumentParser):
     def reject(self, unknown: Sequence[str]) -> NoReturn:
         """Exit with a message about unknown arguments."""
         options = [text for action in self._actions for text in action.option_strings]
-        hint = did_you_mean(similar_names(unknown[0].partition("=")[0], options))
+        hint = did_you_mean(similar_names(unknown[0].partition("=")[0], options, least=_SIMILAR))
         self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
 
     def error(self, message: str) -> NoReturn:
-        print(f"ros-lint: {message} (see ros-lint --help)", file=sys.stderr)
+        print(f"ros-lint: {message} (see {self.prog} --help)", file=sys.stderr)
         raise SystemExit(2)
 
 

@@ -22,7 +22,8 @@ def selected_folders(
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the folders to report findings of, and warnings.
 
-    The folders are those of the selected packages below ``roots``; ``roots`` themselves if no option selects packages. ``load``
+    The folders are those of the selected packages below ``roots``; ``roots`` themselves if no option selects packages. A
+    package with an unusable manifest has unknown dependencies, so it is selected only if an option names it. ``load``
     returns the workspace for each distribution, and is called only if an option selects packages. Raises UsageError for
     unknown packages and if no package is selected.
     """
@@ -35,18 +36,20 @@ def selected_folders(
     selection = PackageSelection(*[settings[name] for name in names])
     _check_patterns(selection)
     workspaces = load()
-    known = {name for workspace in workspaces for name in dependency_graph(workspace).names}
+    unusable = {package.name: package.path for workspace in workspaces for package in workspace.unusable}
+    known = {name for workspace in workspaces for name in dependency_graph(workspace).names} | unusable.keys()
     for option, name in selection.named():
         if name not in known:
             raise UsageError(f"--{option}: {_unknown(name, known)}")
     warnings = tuple(f"--packages-skip: {_unknown(name, known)}" for name in selection.skip if name not in known)
-    folders = dict.fromkeys(
+    paths = [
         package.path
         for workspace in workspaces
         for name in sorted(selection.names(dependency_graph(workspace)))
         for package in dependency_graph(workspace).places[name]
-        if is_below_any(package.path, roots)
-    )
+    ]
+    paths += [unusable[name] for _, name in selection.named() if name in unusable and name not in selection.skip]
+    folders = [path for path in dict.fromkeys(paths) if is_below_any(path, roots)]
     if not folders:
         raise UsageError(f"no package below {', '.join(root or '.' for root in roots)} is selected by the options --packages-...")
     return tuple(folders), warnings
