@@ -110,9 +110,7 @@ def test_an_unknown_package_to_skip_is_a_warning(tmp_path: Path, capsys: pytest.
     assert "ros-lint: --packages-skip: there is no package 'aa'" in capsys.readouterr().err
 
 
-def test_a_package_with_an_unusable_manifest_is_selected_by_its_name(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_package_with_an_unusable_manifest_is_selected_by_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "arm").mkdir()
     (tmp_path / "arm" / "package.xml").write_text(manifest_text("arm", ["<depend>arm</depend>"]), "utf-8")
     assert main([str(tmp_path), "--no-cache", "--packages-select", "arm", "--format", "concise"]) == 1
@@ -124,7 +122,6 @@ def test_only_selected_packages_are_fixed(tmp_path: Path) -> None:
         (tmp_path / name).mkdir()
         lines = ["<exec_depend>rclcpp</exec_depend>"] * 2
         (tmp_path / name / "package.xml").write_text(manifest_text(name, lines), "utf-8")
-    before = (tmp_path / "hand" / "package.xml").read_text("utf-8")
     main([str(tmp_path), "--no-cache", "--select", "redundant-dependency", "--fix", "--packages-select", "arm"])
     counts = [(tmp_path / name / "package.xml").read_text("utf-8").count("<exec_depend>") for name in ("arm", "hand")]
     assert counts == [1, 2]

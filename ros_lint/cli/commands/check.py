@@ -131,10 +131,9 @@ def _report(request: Request, progress: Progress) -> Report:
     if cached := cache.fetch(recorded):
         return cached
     session = open_session(request, progress.update, *(recorded if cache else disks))
+    from ros_lint.cli.selected_packages import selected_folders  # noqa: PLC0415
     from ros_lint.engine import registry  # noqa: PLC0415
     from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
-
-    from ros_lint.cli.selected_packages import selected_folders  # noqa: PLC0415
 
     workspaces = session.loader.load_all()
     folders, warnings = selected_folders(request.settings, session.roots, lambda: workspaces)
