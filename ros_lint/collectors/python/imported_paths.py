@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from ros_lint.collectors.python.string_values import callee
 from ros_lint.collectors.python.syntax import parse
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from ros_lint.base.text import Text
 
@@ -20,13 +21,38 @@ _IMPORTERS = frozenset({
 })  # fmt: skip
 """Functions that find, import or run modules by their name or path."""
 
+_MENTIONED = re.compile("|".join(sorted(_IMPORTERS)))
+_STATEMENT = re.compile(
+    r"\b(?:from[ \t]*(\.[ \t.]{0,50}[\w.]*|[\w.]+)(?:[ \t]|\\\r?\n){0,50})?"
+    r"\bimport\b[ \t]*(?:\(([^()]*)\)|((?:[^\n;#\\]|\\\r?\n)*))"
+)
+_COMMENT = re.compile("#[^\n]*")
+_NAME = re.compile(r"[ \t\r\n\\]*([\w.]+|\*)")
+
 
 def imported_paths(source: Text, path: str) -> frozenset[str] | None:
     """Return the paths of all modules and names that a file imports, without suffix, None if it may import further modules.
 
     ``path`` is the path of the file. ``import a.b`` gives ``a`` and ``a/b``, ``from a import b`` the same, because ``b`` may
     be a module. ``from . import b`` gives ``robot/b`` in ``robot/talker.py``. ``a/*`` stands for all modules in ``a``.
+    The statements are found without parsing, also in strings, unless the file names a function that imports modules.
     """
+    if _MENTIONED.search(source.text):
+        return _of_tree(source, path)
+    paths: set[str] = set()
+    for module, in_brackets, rest in _STATEMENT.findall(source.text):
+        names = [name[1] for part in _COMMENT.sub("", in_brackets or rest).split(",") if (name := _NAME.match(part))]
+        if module:
+            relative = module.replace(" ", "").replace("\t", "")
+            absolute = relative.lstrip(".")
+            paths.update(_of_from(absolute, len(relative) - len(absolute), names, path))
+        else:
+            paths.update([prefix for name in names for prefix in _prefixes(name)])
+    return frozenset(paths)
+
+
+def _of_tree(source: Text, path: str) -> frozenset[str] | None:
+    """Return the same from the syntax tree, None if the argument of a function that imports modules is not a constant."""
     try:
         tree = parse(source)
     except NotPythonError:
@@ -36,7 +62,7 @@ def imported_paths(source: Text, path: str) -> frozenset[str] | None:
         if isinstance(node, ast.Import):
             paths.update([prefix for alias in node.names for prefix in _prefixes(alias.name)])
         elif isinstance(node, ast.ImportFrom):
-            paths.update(_of_from(node, path))
+            paths.update(_of_from(node.module or "", node.level, [alias.name for alias in node.names], path))
         elif isinstance(node, ast.Call) and callee(node) in _IMPORTERS:
             name = node.args[0] if node.args else None
             if not isinstance(name, ast.Constant) or not isinstance(name.value, str) or name.value.startswith("."):
@@ -45,11 +71,12 @@ def imported_paths(source: Text, path: str) -> frozenset[str] | None:
     return frozenset(paths)
 
 
-def _of_from(node: ast.ImportFrom, path: str) -> Iterator[str]:
-    folders = path.split("/")[: -node.level] if node.level else []
-    module = "/".join([*folders, *(node.module.split(".") if node.module else ())])
-    yield from accumulate(module.split("/"), "{}/{}".format)
-    yield from (f"{module}/{alias.name}".lstrip("/") for alias in node.names)
+def _of_from(module: str, level: int, names: Iterable[str], path: str) -> Iterator[str]:
+    """Yield the paths that ``from module import names`` means. ``level`` is the number of dots before the module."""
+    folders = path.split("/")[:-level] if level else []
+    folder = "/".join([*folders, *(module.split(".") if module else ())])
+    yield from accumulate(folder.split("/"), "{}/{}".format)
+    yield from (f"{folder}/{name}".lstrip("/") for name in names)
 
 
 def _prefixes(name: str) -> Iterator[str]:
