@@ -15,6 +15,8 @@ pytest.importorskip("pytest_lsp", reason="pytest-lsp is not installed")
 from lsprotocol import types
 from pytest_lsp import LanguageClient, client_capabilities, make_test_lsp_client
 
+pytestmark = pytest.mark.slow  # each test starts a server
+
 DEMO = Path(__file__).parents[1] / "fixtures" / "workspaces" / "demo"
 DRIVER = "src/rover_driver/package.xml"
 LAUNCH = "src/rover_bringup/launch/rover.launch.py"
@@ -86,7 +88,14 @@ class Editor:
         self.client.workspace_did_change_watched_files(types.DidChangeWatchedFilesParams([event]))
 
 
-def edit(tmp_path: Path, steps: Callable[[Editor], Awaitable[None]], *, client: str = "neovim", isolated: bool = True) -> None:
+def edit(
+    tmp_path: Path,
+    steps: Callable[[Editor], Awaitable[None]],
+    *,
+    client: str = "neovim",
+    isolated: bool = True,
+    watches: bool = True,
+) -> None:
     """Copy the demo workspace, start the server in it and run the coroutine function ``steps`` with an Editor."""
     root = (tmp_path / "demo").resolve()
     shutil.copytree(DEMO, root)
@@ -97,15 +106,18 @@ def edit(tmp_path: Path, steps: Callable[[Editor], Awaitable[None]], *, client: 
         connection = make_test_lsp_client()
         await connection.start_io(sys.executable, "-m", "ros_lint", "lsp", *options)
         folder = types.WorkspaceFolder(root.as_uri(), "demo")
-        parameters = types.InitializeParams(
-            capabilities=client_capabilities(client), workspace_folders=[folder], root_uri=root.as_uri()
+        capabilities = client_capabilities(client)
+        assert capabilities.workspace is not None
+        capabilities.workspace.did_change_watched_files = types.DidChangeWatchedFilesClientCapabilities(
+            dynamic_registration=watches
         )
+        parameters = types.InitializeParams(capabilities=capabilities, workspace_folders=[folder], root_uri=root.as_uri())
         await connection.initialize_session(parameters)
         await steps(Editor(root, connection))
         await connection.shutdown_session()
         await connection.stop()
 
-    asyncio.run(asyncio.wait_for(session(), 60))
+    asyncio.run(asyncio.wait_for(session(), 300))
 
 
 def test_the_findings_are_those_of_the_command_line(tmp_path: Path) -> None:
@@ -156,6 +168,17 @@ def test_changes_on_disk_are_read(tmp_path: Path) -> None:
         assert await editor.codes(LAUNCH) == []
 
     edit(tmp_path, steps)
+
+
+def test_without_reports_of_changes_each_check_reads_the_disk(tmp_path: Path) -> None:
+    async def steps(editor: Editor) -> None:
+        editor.open(DRIVER)
+        assert await editor.codes(LAUNCH) == ["ROS502", "ROS503"]
+        (editor.root / LAUNCH).write_text(editor.text(LAUNCH).replace("executable='driver'", "executable='driver_node'"), "utf-8")
+        editor.change(DRIVER, editor.text(DRIVER) + "\n")
+        assert await editor.codes(LAUNCH) == ["ROS503"]
+
+    edit(tmp_path, steps, watches=False)
 
 
 def test_the_configuration_is_read_again_when_it_changes(tmp_path: Path) -> None:

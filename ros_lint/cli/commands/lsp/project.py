@@ -49,9 +49,10 @@ class Project:
         self._options = {**options, "paths": [folder]}
         self._environment = environment
         self._progress = progress
-        self._open()
+        self.reopen()
 
-    def _open(self) -> None:
+    def reopen(self) -> None:
+        """Read the configuration and all files again, as far as they changed. Raises UserError."""
         self._request: Request = parse_request(self._options, self._environment)
         self._session: Session = open_session(self._request, self._progress)
         settings = self._request.settings
@@ -96,14 +97,14 @@ class Project:
             selection = selection._replace(rules=tuple([other for other in selection.rules if other.name == rule]))
         trials = FixTrials(self._session.loader, self._session.roots, selection, self._rules)
         changed = fix(trials, unsaved).changed
-        self._open()  # the loader of the trials keeps the contents of the edited files
+        self.reopen()  # the loader of the trials keeps the contents of the edited files
         return {path: data for path, data in changed.items() if unsaved.get(path) != data}
 
     def refresh(self, paths: Mapping[str, object]) -> None:
         """Note that files changed on disk. ``paths`` are absolute. Raises UserError for a configuration that is now invalid."""
         relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}
         if not self._session.loader.forget(relative) or find(self.folder) in paths:
-            self._open()
+            self.reopen()
 
     @property
     def _context(self) -> ReportContext:

@@ -58,6 +58,8 @@ class RosLintServer(LanguageServer):
         self._environment = environment
         self._pool = ThreadPoolExecutor(1)
         self._projects: list[OpenProject] = []
+        self.watches = False
+        """True if the client reports changes on disk. Otherwise all files are read again for each check."""
         self.ready = asyncio.Event()
         """Set once the folders of the editor are open."""
 
@@ -132,7 +134,7 @@ class RosLintServer(LanguageServer):
         unsaved, changed_on_disk = self.unsaved(opened.project), opened.changed_on_disk
         opened.changed_on_disk = {}
         try:
-            return await self._work(lambda: _check(opened.project, changed_on_disk, unsaved))
+            return await self._work(lambda: _check(opened.project, changed_on_disk if self.watches else None, unsaved))
         except UserError as error:
             self._show(str(error))
             return None
@@ -175,8 +177,11 @@ class RosLintServer(LanguageServer):
         self.window_show_message(types.ShowMessageParams(types.MessageType.Error, f"ros-lint: {message}"))
 
 
-def _check(project: Project, changed_on_disk: Mapping[str, None], unsaved: Mapping[str, bytes]) -> Snapshot:
-    if changed_on_disk:
+def _check(project: Project, changed_on_disk: Mapping[str, None] | None, unsaved: Mapping[str, bytes]) -> Snapshot:
+    """Return a snapshot. ``changed_on_disk`` are the files to read again, None if any file may have changed."""
+    if changed_on_disk is None:
+        project.reopen()
+    elif changed_on_disk:
         project.refresh(changed_on_disk)
     return project.check(unsaved)
 
@@ -196,6 +201,7 @@ def _add_synchronisation(server: RosLintServer) -> None:
         workspace = server.client_capabilities.workspace
         watching = workspace.did_change_watched_files if workspace else None
         if watching and watching.dynamic_registration:
+            server.watches = True
             watchers = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(_WATCHED)])
             registration = types.Registration("watch", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, watchers)
             server.client_register_capability(types.RegistrationParams([registration]))
