@@ -194,9 +194,10 @@ EVERYTHING = Report(
         Crash("renamed-package", "talker", TRACEBACK, "acme-rules 1.0"),
     ),
     workspace="ws",
+    package_names=("arm", "hand", "talker"),
 )
-CLEAN = Report((), RULES, 1, TargetDistro("humble", "--distro"), "2026-11-01", "0.1.0")
-NOTHING = CLEAN._replace(packages=0)
+CLEAN = Report((), RULES, 1, TargetDistro("humble", "--distro"), "2026-11-01", "0.1.0", package_names=("arm",))
+NOTHING = CLEAN._replace(packages=0, package_names=())
 SOUND = EVERYTHING._replace(issues=tuple(issue for issue in ISSUES if issue.finding.span.path != "ws/gone"))
 """Without a finding about a file that is not there."""
 SEVERAL = CLEAN._replace(

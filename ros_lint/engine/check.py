@@ -54,8 +54,10 @@ def check(
     packages = [
         package for workspace in workspaces for package in workspace.packages if is_below_any(package.path, context.folders)
     ]
-    paths = {package.path for workspace in workspaces for package in (*workspace.packages, *workspace.unusable)}
-    checked_packages = sum(is_below_any(path, context.folders) for path in paths)
+    manifests = [package for workspace in workspaces for package in (*workspace.packages, *workspace.unusable)]
+    checked_manifests = [package for package in manifests if is_below_any(package.path, context.folders)]
+    paths = {package.path for package in manifests}
+    checked_packages = len({package.path for package in checked_manifests})
     return Report(
         issues=shown,
         rules=selection.rules,
@@ -73,6 +75,7 @@ def check(
         crashes=tuple([crash._replace(plugin=plugin_of(crash.rule)) for crash in checked.crashes]),
         workspace=context.folders[0] if len(context.folders) == 1 else "",
         warnings=context.warnings,
+        package_names=tuple(sorted({package.name or package.path for package in checked_manifests})),
     )
 
 

@@ -55,6 +55,11 @@ OFF = "of rules that are off (shown with --pedantic)"
 MINOR = "of lower severity than --min-severity"
 
 
+def page_url(rule_url: str, rule: Rule) -> str:
+    """Return the URL of the page of a rule from the URL with ``{rule}``; "" if that is "", and for rules of plugins."""
+    return rule_url.replace("{rule}", rule.name) if rule.code.startswith("ROS") else ""
+
+
 class HiddenCount(NamedTuple):
     """Number of findings that are hidden.
 
@@ -128,6 +133,14 @@ class Report(NamedTuple):
     """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
     warnings: tuple[str, ...] = ()
     """Warnings about the command line and settings, which are printed to standard error."""
+    package_names: tuple[str, ...] = ()
+    """The names of the checked packages, sorted."""
+    rule_url: str = ""
+    """URL of the page of a rule, with ``{rule}`` in place of its name; "" if there are no links."""
+
+    def url_of(self, rule: Rule) -> str:
+        """Return the URL of the page of a rule; "" if there are no links, and for rules of plugins."""
+        return page_url(self.rule_url, rule)
 
     def count(self, severity: Severity) -> int:
         """Return the number of issues with a severity."""

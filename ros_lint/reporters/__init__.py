@@ -29,4 +29,6 @@ def reporter(name: str) -> Reporter:
     return render
 
 
-FORMATS = ("text", "concise", "json", "sarif", "github", "gitlab", "html")
+FORMATS = (
+    "text", "concise", "json", "jsonl", "sarif", "github", "gitlab", "azure", "junit", "checkstyle", "rdjson", "markdown", "html",
+)  # fmt: skip

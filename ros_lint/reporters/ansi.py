@@ -23,6 +23,8 @@ class Style(NamedTuple):
     """True if the changes of each fix are shown."""
     summary: bool = True
     """True if a summary follows the findings."""
+    rule_url: str = ""
+    """As in a report, if the terminal shows links (OSC 8); "" if it does not."""
 
 
 _CODES = {
@@ -42,6 +44,11 @@ _PLAIN = re.compile(r"[ -~]*\Z")
 def paint(style: Style, color: str, text: str) -> str:
     """Return a text in a colour (a key of ``_CODES``) if the style has colours, else unchanged."""
     return f"\x1b[{_CODES[color]}m{text}\x1b[0m" if style.color and text else text
+
+
+def link(url: str, text: str) -> str:
+    """Return a text that links to a URL on a terminal; "" is no link."""
+    return f"\x1b]8;;{url}\x1b\\{text}\x1b]8;;\x1b\\" if url else text
 
 
 def safe(text: str, style: Style) -> str:

@@ -8,8 +8,6 @@ from ros_lint.analysis.finding import Severity
 from ros_lint.base.json_text import encode
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from ros_lint.analysis.finding import Fix
     from ros_lint.base.text import Span
     from ros_lint.engine.report import Issue, Report
@@ -22,7 +20,12 @@ SCHEMA_VERSION = 1
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return the report as JSON."""
-    document = {
+    return encode(document(report), 2)
+
+
+def document(report: Report) -> dict[str, Any]:
+    """Return the report as values of JSON."""
+    return {
         "schema_version": SCHEMA_VERSION,
         "tool": "ros-lint",
         "version": report.version,
@@ -34,7 +37,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "workspace": report.workspace,
         "packages": report.packages,
         "context_packages": report.context_packages,
-        "findings": [_finding(issue, report.target.distros) for issue in report.issues],
+        "findings": [_finding(issue, report) for issue in report.issues],
         "hidden": [{"reason": hidden.reason, "count": hidden.count, "rules": dict(hidden.rules)} for hidden in report.hidden],
         "not_checked": [
             {"what": entry.what, "reason": entry.reason, **(_place(entry.span) if entry.span else _NO_PLACE)}
@@ -52,19 +55,19 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
             "unsafely_fixable": report.fixable(safe=False),
         },
     }
-    return encode(document, 2)
 
 
-def _finding(issue: Issue, distros: Sequence[str]) -> dict[str, Any]:
+def _finding(issue: Issue, report: Report) -> dict[str, Any]:
     finding = issue.finding
     return {
         "rule": issue.rule.name,
         "code": issue.rule.code,
+        "url": report.url_of(issue.rule),
         "package": issue.package,
         "subject": finding.subject,
         **_place(finding.span),
         "message": finding.message,
-        "distros": list(issue.distros or distros),
+        "distros": list(issue.distros or report.target.distros),
         "other_messages": [{"distro": distro, "message": message} for distro, message in issue.other_messages],
         "severity": str(issue.severity),
         "confidence": str(finding.confidence),

@@ -46,7 +46,9 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
     texts = cache(texts)
     groups = _groups(report.issues)
     kept = _most_important(groups)
-    rules = {rule.code: rule for rule in (*report.rules, *(issue.rule for issue in report.issues))}
+    crashed_rules = {crash.rule for crash in report.crashes}
+    used = (*(rule for rule in report.rules if rule.name in crashed_rules), *(issue.rule for group in kept for issue in group))
+    rules = {rule.code: rule for rule in used}
     codes = {code: index for index, code in enumerate(sorted(rules))}
     hashes = _hashes(kept, texts)
     run = {
@@ -62,7 +64,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
                     "text": "ros-lint reports what will break in a ROS 2 workspace on the build farm, on a colleague's "
                     "machine or at launch, without building it. 'ros-lint rule NAME' explains a rule."
                 },
-                "rules": [descriptor(rules[code], index) for code, index in codes.items()],
+                "rules": [descriptor(rules[code], index, report.url_of(rules[code])) for code, index in codes.items()],
                 "notifications": TOPICS,
             }
         },

@@ -17,8 +17,11 @@ _LONGEST = 1024
 """Maximum length of a description that GitHub accepts."""
 
 
-def descriptor(rule: Rule, index: int) -> dict[str, Any]:
-    """Return the SARIF descriptor of a rule. ``index`` is its position in the list of rules, from 0."""
+def descriptor(rule: Rule, index: int, url: str = "") -> dict[str, Any]:
+    """Return the SARIF descriptor of a rule.
+
+    ``index`` is its position in the list of rules, from 0. ``url`` is the URL of its page, or "".
+    """
     summary = capital(rule.summary)
     markdown = rule.doc.strip()
     return {
@@ -28,7 +31,7 @@ def descriptor(rule: Rule, index: int) -> dict[str, Any]:
         "fullDescription": {"text": _first_paragraph(markdown) or summary[:_LONGEST]},
         "help": {"text": _plain(markdown) or summary, "markdown": markdown or summary},
         # The help is part of this file and may be read anywhere.
-        "helpUri": f"sarif:/runs/0/tool/driver/rules/{index}/help",
+        "helpUri": url or f"sarif:/runs/0/tool/driver/rules/{index}/help",
         "defaultConfiguration": {"level": LEVELS[rule.severity], "enabled": rule.default},
         "properties": {
             # Rules that run by default are right at least 99 times in 100, see Confidence.

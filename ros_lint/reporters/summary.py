@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.suggestions import and_list
@@ -12,6 +12,7 @@ from ros_lint.reporters.ansi import Style, paint, safe
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from ros_lint.base.text import Span
     from ros_lint.engine.report import Crash, HiddenCount, Report
     from ros_lint.workspace.target import UnreadFile
 
@@ -23,6 +24,29 @@ _NAMED = 5
 
 _FEW = 10
 """Number of findings up to which no table of rules is printed."""
+
+
+DEFAULT_PATH = "package.xml"
+"""The path of problems without a place, in formats that require a path."""
+
+
+class Problem(NamedTuple):
+    """A reason why a run is incomplete."""
+
+    severity: Severity
+    """An error if the exit code is 2, else info."""
+    message: str
+    span: Span | None = None
+
+
+def problems(report: Report) -> Iterator[Problem]:
+    """Yield the problems because of which a run is incomplete."""
+    if not report.packages:
+        yield Problem(Severity.ERROR, "no package found, so nothing was checked")
+    for crash in report.crashes:
+        yield Problem(Severity.ERROR, f"a rule failed: {crashed(crash)}")
+    for entry in report.not_checked:
+        yield Problem(Severity.INFO, f"not checked: {unread_file(entry)}", entry.span)
 
 
 def summary(report: Report, style: Style) -> str:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Confidence, Severity
 from ros_lint.base.suggestions import and_list, shorten_list
-from ros_lint.reporters.ansi import Style, paint, safe
+from ros_lint.engine.report import page_url
+from ros_lint.reporters.ansi import Style, link, paint, safe
 from ros_lint.reporters.frames import Mark, frame
 from ros_lint.reporters.summary import count, summary
 
@@ -77,7 +78,7 @@ _HOW_TO_FIX = {True: "--fix", False: "--fix --unsafe-fixes, may change behaviour
 
 def _head(issue: Issue, style: Style) -> str:
     level = str(issue.severity)
-    return paint(style, level, f"{level}[{issue.rule.code} {issue.rule.name}]")
+    return link(page_url(style.rule_url, issue.rule), paint(style, level, f"{level}[{issue.rule.code} {issue.rule.name}]"))
 
 
 def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:

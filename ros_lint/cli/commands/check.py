@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ros_lint import __version__
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.recorded_tree import RecordedTree
-from ros_lint.base.tree import MachineTree, text_of
+from ros_lint.base.tree import MachineTree
+from ros_lint.cli import outputs
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import UsageError, no_packages, open_session, parse_request, report_cache
 from ros_lint.engine.report import Report
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
     from ros_lint.engine.selection import Selection
-    from ros_lint.reporters import Reporter, SourceTexts
-    from ros_lint.reporters.ansi import Style
 
 
 def run(options: Mapping[str, Any]) -> int:
@@ -41,8 +39,7 @@ def run(options: Mapping[str, Any]) -> int:
             if request.settings["show-settings"]:
                 print(request.settings.show(), end="")
                 return 0
-            if request.settings["statistics"] and request.settings["format"] != "text":
-                raise UsageError("--statistics prints text; count the findings of --format json instead")
+            outputs.validate(request.settings)
             known_findings = _baseline(request.settings)
             if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
@@ -61,7 +58,10 @@ def run(options: Mapping[str, Any]) -> int:
     _warn((*report.warnings, *request.cache.notes, *_single_package_warning(request)))
     if request.settings["diff"]:  # standard output is the patch and nothing else
         return max(code, exit_code(report, request.settings["fail-on"]))
-    return max(code, _print(report, request))
+    if not report.packages:
+        print(no_packages(request), file=sys.stderr)
+    written = outputs.print_report(report, request)
+    return max(code, written, exit_code(report, request.settings["fail-on"]))
 
 
 def _warn(warnings: Iterable[str]) -> None:
@@ -171,79 +171,3 @@ def exit_code(report: Report, fail_on: str) -> int:
     if fail_on == "never":
         return 0
     return int(any(issue.severity >= Severity[fail_on.upper()] for issue in report.issues))
-
-
-def _print(report: Report, request: Request) -> int:
-    """Print a report or write it to a file. Returns the exit code."""
-    settings = request.settings
-    render = _reporter(settings)
-    texts: SourceTexts = partial(text_of, request.disk)
-    shown = report
-    if settings["format"] in ("text", "concise"):
-        shown, texts = _relative_to_current_folder(request.base, report, texts)
-    data = render(shown, texts, _style(settings)).encode("utf-8", "backslashreplace")
-    if settings["output"]:
-        from ros_lint.engine import edits  # noqa: PLC0415  (few runs write a file)
-
-        try:
-            edits.write(settings["output"], data)
-        except edits.EditError as error:
-            print(f"ros-lint: {error}", file=sys.stderr)
-            return 2
-    else:
-        sys.stdout.buffer.write(data)
-        sys.stdout.buffer.flush()
-    if not report.packages:
-        print(no_packages(request), file=sys.stderr)
-    return exit_code(report, settings["fail-on"])
-
-
-def _relative_to_current_folder(base: str, report: Report, texts: SourceTexts) -> tuple[Report, SourceTexts]:
-    """Return the report and the texts of its files with paths relative to the current folder, for terminals and editors.
-
-    If neither the base nor the current folder contains the other, paths stay relative to the base.
-    """
-    current = os.path.realpath(os.curdir)
-    if current == base or os.path.commonpath((base, current)) not in (base, current):
-        return report, texts
-    from ros_lint.reporters.moved_paths import with_paths  # noqa: PLC0415  (mostly the current folder is the base)
-
-    def relative(path: str, old: str, new: str) -> str:
-        return os.path.relpath(os.path.join(old, path), new).replace(os.sep, "/")
-
-    moved = with_paths(report, lambda path: relative(path, base, current))
-    return moved, lambda path: texts(relative(path, current, base))
-
-
-def _reporter(settings: Settings) -> Reporter:
-    if settings["statistics"]:
-        from ros_lint.reporters import statistics  # noqa: PLC0415
-
-        return statistics.render
-    from ros_lint.reporters import reporter  # noqa: PLC0415
-
-    return reporter(settings["format"])
-
-
-def _style(settings: Settings) -> Style:
-    from ros_lint.reporters.ansi import Style  # noqa: PLC0415
-
-    encoding = "utf-8" if settings["output"] else (sys.stdout.encoding or "ascii")
-    only_ascii = "utf" not in encoding.lower()
-    style = Style(_wants_color(settings), only_ascii, summary=not settings["quiet"])
-    if sys.stdout.isatty() and not settings["output"]:
-        import shutil  # noqa: PLC0415
-
-        return style._replace(width=max(shutil.get_terminal_size().columns, 60), fixes=True)
-    return style
-
-
-def _wants_color(settings: Settings) -> bool:
-    """Return whether to use colours: by the flag, NO_COLOR, FORCE_COLOR, or for a terminal, in this order."""
-    if settings["color"] != "auto":
-        return bool(settings["color"] == "always")
-    if os.environ.get("NO_COLOR"):
-        return False
-    if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE"):
-        return not settings["output"]
-    return sys.stdout.isatty() and not settings["output"] and os.environ.get("TERM") != "dumb"

@@ -1,0 +1,68 @@
+"""The azure format: a logging command of Azure Pipelines for each finding, shown at the run and in its log."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros_lint.analysis.finding import Severity
+from ros_lint.reporters.ansi import Style, safe
+from ros_lint.reporters.summary import crashed, summary, unread_file
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ros_lint.base.text import Span
+    from ros_lint.engine.report import Issue, Report
+    from ros_lint.reporters import SourceTexts
+
+_TYPES = {Severity.ERROR: "error", Severity.WARNING: "warning"}
+"""The types of issues that Azure Pipelines has. Infos are printed as lines of the log."""
+
+
+def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
+    """Return a logging command for each error and warning, the most severe first, a line for each info, and the summary."""
+    ranked = sorted(report.issues, key=lambda issue: -issue.severity)
+    lines = [*_problems(report), *(_line(issue) for issue in ranked)]
+    return "".join(f"{line}\n" for line in lines) + summary(report, style._replace(color=False))
+
+
+def command(properties: dict[str, str | int], message: str) -> str:
+    """Return a command ``task.logissue`` with the escapes of the agent (azure-pipelines-task-lib, taskcommand.ts)."""
+    pairs = "".join(f"{key}={_property(str(value))};" for key, value in properties.items())
+    return f"##vso[task.logissue {pairs}]{_data(message)}"
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%AZP25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace("]", "%5D").replace(";", "%3B")
+
+
+def _line(issue: Issue) -> str:
+    finding = issue.finding
+    message = safe(f"{finding.message} [{issue.rule.name}]", Style())
+    if issue.severity not in _TYPES:
+        return _without_command(f"{safe(str(finding.span), Style())}: info: {message}")
+    return command({"type": _TYPES[issue.severity], **_place(finding.span), "code": issue.rule.code}, message)
+
+
+def _without_command(line: str) -> str:
+    """Return a line of the log that contains no command, because the agent searches for commands in the whole line."""
+    return line.replace("##vso[", "## vso[")
+
+
+def _place(span: Span) -> dict[str, str | int]:
+    return {"sourcepath": safe(span.path, Style()), "linenumber": span.line, "columnnumber": span.column}
+
+
+def _problems(report: Report) -> Iterator[str]:
+    """Yield a command for each problem because of which the run is incomplete."""
+    if not report.packages:
+        yield command({"type": "error"}, "ros-lint: no package found, so nothing was checked")
+    for crash in report.crashes:
+        yield command({"type": "error"}, safe(f"ros-lint: a rule failed: {crashed(crash)}", Style()))
+    for entry in report.not_checked:
+        place = _place(entry.span) if entry.span else {}
+        yield command({"type": "warning", **place}, safe(f"not checked: {unread_file(entry)}", Style()))
