@@ -33,6 +33,7 @@ Reported with medium confidence:
 
 - The closure of a declared dependency is unknown.
 - A file of the package cannot be read: it may be the script that runs the launch file as a test.
+- The launch file is called only `example` or `test`, so users start it by hand.
 - Commands in front of nodes under a condition, which are mostly for debugging.
 - The other package depends on this one, so declaring it would close a cycle that colcon rejects. The launch file may belong in
   the other package.
@@ -89,7 +90,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         how = " by the default of an argument" if best.package_from_default else how
         place = _place(best, others)
         proposal = dependencies.remedy(package, workspace, name, Role.EXEC)
-        needed = best.kind != "program" or not best.conditional
+        needed = (best.kind != "program" or not best.conditional) and not all(map(_is_in_example, references))
         certain = readable and needed and proposal.certain and not dependencies.may_provide(unknown, name, workspace)
         yield Finding(
             f"{_use(best, name, place)}{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
@@ -99,6 +100,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )
+
+
+def _is_in_example(reference: LaunchReference) -> bool:
+    """Return whether a reference is in a launch file that is called only example or test: users start it by hand."""
+    return reference.span.path.rpartition("/")[2].partition(".")[0] in ("example", "test")
 
 
 def _use(reference: LaunchReference, name: str, place: Span) -> str:

@@ -95,6 +95,7 @@ The severity is lower if the package works where it is built, launched and teste
 - warning for `python3-pytest`, because colcon itself depends on it;
 - warning for libraries that rosdep installs by pip, because released packages cannot depend on them;
 - warning for libraries in requirement files or `install_requires`, if rosdep installs them only on some platforms;
+- warning for packages whose tag is commented out in `package.xml`, because the author removed it on purpose;
 - warning for `ros_environment`, which `ros_core` installs, so that the variables are unset only on the build farm;
 - warning for packages that other dependencies provide in some distributions, if no distribution was chosen;
 - warning for public headers that the package itself does not compile, because dependents that declare the package build;
@@ -132,7 +133,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     undeclared_needs = dependencies.undeclared(package, workspace)
     with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
-        problem = "is used here, but package.xml does not declare it"
+        declared_how = "declares it only in a comment" if _is_commented_out(package, need.name) else "does not declare it"
+        problem = f"is used here, but package.xml {declared_how}"
         is_mild = (
             need.name == _PYTEST
             or _is_unreached(package, need)
@@ -140,6 +142,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             or _is_left_to_pip(package, workspace, need)
             or _is_unused(need)
             or _is_of_environment(need)
+            or _is_commented_out(package, need.name)
         )
         severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
@@ -247,6 +250,16 @@ def _is_unreached(package: Package, need: dependencies.Need) -> bool:
 
 def _is_in_unreached_module(package: Package, use: Use) -> bool:
     return use.via == "import" and package.relative(use.span.path) in package.unreached_modules
+
+
+def _is_commented_out(package: Package, name: str) -> bool:
+    """Return whether a comment of the manifest contains a dependency tag with the name, which the author removed on purpose."""
+    text = package.manifest.text if package.manifest else ""
+    tag = re.compile(rf"<\w*depend\b[^>]*>\s*{re.escape(name)}\s*</")
+    return name in text and any(tag.search(comment) for comment in _COMMENT.findall(text))
+
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
 def _is_of_environment(need: dependencies.Need) -> bool:
