@@ -186,7 +186,9 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
     proposal = dependencies.remedy(package, workspace, name, role)
     elsewhere = _elsewhere(name, workspace)
     condition, suggestion = _condition(package, name), _suggestion(name, workspace)
-    is_partial = proposal.conditional or bool(_provided_elsewhere(package, workspace, name))
+    # A dependency with the wrong tag provides the package in other distributions, too.
+    remark = _provided_elsewhere(package, workspace, name) if need.name not in _misplaced_names(package, workspace) else ""
+    is_partial = proposal.conditional or bool(remark)
     if proposal.circular:
         message = f"'{name}' is used here, but cannot be declared: {proposal.obstacle}"
     elif elsewhere:
@@ -208,7 +210,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
             f"declare: add {proposal.written}"
         )
     else:
-        message = f"'{name}' {problem}: add {proposal.written}{_provided_elsewhere(package, workspace, name)}"
+        message = f"'{name}' {problem}: add {proposal.written}{remark}"
         if instead := _instead_of_distutils(best):
             message = f"Python 3.12 removed '{best.name}': use {instead}, or add {proposal.written}, which still provides it"
         if _needs_back(name, package, workspace):
@@ -225,6 +227,11 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
         Severity.WARNING if _is_conditional(need) or (not workspace.target.explicit and is_partial) else None,
     )
+
+
+def _misplaced_names(package: Package, workspace: Workspace) -> frozenset[str]:
+    """Return the needed packages that only dependencies with the wrong tag provide."""
+    return frozenset([lack.need.name for lack in dependencies.misplaced(package, workspace)])
 
 
 def _provided_elsewhere(package: Package, workspace: Workspace, name: str) -> str:
