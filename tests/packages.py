@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from ros_lint.base.by_name import ByName
 from ros_lint.base.text import Text
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.collectors.manifest import conditions
@@ -60,7 +61,7 @@ def made(
         path=path,
         type=kind,
         manifest=manifest,
-        declared=tuple(_declared(depend, truth) for depend, truth in active if depend.tag in ROLES),
+        declared=ByName(_declared(depend, truth) for depend, truth in active if depend.tag in ROLES),
         groups=tuple(depend.name for depend, _ in active if depend.tag == "member_of_group"),
         group_depends=tuple(_declared(depend, truth) for depend, truth in active if depend.tag == "group_depend"),
         colcon_depends=colcon_depends,

@@ -5,6 +5,7 @@ from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import first_related
 from ros_lint.api import build, dependencies, edits, files, graph, launch, manifests, names
+from ros_lint.base.by_name import ByName
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY, too_new
@@ -46,6 +47,7 @@ __all__ = [
     "BuildProject",
     "BuildScript",
     "BuildTarget",
+    "ByName",
     "CMakeBuild",
     "CMakeCommands",
     "Call",

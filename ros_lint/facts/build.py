@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, NamedTuple
 
+from ros_lint.base.by_name import ByName
 from ros_lint.base.text import Span
 from ros_lint.facts.cmake import BuildTarget, Call, CommandPlace, UnsetVariable
 from ros_lint.facts.setup_py import EditableList, EntryPoint, PythonModule, WrittenText
@@ -218,7 +219,7 @@ class CMakeCommands(NamedTuple):
 
     names: tuple[str, ...] = ()
     """Names of the commands that ran: lower case, sorted, without duplicates."""
-    calls: tuple[Call, ...] = ()
+    calls: ByName[Call] = ByName()
     """Commands as written, file by file."""
     insertion: Span | None = None
     """Place for a new install rule: an empty span before ament_package(), or None."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import parent
 from ros_lint.base.tree import Tree
 from ros_lint.facts.build import BuildScript
@@ -68,7 +69,7 @@ def join_packages(
             path=discovered.path,
             type=discovered.type,
             manifest=discovered.manifest,
-            declared=tuple(d for d in declared if d.depend.tag in ROLES),
+            declared=ByName(d for d in declared if d.depend.tag in ROLES),
             groups=tuple(d.name for d in declared if d.depend.tag == "member_of_group"),
             group_depends=tuple(d for d in declared if d.depend.tag == "group_depend"),
             colcon_depends=discovered.colcon_depends,
@@ -122,7 +123,7 @@ def unusable_package(manifest: Manifest) -> Package:
         path=parent(manifest.path),
         type="",
         manifest=manifest,
-        declared=(),
+        declared=ByName(),
         groups=(),
         group_depends=(),
         colcon_depends=(),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base import gitignore
+from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import join, resolve, strip_folder
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
@@ -64,7 +65,7 @@ class Package(NamedTuple):
     """Type as printed by ``colcon list``: ros.ament_cmake, ros.ament_python, cmake, python ..."""
     manifest: Manifest | None
     """The package.xml, with its problems, even if colcon cannot use it."""
-    declared: tuple[Declared, ...]
+    declared: ByName[Declared]
     """Dependency tags, without tags whose condition (REP 149) is false."""
     groups: tuple[str, ...]
     """Dependency groups that the package is a member of."""
@@ -184,9 +185,9 @@ class Package(NamedTuple):
             role |= declared.role
         return role
 
-    def tags(self, name: str) -> list[Declared]:
+    def tags(self, name: str) -> Sequence[Declared]:
         """Return the tags that declare a name, including tags with an uncertain condition."""
-        return [declared for declared in self.declared if declared.depend.name == name]
+        return self.declared.named(name)
 
     @property
     def cmake_lists(self) -> str:
@@ -197,8 +198,8 @@ class Package(NamedTuple):
         """Yield calls of CMake commands in the package's CMakeLists.txt, or, with ``anywhere``, in all of its CMake files."""
         if self.script is None:
             return
-        calls = [call for call in self.script.commands.calls if call.name in names]
-        yield from calls if anywhere else [call for call in calls if call.path == self.cmake_lists]
+        calls, path = self.script.commands.calls.named(*names), self.cmake_lists
+        yield from calls if anywhere else [call for call in calls if call.path == path]
 
     def relative(self, path: str) -> str:
         """Return a path relative to the package."""

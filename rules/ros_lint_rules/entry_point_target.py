@@ -44,6 +44,7 @@ from ros_lint.api import (
     Severity,
     Workspace,
     build,
+    cached_by_package,
     names,
 )
 
@@ -86,6 +87,11 @@ def _lacking(
         )
 
 
+@cached_by_package
+def _targets(package: Package, _: Workspace) -> frozenset[str]:
+    return frozenset([entry.target for entry in package.built.products.entry_points])
+
+
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
     """Yield the finding for a module that is not in the sources, if it must be a module of ``package``."""
     script = package.script
@@ -94,7 +100,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     tops = {module.partition(".")[0] for module in script.products.python_packages}
     own = name.partition(".")[0]
     hint = "; add it, or remove the entry point"
-    taken = {other.target for other in script.products.entry_points}  # no suggestion makes two programs the same
+    taken = _targets(package, workspace)  # no suggestion makes two programs the same
     files = [file for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops]
     not_importable = [file for file in files if not all(map(str.isidentifier, file[:-3].split("/")))]
     importable = {file[:-3].replace("/", ".") for file in files if file not in not_importable}

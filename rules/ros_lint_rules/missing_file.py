@@ -44,6 +44,7 @@ Reported with medium confidence, because something may create the file:
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 
 from ros_lint.api import Call, Confidence, Finding, Package, Problem, Rule, Severity, Workspace, build, names
@@ -123,7 +124,9 @@ def _only_prints(call: Call) -> bool:
 
 def _is_installed(package: Package, problem: Problem) -> bool:
     """Return whether install() needs the missing file of a problem, so that only the installation fails."""
-    return any(call.extent.covers(problem.span) for call in package.calls("install", anywhere=True))
+    installs = package.built.commands.calls.named("install")
+    before = bisect_right(installs, problem.span[:3], key=lambda call: call.name_span[:3])
+    return before > 0 and installs[before - 1].extent.covers(problem.span)
 
 
 def _builds_in_sources(package: Package) -> bool:

@@ -31,18 +31,18 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Finding, Package, PluginFile, PluginLibrary, Rule, Severity, Workspace, build, names
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     plugins = build.plugins(package)
     if plugins is None:
         return
     for plugin in plugins.installed:
         for library in plugin.libraries:
-            for finding in _library(package, plugin, library):
+            for finding in _library(package, workspace, plugin, library):
                 # A description that is not exported has no effect, and many remain from ROS 1.
                 yield finding if plugins.exports else finding._replace(confidence=Confidence.MEDIUM)
 
 
-def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
+def _library(package: Package, workspace: Workspace, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
     if not library.path:
         yield Finding("<library> without path makes pluginlib loop forever; add the path", library.span, plugin.path)
         return
@@ -55,7 +55,7 @@ def _library(package: Package, plugin: PluginFile, library: PluginLibrary) -> It
     if name in built:
         message = f"the library '{name}' is built, but not installed to lib; install it there"
         # The library may be static, or its file may have another name.
-        sure = Confidence.HIGH if build.is_declared_shared(package, name) and library.classes else Confidence.MEDIUM
+        sure = Confidence.HIGH if build.is_declared_shared(package, workspace, name) and library.classes else Confidence.MEDIUM
     else:
         near = names.similar_names(name, sorted(installed | built), 1, 0.8)
         hint = names.ask_if_meant(near) or "; correct the path, or remove this <library>"

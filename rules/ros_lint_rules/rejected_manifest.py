@@ -55,8 +55,9 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         manifest = package.manifest
         if manifest is None:
             continue
+        depends = {depend.span: depend for depend in reversed(manifest.depends)}
         for problem in manifest.problems:
-            depend = _depend_at(manifest, problem)
+            depend = depends.get(problem.span)
             yield Finding(
                 f"colcon rejects this package.xml: {problem.message}",
                 problem.span,
@@ -64,10 +65,6 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 fix=_fix(manifest, problem, depend),
                 package=package.name,
             )
-
-
-def _depend_at(manifest: Manifest, problem: Problem) -> Depend | None:
-    return next((depend for depend in manifest.depends if depend.span == problem.span), None)
 
 
 def _fix(manifest: Manifest, problem: Problem, depend: Depend | None) -> Fix | None:

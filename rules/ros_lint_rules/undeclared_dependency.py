@@ -107,9 +107,10 @@ The severity is lower if the package works where it is built, launched and teste
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from ros_lint.api import (
+    ByName,
     Confidence,
     Consequence,
     Facet,
@@ -131,6 +132,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if not dependencies.manifest_is_complete(package):
         return
     undeclared_needs = dependencies.undeclared(package, workspace)
+    by_name = ByName([need for need, _ in undeclared_needs])
     with_launch = {need.name for need, _ in undeclared_needs if dependencies.is_part_of_launch(package, workspace, need.uses)}
     for need, sure in undeclared_needs:
         declared_how = "declares it only in a comment" if _is_commented_out(package, need.name) else "does not declare it"
@@ -165,7 +167,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             )
             finding = finding._replace(message=message, fix=None)
         if finding.fix:
-            finding = finding._replace(explains=_brought(package, workspace, need, undeclared_needs))
+            finding = finding._replace(explains=_brought(package, workspace, need, by_name))
         yield finding._replace(severity=severity or finding.severity)
     for lack in dependencies.misplaced(package, workspace):
         tag = lack.depend.tag
@@ -343,17 +345,18 @@ def _calls(name: str, need: dependencies.Need) -> str:
 
 
 def _brought(
-    package: Package, workspace: Workspace, need: dependencies.Need, all_needs: Iterable[tuple[dependencies.Need, bool]]
+    package: Package, workspace: Workspace, need: dependencies.Need, all_needs: ByName[dependencies.Need]
 ) -> tuple[Consequence, ...]:
     """Return the findings for undeclared packages that need no tag of their own once ``need`` is declared.
 
     These packages are dependencies of ``need``.
     """
     closure = workspace.world.closure((need.name,))
+    others = all_needs.named(*closure.names) if len(closure) < len(all_needs) else all_needs
     return tuple(
         [
             Consequence("undeclared-dependency", other.name)
-            for other, _ in all_needs
+            for other in others
             if other is not need and other.name in closure and _needs_no_tag(package, workspace, other, need)
         ]
     )

@@ -40,11 +40,13 @@ they become part of the targets that link them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from ros_lint.api import (
     BuildScript,
     BuildTarget,
+    Call,
     Confidence,
     Facet,
     Finding,
@@ -63,26 +65,35 @@ from ros_lint.api import (
 )
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
     if script is None or package.builds_with != "ament_cmake" or build.opaque_except_undefined_targets(package, Facet.LIBRARIES):
         return
-    installed = {provided.target for provided in script.products.installs}
+    installation = _installation(script)
+    installed = installation.targets
     listed = build.install_arguments(package)
+    calls = build.library_calls(package, workspace)
     components = {name for call in package.calls(*build.REGISTERING, anywhere=True) for name in _names(package, call.texts[:1])}
-    yield from _in_other_folder(package)
+    exports = _exports(package)
+    links = _links(script)
+    shared_by_default = "ament_cmake_ros" in dependencies.names_searched(package, script)
+    registering = {package.relative(made.span.path) for made in package.registrations}
+    yield from _in_other_folder(package, exports)
+    named = installed | listed | components
     for target in script.products.targets:
-        if target.kind != "library" or target.test or not target.sources or target.name in installed | listed | components:
+        if target.kind != "library" or target.test or not target.sources or target.name in named:
             continue
-        if any("OBJECT" in call.texts[1:2] for call in build.library_calls(package, target.name)):
+        if any("OBJECT" in call.texts[1:2] for call in calls.get(target.name, ())):
             continue
-        shared = _is_shared(package, target.name)
-        loaded = any(package.relative(made.span.path) in target.sources for made in package.registrations)
+        shared = _is_shared(calls.get(target.name, ()), by_default=shared_by_default)
+        loaded = not registering.isdisjoint(target.sources)
         headers_only = all(source.endswith(files.HEADERS) for source in target.sources)
-        for_others = not headers_only and _is_for_others(package, target, loaded=loaded)
-        users = [(name, span) for name, span in _linked_by(script, target.name) if name in installed]
+        for_others = not headers_only and _is_for_others(
+            package, workspace, target, installation, links.get(target.name, ()), loaded=loaded
+        )
+        users = [(name, span) for name, span, test in links.get(target.name, ()) if name in installed and not test]
         users = users if shared and not headers_only else []
-        exported = _exported(package, target.name)
+        exported = exports.get(target.name)
         related = first_related(Related(f"linked by '{name}' here", span) for name, span in users)
         if exported is not None:
             related += (Related("exported here", exported),)
@@ -98,14 +109,14 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         )
 
 
-def _in_other_folder(package: Package) -> Iterator[Finding]:
+def _in_other_folder(package: Package, exports: Mapping[str, Span]) -> Iterator[Finding]:
     """Yield findings for exported libraries that are installed to lib/<package> or outside of lib.
 
     ament_export_libraries() looks for libraries in lib (ament_cmake_export_libraries-extras.cmake.in).
     """
     loaded = build.EXPORTING_PLUGINS in package.built.commands.names
     for name, place in build.libraries_elsewhere(package, (".so", ".a")).items():
-        if exported := _exported(package, name):
+        if exported := exports.get(name):
             folder = place.path.rpartition("/")[0]
             yield Finding(
                 f"the library '{name}' is exported, but installed to {folder}, where find_package() does not look; "
@@ -121,16 +132,48 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
     yield from (name for text in texts if (name := build.evaluated_name(package, text)))
 
 
-def _is_shared(package: Package, name: str) -> bool:
-    """Return whether the library is certainly shared."""
-    packages = dependencies.names_searched(package, package.built)
-    for call in build.library_calls(package, name):
-        kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(call.texts)
-        return "SHARED" in call.texts or (not kinds and "ament_cmake_ros" in packages)
-    return False
+def _is_shared(calls: Sequence[Call], *, by_default: bool) -> bool:
+    """Return whether the first of the calls that create a library certainly creates a shared one."""
+    if not calls:
+        return False
+    kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(calls[0].texts)
+    return "SHARED" in calls[0].texts or (not kinds and by_default)
 
 
-def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> bool:
+class _Installation(NamedTuple):
+    """What a build script installs, and which targets it leaves in the build folder."""
+
+    targets: frozenset[str]
+    """Names of the installed targets."""
+    headers: frozenset[str]
+    """File stems of the installed headers."""
+    tests: frozenset[str]
+    """Names of the targets for tests."""
+    in_build_folder: frozenset[str]
+    """Names of the programs that are not installed; empty if the package installs nothing that it builds."""
+
+
+def _installation(script: BuildScript) -> _Installation:
+    installs = script.products.installs
+    installed = frozenset([provided.target for provided in installs])
+    programs = [target.name for target in script.products.targets if target.kind == "executable"]
+    return _Installation(
+        installed,
+        frozenset([build.stem(provided.path) for provided in installs if provided.path.endswith(files.HEADERS)]),
+        frozenset([target.name for target in script.products.targets if target.test]),
+        frozenset(programs).difference(installed - {""}) if build.installs_built(script) else frozenset(),
+    )
+
+
+def _is_for_others(
+    package: Package,
+    workspace: Workspace,
+    library: BuildTarget,
+    installation: _Installation,
+    users: Sequence[_User],
+    *,
+    loaded: bool,
+) -> bool:
     """Return whether a shared library is only useful if it is installed.
 
     It is declared SHARED, every build has it, and no uninstalled program or test links it, with these exceptions:
@@ -139,34 +182,39 @@ def _is_for_others(package: Package, library: BuildTarget, *, loaded: bool) -> b
     - If its header is installed, tests may link it.
     - If the package installs nothing that it builds, its programs may link it.
     """
-    script = package.script
-    assert script is not None
-    if build.is_optional_target(package, library) or not build.is_declared_shared(package, library.name):
+    if build.is_optional_target(package, library) or not build.is_declared_shared(package, workspace, library.name):
         return False
-    installed = {provided.target for provided in script.products.installs if provided.target}
-    uninstalled = {
-        target.name for target in script.products.targets if target.kind == "executable" and target.name not in installed
-    }
-    if not build.installs_built(script):
-        uninstalled.clear()
-    tests = {target.name for target in script.products.targets if target.test}
-    public = build.has_header(library, [provided.path for provided in script.products.installs])
+    public = not installation.headers.isdisjoint(map(build.stem, library.sources))
+    uninstalled, tests = installation.in_build_folder, installation.tests
     uninstalled = uninstalled - tests if public else uninstalled | tests
-    return loaded or not any(
-        linked == library.name for target in script.products.targets if target.name in uninstalled for linked, _ in target.links
-    )
+    return loaded or uninstalled.isdisjoint([user.target for user in users])
 
 
-def _linked_by(script: BuildScript, library: str) -> Iterator[tuple[str, Span]]:
+class _User(NamedTuple):
+    """A target that links a library."""
+
+    target: str
+    span: Span
+    test: bool
+
+
+def _links(script: BuildScript) -> Mapping[str, Sequence[_User]]:
+    """Return the targets that link a library, by the name of the library."""
+    links: dict[str, list[_User]] = {}
     for target in script.products.targets:
-        yield from ((target.name, span) for name, span in target.links if name == library and not target.test)
+        for name, span in target.links:
+            links.setdefault(name, []).append(_User(target.name, span, target.test))
+    return links
 
 
-def _exported(package: Package, library: str) -> Span | None:
+def _exports(package: Package) -> Mapping[str, Span]:
+    """Return the places of the first unconditional exports, by the name of the library."""
+    exports: dict[str, Span] = {}
     for call in package.calls("ament_export_libraries", anywhere=True):
-        if library in _names(package, call.texts) and not call.blocks:
-            return call.name_span
-    return None
+        if not call.blocks:
+            for name in _names(package, call.texts):
+                exports.setdefault(name, call.name_span)
+    return exports
 
 
 RULE = Rule(

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.analysis.build.commands import evaluated_name, opaque_except_undefined_targets
+from ros_lint.analysis.memo import cached_by_package
 from ros_lint.base.auxiliary_files import is_auxiliary
 from ros_lint.collectors.suffixes import HEADERS
 from ros_lint.facts.build import BuildScript, InstalledFile
 from ros_lint.facts.cmake import BuildTarget, Call
 from ros_lint.facts.sources import Registration
 from ros_lint.facts.visibility import Facet
-from ros_lint.workspace.model import Package
+from ros_lint.workspace.model import Package, Workspace
 
 
 def programs_built(script: BuildScript) -> Iterator[BuildTarget]:
@@ -93,16 +94,19 @@ def stem(path: str) -> str:
     return path.rpartition("/")[2].partition(".")[0]
 
 
-def library_calls(package: Package, name: str) -> Iterator[Call]:
-    """Yield the calls of add_library() and ament_auto_add_library() that create the library ``name``, in order."""
+@cached_by_package
+def library_calls(package: Package, _: Workspace) -> Mapping[str, Sequence[Call]]:
+    """Return the calls of add_library() and ament_auto_add_library(), in order, by the name of the library that they create."""
+    calls: dict[str, list[Call]] = {}
     for call in package.calls("add_library", "ament_auto_add_library", anywhere=True):
-        if call.args and evaluated_name(package, call.texts[0]) == name:
-            yield call
+        if call.args and (name := evaluated_name(package, call.texts[0])):
+            calls.setdefault(name, []).append(call)
+    return calls
 
 
-def is_declared_shared(package: Package, name: str) -> bool:
+def is_declared_shared(package: Package, workspace: Workspace, name: str) -> bool:
     """Return whether the command that creates a library contains SHARED or MODULE, unconditionally."""
-    calls = library_calls(package, name)
+    calls = library_calls(package, workspace).get(name, ())
     return any(not call.blocks and not {"SHARED", "MODULE"}.isdisjoint(call.texts) for call in calls)
 
 

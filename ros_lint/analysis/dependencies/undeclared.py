@@ -131,16 +131,26 @@ def distros_providing(package: Package, workspace: Workspace, name: str) -> tupl
 def _joined(missing: Sequence[Need]) -> list[Need]:
     """Return the needs, with two needs joined into one if find_package() and #include name the needed package differently."""
     result: list[Need] = []
+    common: list[frozenset[str]] = []  # the packages that provide all uses of a need of the result
+    places: dict[str, list[int]] = {}  # indexes of the needs that have, or had, a name or a common provider
     for need in missing:
-        for number, earlier in enumerate(result):
-            before = all(earlier.name in use.providers for use in need.uses)
-            if before or all(need.name in use.providers for use in earlier.uses):
+        providers = frozenset.intersection(*(frozenset(use.providers) for use in need.uses))
+        candidates = sorted({number for name in (need.name, *providers) for number in places.get(name, ())})
+        for number in candidates:
+            earlier = result[number]
+            before = earlier.name in providers
+            if before or need.name in common[number]:
                 best = earlier if before else need
                 uses = sorted((*earlier.uses, *need.uses), key=lambda use: (_rank(use), not _names(use, best.name)))
                 result[number] = best._replace(uses=tuple(uses))
+                common[number] &= providers
+                places.setdefault(best.name, []).append(number)
                 break
         else:
+            for name in {need.name, *providers}:
+                places.setdefault(name, []).append(len(result))
             result.append(need)
+            common.append(providers)
     return result
 
 

@@ -8,7 +8,7 @@ from typing import Final
 
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.manifest.problems import ALLOWED, VERSIONS, find_problems, read_format, surely_accepted
-from ros_lint.collectors.manifest.xml import BLANK, Document, Fault, XmlNode, attribute, child, markup, read, value
+from ros_lint.collectors.manifest.xml import BLANK, Document, Fault, XmlNode, attribute, attributes, child, markup, read, value
 from ros_lint.facts.manifest import DEPENDENCY_KINDS, Depend, Element, Manifest
 from ros_lint.facts.visibility import Problem
 
@@ -168,7 +168,9 @@ def _depend(text: str, node: XmlNode, place: _Place) -> Depend:
 def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> Element:
     """Return the Element of an XML node. ``rich`` keeps the markup in its text, as catkin_pkg does for ``<description>``."""
     span = place(node.start, node.end)
-    attribute_spans = tuple([place(*attribute(text, node, name)[1:]) for name in node.attributes])
+    places = attributes(text, node) if node.attributes else {}
+    nowhere = (node.start, node.start, node.start)
+    attribute_spans = tuple([place(*places.get(name, nowhere)[1:]) for name in node.attributes])
     if rich:
         content = markup(text, node) if node.tag != "export" else ""
         inner = text[node.inner : node.close]

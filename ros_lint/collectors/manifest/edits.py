@@ -40,7 +40,7 @@ def add(manifest: Manifest, tag: str, name: str) -> Edit:
     It is added to the dependencies with the same tag, in alphabetical order if these are sorted. If there are none, it is
     placed by the usual order of tags, separated by a blank line if the file separates tags by blank lines.
     """
-    return _insert_by_kind(_Layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
+    return _insert_by_kind(_layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
 
 
 def _insert_by_kind(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
@@ -96,7 +96,7 @@ def _insert_by_order(layout: _Layout, depends: Sequence[Depend], tag: str, order
 
 def remove(manifest: Manifest, depend: Depend) -> Edit:
     """Return the edit that removes a dependency, and its line if nothing else is on the line. Comments are kept."""
-    return _Layout(manifest).removal(depend.span)
+    return _layout(manifest).removal(depend.span)
 
 
 def rename(depend: Depend, name: str) -> Edit:
@@ -120,7 +120,7 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
     run = next(run for run in runs if depend in run)
     kinds = {sibling.tag for sibling in depends}
     is_whole_group = tag not in kinds and all(sibling in alike for sibling in run)
-    layout = _Layout(manifest)
+    layout = _layout(manifest)
     if len(runs) > len(kinds) or is_whole_group or not layout.is_alone(depend.span) or not _is_verbatim(depend):
         return change_tag(depend, tag)
     remaining = [sibling for sibling in depends if sibling is not depend]
@@ -144,7 +144,7 @@ def change_tag(depend: Depend, tag: str) -> tuple[Edit, ...]:
 
 def set_build_type(manifest: Manifest, build_type: str) -> Edit:
     """Return the edit that adds ``<build_type>`` to a manifest without build type, and ``<export>`` if it is missing."""
-    layout, newline, indent = _Layout(manifest), manifest.newline, manifest.indent
+    layout, newline, indent = _layout(manifest), manifest.newline, manifest.indent
     element = f"<build_type>{escaped(build_type)}</build_type>"
     export_element = f"<export>{newline}{indent * 2}{element}{newline}{indent}</export>"
     export = next((child for child in manifest.elements if child.tag == "export"), None)
@@ -186,7 +186,7 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
     kept_indexes = _longest_ascent(ranks)
     moved_children = [child for at, child in enumerate(children) if at not in kept_indexes]
     kept_children = [child for at, child in enumerate(children) if at in kept_indexes]
-    layout = _Layout(manifest)
+    layout = _layout(manifest)
     if not moved_children or not all(layout.is_alone(child.span) and _is_verbatim(child) for child in moved_children):
         return ()
     edits: list[Edit] = []
@@ -208,6 +208,13 @@ class _Neighbours(NamedTuple):
     after: Span | None
 
 
+def _layout(manifest: Manifest) -> _Layout:
+    """Return the layout of a manifest. The last one is kept, because a rule may edit each dependency of a manifest."""
+    if not (_LAST and _LAST[0].manifest is manifest):
+        _LAST[:] = [_Layout(manifest)]
+    return _LAST[0]
+
+
 class _Layout:
     """The lines of a manifest and the items on them: elements, dependencies, comments and texts."""
 
@@ -217,13 +224,15 @@ class _Layout:
         self.begin = manifest.begin or manifest.end
         spans = (child.span for children in (manifest.elements, manifest.depends) for child in children)
         self.items = sorted((*spans, *manifest.other_contents))
+        self.positions = {item: number for number, item in reversed(list(enumerate(self.items)))}
+        self.other_contents = frozenset(manifest.other_contents)
         self.covered = {self.begin.line, manifest.end.line}
         for item in self.items:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Neighbours:
         """Return the item that ends on the first line of an item, and the item that begins on its last line."""
-        at = self.items.index(span)
+        at = self.positions[span]
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
         return _Neighbours(
@@ -232,14 +241,14 @@ class _Layout:
 
     def is_alone(self, span: Span) -> bool:
         """Return whether no other item is on the lines of an item, and no comment is directly above it."""
-        at = self.items.index(span)
-        heading = at > 0 and self.items[at - 1] in self.manifest.other_contents and self.items[at - 1].end_line == span.line - 1
+        at = self.positions[span]
+        heading = at > 0 and self.items[at - 1] in self.other_contents and self.items[at - 1].end_line == span.line - 1
         return self.neighbours(span) == (None, None) and not heading
 
     def insert_after(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
         """Return the edit that inserts ``element`` after the item at ``span`` and the comments on its line."""
         tail = span
-        while (following := self.neighbours(tail).after) is not None and following in self.manifest.other_contents:
+        while (following := self.neighbours(tail).after) is not None and following in self.other_contents:
             tail = following
         if following is not None:
             # Several elements of one kind on a line are a style, which is kept. Different kinds are separated, unless
@@ -298,8 +307,8 @@ class _Layout:
 
     def with_heading(self, span: Span) -> Span:
         """Return the span of the first of the comments directly above an item, the span of the item if there is no comment."""
-        at = self.items.index(span)
-        while at and self.items[at - 1] in self.manifest.other_contents and self.items[at - 1].end_line == span.line - 1:
+        at = self.positions[span]
+        while at and self.items[at - 1] in self.other_contents and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:
                 break
             at -= 1
@@ -308,7 +317,7 @@ class _Layout:
 
     def blank_after(self, span: Span) -> bool:
         """Return whether a blank line follows an item and the comments on its line."""
-        while (following := self.neighbours(span).after) is not None and following in self.manifest.other_contents:
+        while (following := self.neighbours(span).after) is not None and following in self.other_contents:
             span = following
         return self._is_blank(span.end_line + 1)
 
@@ -373,3 +382,7 @@ def _longest_ascent(ranks: list[int]) -> frozenset[int]:
         indexes.add(at)
         at = chains[at][1]
     return frozenset(indexes)
+
+
+_LAST: Final[list[_Layout]] = []
+"""The layout that was computed last, if any."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Final
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.collectors.manifest.xml import Document, Fault, XmlNode, attribute, children, value
+from ros_lint.collectors.manifest.xml import Document, Fault, XmlNode, attribute, attributes, children, value
 from ros_lint.facts.manifest import Depend, Element
 
 _Elements = Sequence[tuple[XmlNode, Element]]
@@ -125,9 +125,7 @@ def find_problems(
     dependency_tags = {depend.tag for depend in depends}
     of_elements = list(zip([node for node in nodes if node.tag not in dependency_tags], elements, strict=True))
     of_depends = list(zip([node for node in nodes if node.tag in dependency_tags], depends, strict=True))
-    for name in root.attributes:
-        if name != "format" and ":" not in name:
-            yield _unknown_attribute(document.text, root, name, format_number)
+    yield from _unknown_attributes(document.text, root, {"format"}, format_number)
     if format_number:
         for node in nodes:
             yield from _content(document, node, format_number)
@@ -155,9 +153,7 @@ def _content(document: Document, node: XmlNode, format_number: int) -> Iterator[
     if allowed is None:
         yield _unknown_tag(node, format_number)
         return
-    for name in node.attributes:
-        if name not in allowed and ":" not in name:
-            yield _unknown_attribute(document.text, node, name, format_number)
+    yield from _unknown_attributes(document.text, node, allowed, format_number)
     if node.tag not in ("description", "export"):
         for inner_node in node.children:
             message = f"<{node.tag}> may contain only text; remove <{inner_node.tag}>"
@@ -187,8 +183,15 @@ def _unknown_tag(node: XmlNode, format_number: int) -> Fault:
     )
 
 
-def _unknown_attribute(text: str, node: XmlNode, name: str, format_number: int) -> Fault:
-    start, _, end = attribute(text, node, name)
+def _unknown_attributes(text: str, node: XmlNode, allowed: Collection[str], format_number: int) -> Iterator[Fault]:
+    unknown = [name for name in node.attributes if name not in allowed and ":" not in name]
+    places = attributes(text, node) if unknown else {}
+    for name in unknown:
+        yield _unknown_attribute(node, name, places, format_number)
+
+
+def _unknown_attribute(node: XmlNode, name: str, places: Mapping[str, tuple[int, int, int]], format_number: int) -> Fault:
+    start, _, end = places.get(name, (node.start, node.start, node.start))
     newer_format = next(
         (str(later) for later, tags in ALLOWED.items() if later > format_number and name in tags.get(node.tag, ())), ""
     )

@@ -7,6 +7,7 @@ the text. No other file is read.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Final, NamedTuple
 from xml.parsers import expat
@@ -96,14 +97,19 @@ def attribute(text: str, node: XmlNode, name: str) -> tuple[int, int, int]:
 
     All of them are the start of the element if it has no such attribute.
     """
+    return attributes(text, node).get(name, (node.start, node.start, node.start))
+
+
+def attributes(text: str, node: XmlNode) -> Mapping[str, tuple[int, int, int]]:
+    """Return the offsets of the name, of the value and of the value's end for the attributes of an element, by their names."""
+    places: dict[str, tuple[int, int, int]] = {}
     start_tag = _START.match(text, node.start)
     at = start_tag.end() if start_tag else node.start
     while match := _ATTRIBUTE.match(text, at):
-        if match[1] == name:
-            group = 3 if match[2] is None else 2
-            return match.start(1), match.start(group), match.end(group)
+        group = 3 if match[2] is None else 2
+        places.setdefault(match[1], (match.start(1), match.start(group), match.end(group)))
         at = match.end()
-    return node.start, node.start, node.start
+    return places
 
 
 def value(text: str, node: XmlNode) -> tuple[str, int, int]:

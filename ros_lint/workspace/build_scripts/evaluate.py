@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import join
 from ros_lint.base.text import file_start
 from ros_lint.base.tree import Tree
@@ -106,7 +107,7 @@ def _cmake(
         own_helpers[parts.package.name] = Helper(inputs, script)
     folder = parts.package.path
     calls = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
-    return script._replace(commands=script.commands._replace(calls=tuple(chain.from_iterable(calls))))
+    return script._replace(commands=script.commands._replace(calls=ByName(chain.from_iterable(calls))))
 
 
 def _failed(parts: Parts, reason: str) -> BuildScript:

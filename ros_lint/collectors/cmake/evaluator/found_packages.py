@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
 
 from ros_lint.base.text import Span
 from ros_lint.collectors.cmake.evaluator.state import Properties
@@ -39,13 +40,14 @@ class FoundPackages:
         """Places of these calls that certainly run with QUIET."""
         self.required_by_check: set[str] = set()
         """Names X for which the script stops with an error unless X_FOUND is true."""
-        self._folded_prefixes: tuple[str, ...] = ()
+        self._spellings: dict[str, list[str]] = {}
+        self._spelling_lengths: set[int] = set()
+        self._indexed = 0
 
     def may_set(self, variable: str) -> bool:
         """Return whether a found package may have set a variable, which then has the prefix of the package."""
-        if len(self.prefixes) != len(self._folded_prefixes):
-            self._folded_prefixes = tuple(map(folded, self.prefixes))
-        return folded(variable).startswith(self._folded_prefixes)
+        letters, spellings = folded(variable), self._folded_prefixes()
+        return any(letters[:length] in spellings for length in self._spelling_lengths)
 
     def with_prefix(self, prefix: str) -> str:
         """Return the found package whose variables have a prefix in any spelling (:func:`folded`); "" if there is none.
@@ -54,6 +56,15 @@ class FoundPackages:
         """
         if self.prefixes.get(prefix):
             return prefix
-        letters = folded(prefix)
-        names = [name for name in self.prefixes if folded(name) == letters]
+        names = self._folded_prefixes().get(folded(prefix), ())
         return next((name for name in names if self.prefixes[name]), names[0] if names else "")
+
+    def _folded_prefixes(self) -> Mapping[str, Sequence[str]]:
+        """Return the prefixes by their folded spelling. Prefixes are only added, so the index is extended by the new ones."""
+        if len(self.prefixes) != self._indexed:
+            for name in islice(self.prefixes, self._indexed, None):
+                letters = folded(name)
+                self._spellings.setdefault(letters, []).append(name)
+                self._spelling_lengths.add(len(letters))
+            self._indexed = len(self.prefixes)
+        return self._spellings

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Final
 
 from ros_lint.base.text import Span
@@ -23,6 +23,8 @@ from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 DEEPEST: Final = 60
 """Greatest depth of nested calls. CMake allows 1,000; real packages need less than 20."""
+_MANY_ARGUMENTS: Final = 16
+"""Arguments of a command from which an index is faster than a search."""
 _SHORT: Final = 1024
 """Characters of the longest value that is read without a charge."""
 _OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})
@@ -95,6 +97,9 @@ class Run(State):
         """The scopes that ament_package() sees."""
         self.component_scopes: list[Variables] = []
         """The scope in which each of the components is registered."""
+
+        self._indexed: tuple[Command, Mapping[str, Sequence[Argument]]] | None = None
+        """The long command whose arguments were indexed last, and its arguments by their text."""
 
     # --- variables
 
@@ -302,7 +307,7 @@ class Run(State):
             if not frame.own or command is None:
                 continue
             innermost = innermost or frame
-            for argument in command.args:
+            for argument in self._arguments_with(value, command):
                 if argument[0] == value and argument[1] < OPEN:
                     return _inside(frame.path, command, argument)
         assert innermost is not None
@@ -315,6 +320,17 @@ class Run(State):
                 if kind in (UNQUOTED, QUOTED) and value in split(self.evaluate(text)):
                     return command.span(frame.path, start, end)
         return command.place(frame.path)
+
+    def _arguments_with(self, text: str, command: Command) -> Iterable[Argument]:
+        """Return the arguments of a command that may have a text. Those of a long command are indexed."""
+        if len(command.args) < _MANY_ARGUMENTS:
+            return command.args
+        if self._indexed is None or self._indexed[0] is not command:
+            by_text: dict[str, list[Argument]] = {}
+            for argument in command.args:
+                by_text.setdefault(argument[0], []).append(argument)
+            self._indexed = command, by_text
+        return self._indexed[1].get(text, ())
 
     def note_literals(self, first: int) -> None:
         """Record the places of list elements: the arguments of the current command from index ``first``."""
