@@ -125,10 +125,14 @@ def are_in_flags(run: Run) -> bool:
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
+_MOST_LINKED: Final = 1_000
+"""Targets that are followed from one target, directly or transitively."""
+
+
 def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
     """Return the names of the packages (and libraries) whose headers the target ``name`` may include, sorted.
 
-    None if the target may include headers of any package.
+    None if the target may include headers of any package, or links too many targets to follow them all.
     """
     packages: dict[str, None] = {}
     pending = [name, ALL_TARGETS]
@@ -138,6 +142,8 @@ def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> t
         current = pending.pop()
         if current in visited:
             continue
+        if len(visited) == _MOST_LINKED:
+            return None
         visited.add(current)
         target = targets.get(current)
         if target is not None:
