@@ -7,6 +7,7 @@ A launch file that the launch front end rejects:
 - It has a tag, attribute or substitution that does not exist, lacks a required one, or has a value of the wrong type.
 - A Python launch file passes unknown or removed keywords to a node, argument or other class of the launch libraries, or passes
   something without its keyword.
+- It omits a required keyword, such as `executable=` of a node.
 - A Python launch file uses a name that is not defined, or imports one from a module that does not have it.
 - It passes a file in XML to `PythonLaunchDescriptionSource`.
 - It uses something that was added to the launch format, or to Python, after the chosen distribution.
@@ -14,7 +15,7 @@ A launch file that the launch front end rejects:
 - It divides a string by a string: `get_package_share_directory('p') / 'config'`.
 - It passes a function, a substitution or a boolean as a condition: `condition=lambda context: ...`.
 - It passes numbers, booleans or actions where strings are required: `default_value=True`, `LaunchConfiguration(argument)`.
-- It passes `launch_arguments` without `.items()`.
+- It passes `launch_arguments` without `.items()`, `parameters` without a list, or an integer as the period of a timer.
 
 This rule reports all of them because one of them is enough for `ros2 launch` to stop before it starts anything.
 

@@ -1,6 +1,7 @@
 """Arguments for which the classes of the launch libraries raise an error when the file is launched.
 
-- Unknown keywords.
+- Unknown keywords, and missing ones that are required.
+- A value of a type that the class rejects.
 - Positional arguments where a keyword is required.
 - A file in another format than the one that the class reads.
 - Absolute paths as later parts of a joined path, which replace the parts before them.
@@ -14,62 +15,22 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.base.suggestions import ask_if_meant, similar_names
-from ros_lint.collectors.launch.python.import_checks import is_from_launch
+from ros_lint.collectors.launch.python.import_checks import ACTIONS, is_from_launch
+from ros_lint.collectors.launch.python.signatures import Signature, all_signatures
 from ros_lint.collectors.launch.python.substitutions import texts
 from ros_lint.collectors.launch.python.walker import span_of
 from ros_lint.collectors.python.interpreter.recorder import are_unknown
+from ros_lint.collectors.python.interpreter.values import LaunchObject
 from ros_lint.collectors.python.string_values import callee, dotted
 from ros_lint.collectors.python.unbound_names import tried
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.python.interpreter.values import LaunchObject, Source
+    from ros_lint.collectors.python.interpreter.values import Source
 
-_PARAMETERS: Mapping[str, tuple[int, frozenset[str]]] = {
-    name: (int(words.split()[0]), frozenset(words.split()[1:]))
-    for name, words in {
-        "AnyLaunchDescriptionSource": "1 launch_file_path",
-        "AppendEnvironmentVariable": "4 name value prepend separator condition",
-        "Command": "1 command on_stderr",
-        "DeclareLaunchArgument": "1 name default_value description choices condition",
-        "EmitEvent": "0 event condition",
-        "EnvironmentVariable": "1 name default_value",
-        "FindExecutable": "0 name",
-        "FindPackageShare": "1 package",
-        "GroupAction": "1 actions scoped forwarding launch_configurations condition",
-        "IfCondition": "1 predicate_expression",
-        "IncludeLaunchDescription": "1 launch_description_source launch_arguments condition",
-        "LaunchConfiguration": "1 variable_name default",
-        "LoadComposableNodes": "0 composable_node_descriptions target_container condition",
-        "LogInfo": "0 msg condition",
-        "OnExecutionComplete": "0 target_action on_completion handle_once",
-        "OnProcessExit": "0 target_action on_exit handle_once",
-        "OnProcessStart": "0 target_action on_start handle_once",
-        "OnShutdown": "0 on_shutdown handle_once",
-        "OpaqueFunction": "0 function args kwargs condition",
-        "ParameterFile": "1 param_file allow_substs",
-        "PathJoinSubstitution": "1 substitutions",
-        "PushRosNamespace": "1 namespace condition",
-        "PythonExpression": "2 expression python_modules",
-        "PythonLaunchDescriptionSource": "1 launch_file_path",
-        "RegisterEventHandler": "1 event_handler condition",
-        "SetEnvironmentVariable": "2 name value condition",
-        "SetLaunchConfiguration": "2 name value condition",
-        "SetParameter": "2 name value condition",
-        "SetRemap": "2 src dst condition",
-        "TextSubstitution": "0 text",
-        "TimerAction": "0 period actions cancel_on_shutdown condition",
-        "UnlessCondition": "1 predicate_expression",
-        "UnsetEnvironmentVariable": "1 name condition",
-        "UnsetLaunchConfiguration": "1 name condition",
-    }.items()
-}
-"""The maximum number of positional arguments and all keywords, in any distribution.
-
-From launch 3.7.1 and launch_ros 0.28.
-"""
-
+_NODES = frozenset({"ComposableNode", "ComposableNodeContainer", "LifecycleNode", "Node"})
+"""Classes whose unknown keywords :mod:`ros_lint.collectors.launch.python.nodes` reports."""
 _OTHER_FORMATS: Mapping[str, tuple[str, ...]] = {
     "PythonLaunchDescriptionSource": (".xml", ".yaml", ".yml"),
     "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),
@@ -96,11 +57,19 @@ def _rejected_arguments_of(launch_object: LaunchObject) -> Iterator[tuple[ast.Ca
     node = launch_object.node
     if callee(node) != launch_object.name or are_unknown(launch_object.conditions):
         return
-    max_positional, keywords = _PARAMETERS.get(launch_object.name, (len(node.args), None))
-    if keywords is not None:
+    signature = all_signatures().get(launch_object.name)
+    if signature is None or not signature.closed:
+        return
+    keywords, max_positional = frozenset(signature.kinds), signature.most_positional
+    if launch_object.name not in _NODES:
         for keyword in node.keywords:
             if keyword.arg is not None and keyword.arg not in keywords:
                 yield node, _unknown_keyword(keyword, keyword.arg, keywords, launch_object)
+    if missing := _missing_arguments(node, signature):
+        message = f"{launch_object.name}() needs {' and '.join([f'{name}=' for name in missing])}"
+        yield node, Problem("missing-argument", message, span_of(node.func, launch_object.source))
+    if wrong := _wrong_type(launch_object):
+        yield node, wrong
     if len(node.args) > max_positional and not any(isinstance(argument, ast.Starred) for argument in node.args):
         accepted = (
             "only keyword arguments"
@@ -124,6 +93,39 @@ def _rejected_arguments_of(launch_object: LaunchObject) -> Iterator[tuple[ast.Ca
                 node,
                 Problem("other-format", message, span_of(launch_object.written(0, "launch_file_path"), launch_object.source)),
             )
+
+
+def _missing_arguments(node: ast.Call, signature: Signature) -> list[str]:
+    """Return the required keywords that a call does not set.
+
+    The result is empty if ``*`` or ``**`` may set them, or if an argument is rejected, because it may be meant for one of them.
+    """
+    given = {keyword.arg for keyword in node.keywords}
+    if len(node.args) > signature.most_positional or not given <= signature.kinds.keys():
+        return []  # another problem
+    if any(isinstance(argument, ast.Starred) for argument in node.args):
+        return []
+    positional = list(signature.kinds)[: min(len(node.args), signature.most_positional)]
+    return [name for name in signature.required if name not in given and name not in positional]
+
+
+def _wrong_type(launch_object: LaunchObject) -> Problem | None:
+    """Return a problem for an argument that the class rejects because of its type, None if there is none."""
+    name = launch_object.name
+    if name in ("TimerAction", "ROSTimer", "RosTimer"):
+        period = launch_object.get(-1, "period")
+        if isinstance(period, int):
+            message = f"'period' of {name} must be a float or a substitution; write {float(period)} instead of {period}"
+            return Problem("wrong-type", message, span_of(launch_object.written(-1, "period"), launch_object.source))
+    if name in _NODES and isinstance(launch_object.get(-1, "parameters"), dict):
+        message = f"'parameters' of {name} must be a list; write [{{...}}]"
+        return Problem("wrong-type", message, span_of(launch_object.written(-1, "parameters"), launch_object.source))
+    if name == "LaunchDescription":
+        entities = launch_object.get(0, "initial_entities")
+        if isinstance(entities, LaunchObject) and entities.name in ACTIONS:
+            message = f"LaunchDescription needs a list; write [{entities.name}(...)]"
+            return Problem("wrong-type", message, span_of(launch_object.written(0, "initial_entities"), launch_object.source))
+    return None
 
 
 def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], launch_object: LaunchObject) -> Problem:

@@ -46,7 +46,7 @@ _MODULES: Mapping[str, frozenset[str]] = {
 From launch 3.7.1, launch_ros 0.28 and later.
 """
 ACTIONS = _MODULES["launch.actions"] | _MODULES["launch_ros.actions"]
-_MODULES_BY_NAME: Mapping[str, tuple[str, ...]] = {
+MODULES_BY_NAME: Mapping[str, tuple[str, ...]] = {
     name: tuple(module for module, names in _MODULES.items() if name in names) for names in _MODULES.values() for name in names
 }
 
@@ -67,7 +67,7 @@ def misplaced_imports(tree: ast.Module, source: Source) -> Iterator[Problem]:
     for node_inside in ast.walk(tree):
         if (
             isinstance(node_inside, ast.Attribute)
-            and node_inside.attr in _MODULES_BY_NAME
+            and node_inside.attr in MODULES_BY_NAME
             and isinstance(node_inside.value, ast.Attribute)
         ):
             root = node_inside.value.value
@@ -79,13 +79,13 @@ def _misplaced_import(module: str, name: str, node: Node, source: Source) -> Ite
     if _is_misplaced(module, name):
         yield Problem(
             "stray-name",
-            f"'{module}' has no '{name}'; import it from {' or '.join(map(repr, _MODULES_BY_NAME[name]))}",
+            f"'{module}' has no '{name}'; import it from {' or '.join(map(repr, MODULES_BY_NAME[name]))}",
             span_of(node, source),
         )
 
 
 def _is_misplaced(module: str, name: str) -> bool:
-    return name in _MODULES_BY_NAME and module in _MODULES and module not in _MODULES_BY_NAME[name]
+    return name in MODULES_BY_NAME and module in _MODULES and module not in MODULES_BY_NAME[name]
 
 
 def _imported(tree: ast.Module) -> frozenset[str]:

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch.python.import_checks import ACTIONS
+from ros_lint.collectors.launch.python.signatures import all_signatures
 from ros_lint.collectors.launch.python.substitutions import is_text
 from ros_lint.collectors.launch.python.walker import span_of
 from ros_lint.collectors.python.interpreter.recorder import are_unknown
@@ -135,13 +136,13 @@ def _replacement(misuse: Misused, combined: Iterable[ast.BoolOp]) -> str:
     return f"IfCondition({'Or' if is_or else 'And'}Substitution({', '.join(words or 'ab')}))"
 
 
-def _ignored_nodes(tree: ast.Module) -> set[ast.AST]:
+def _ignored_nodes(tree: ast.Module, calls: frozenset[str] = _LOGGING_CALLS) -> set[ast.AST]:
     """Return the syntax nodes in ``try`` blocks, where errors are caught, and in the arguments of logging calls."""
     result: set[ast.AST] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Try):
             result.update(tried(node))
-        elif isinstance(node, ast.Call) and callee(node) in _LOGGING_CALLS:
+        elif isinstance(node, ast.Call) and callee(node) in calls:
             result.update(ast.walk(node))
     return result
 
@@ -183,6 +184,23 @@ _TEXT_ARGUMENTS: Mapping[str, tuple[tuple[int, str], ...]] = {
 """The arguments that must be texts or substitutions (``normalize_to_list_of_substitutions``)."""
 
 
+_ACCEPTED = frozenset(
+    {"deprecated_reason", "description", "goal_state", "launch_configuration_name", "location", "method"}
+    | {"output_format", "reason", "start_state", "transition"}
+)
+"""Arguments that are annotated as texts, but accept other values, or are not evaluated when the file is launched."""
+
+
+def _text_arguments(launch_object: LaunchObject) -> Iterable[tuple[int, str]]:
+    """Return the arguments of a launch object that must be texts: their positions, -1 if there is none, and their names."""
+    signature = all_signatures().get(launch_object.name)
+    pairs = list(_TEXT_ARGUMENTS.get(launch_object.name, ()))
+    for name, kind in signature.kinds.items() if signature is not None else ():
+        if kind == "text" and name not in _ACCEPTED and (launch_object.name, name) != ("DeclareLaunchArgument", "name"):
+            pairs.append((signature.position(name) if signature is not None else -1, name))
+    return dict.fromkeys(pairs)
+
+
 def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
     """Yield a problem for each number, boolean or action in an argument that must be a text.
 
@@ -191,9 +209,7 @@ def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[Launc
     errors: list[tuple[str, ast.expr]] = []
     for launch_object in launch_objects:
         for position, name in (
-            _TEXT_ARGUMENTS.get(launch_object.name, ())
-            if launch_object.source is source and not are_unknown(launch_object.conditions)
-            else ()
+            _text_arguments(launch_object) if launch_object.source is source and not are_unknown(launch_object.conditions) else ()
         ):
             value = launch_object.get(position, name)
             if name == "launch_arguments" and not launch_object.seen:
@@ -204,7 +220,7 @@ def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[Launc
                 hint = _replacement_hint(wrong_item, launch_object)
                 message = f"'{name}' of {launch_object.name} must consist of strings and substitutions{hint}"
                 errors.append((message, launch_object.written(position, name)))
-    ignored = _ignored_nodes(tree) if errors else set()
+    ignored = _ignored_nodes(tree, _LOGGING_CALLS - {"LogInfo"}) if errors else set()
     for message, node in errors:
         if node not in ignored:
             yield Problem("no-text", message, span_of(node, source))

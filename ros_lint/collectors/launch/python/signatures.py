@@ -1,0 +1,50 @@
+"""The arguments of the classes of launch and launch_ros in any distribution.
+
+The table ``signatures.tsv`` is made by :mod:`ros_lint.knowledge.refresh.launch_signatures`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import cache
+from typing import NamedTuple
+
+
+class Signature(NamedTuple):
+    """The arguments of a class."""
+
+    most_positional: int
+    """The number of arguments that may be passed without keyword. They are the first of ``kinds``."""
+    closed: bool
+    """False if the class may accept further arguments."""
+    required: tuple[str, ...]
+    """Keywords without a default in every distribution that has the class."""
+    kinds: Mapping[str, str]
+    """All keywords of any distribution, with what they accept by their annotation; "" for anything else."""
+
+    def position(self, keyword: str) -> int:
+        """Return the position at which an argument sets a keyword, -1 if none does."""
+        position = list(self.kinds).index(keyword)
+        return position if position < self.most_positional else -1
+
+
+@cache
+def all_signatures() -> Mapping[str, Signature]:
+    """Return the signatures of all classes by name."""
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "signatures.tsv")
+    with open(path, encoding="utf-8") as file:
+        next(file)
+        rows = [line.rstrip("\n").split("\t") for line in file]
+    return {name: _signature(most, words.split()) for name, _, most, words in rows}
+
+
+def _signature(most: str, words: list[str]) -> Signature:
+    required: list[str] = []
+    kinds: dict[str, str] = {}
+    for word in words:
+        name, _, kind = word.partition("@")[0].partition(":")
+        kinds[name.rstrip("!")] = kind
+        if name.endswith("!"):
+            required.append(name.rstrip("!"))
+    return Signature(int(most or 0), bool(most), tuple(required), kinds)
