@@ -1,0 +1,1 @@
+"""Checks of ROS 2 packages with ros-lint for ament."""
