@@ -31,7 +31,6 @@ Pair = tuple[str, str]
 
 _MARKS = ("<!-- made by bench/peers.py: begin -->", "<!-- end -->")
 _RULES = frozenset({"undeclared-dependency", "launch-outside-closure", "launch-unknown-package"})
-_ERROR = re.compile(r"E(?:rror|RROR):")
 _MISSING = re.compile(r"\tMissing (?:<\w+> |test )?dependencies in ([\w.-]+)/package\.xml(?:: (?P<here>.*)| compared)")
 
 
@@ -129,17 +128,18 @@ def _names(workspace: str) -> dict[str, list[str]]:
     return names_of
 
 
-def _without_findings(*command: str) -> Callable[[str], Findings]:
+def _without_findings(*command: str, output: str, reason: str) -> Callable[[str], Findings]:
     """Return a function that runs a tool that reports nothing about ROS 2 packages.
 
-    The reason in its result is the first error that the tool prints, or else its last line.
+    Its result has ``reason`` if the tool prints ``output``, else the last line of the tool.
     """
 
     def run(workspace: str) -> Findings:
         process = _run(*command, ".", cwd=workspace)
         lines = [line.strip() for line in (process.stdout + process.stderr).splitlines() if line.strip()]
-        message = next((line for line in lines if _ERROR.search(line)), lines[-1] if lines else "no output")
-        return Findings(None, message.replace("|", "/")[:120])
+        if any(output in line for line in lines):
+            return Findings(None, reason)
+        return Findings(None, (lines[-1] if lines else "no output").replace("|", "/")[:120])
 
     return run
 
@@ -152,9 +152,19 @@ TOOLS: Mapping[str, Callable[[str], Findings]] = {
     "ros-lint": _ros_lint,
     "ros-lint --pedantic": lambda workspace: _ros_lint(workspace, "--pedantic"),
     "package-xml-validator": _validator,
-    "catkin_lint": _without_findings("catkin_lint"),
-    "deptry": _without_findings("deptry"),
-    "colcon": _without_findings("colcon", "lint", "--base-paths"),
+    "catkin_lint": _without_findings(
+        "catkin_lint", output="no packages to check", reason="not applicable: checks packages of ROS 1"
+    ),
+    "deptry": _without_findings(
+        "deptry", output="DependencySpecificationNotFoundError", reason="not applicable: reads pyproject.toml only"
+    ),
+    "colcon": _without_findings(
+        "colcon",
+        "lint",
+        "--base-paths",
+        output="No module named 'launch'",
+        reason="not run: colcon-lint needs an installation of ROS",
+    ),
 }
 
 

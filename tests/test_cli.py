@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint import __version__
+from ros_lint.cli.arguments import parse
 from ros_lint.cli.main import main
 from ros_lint.cli.options import COMMANDS
 from ros_lint.reporters import FORMATS
@@ -118,6 +119,9 @@ def test_slow_modules_are_imported_only_if_needed(clean: Path, arguments: list[s
             r"unknown rule 'undeclared-dependancy'; did you mean '?undeclared-dependency'?\?",
         ),
         (["--ignore", "ROS507"], "rule 'ROS507' was divided into 'launch-missing-argument', "),
+        (["--jobs", "-1"], "argument --jobs: must be a whole number from 0 to 1000000, not '-1'"),
+        (["--exit-zero"], r"unrecognized arguments: --exit-zero \(see ros-lint --help\)"),
+        (["--package-select", "a"], r"did you mean '--packages-select'\?"),
         (["--distro", "jazy"], r"--distro: unknown distribution 'jazy'; did you mean '?jazzy'?\? \(available: humble, "),
         (["--distro", "foxy"], r"--distro: end-of-life distribution 'foxy' \(available: humble, "),
         (["chek"], r"chek: no such file or directory; did you mean the command 'check'\?"),
@@ -131,6 +135,29 @@ def test_an_invalid_request_gives_a_message_and_exit_code_2(arguments: list[str]
     assert process.returncode == 2
     assert re.search(message, process.stderr)
     assert process.stdout == ""
+
+
+@pytest.mark.parametrize("command", ["launch", "why"])
+def test_an_error_of_a_command_names_its_help(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parse([command])
+    assert f"(see ros-lint {command} --help)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ('select = ["unusd-dependency"]', "select"),
+        ('ignore = ["unusd-dependency"]', "ignore"),
+        ('severity = {"unusd-dependency" = "off"}', "severity"),
+        ('per-path-ignores = {"a" = ["unusd-dependency"]}', "per-path-ignores"),
+    ],
+)
+def test_an_unknown_rule_in_a_file_is_reported_with_the_file_and_the_setting(clean: Path, text: str, name: str) -> None:
+    (clean / "ros-lint.toml").write_text(text)
+    process = run(clean)
+    assert process.returncode == 2
+    assert process.stderr.startswith(f"ros-lint: ros-lint.toml: {name}: unknown rule 'unusd-dependency'; did you mean ")
 
 
 def test_the_distribution_is_chosen_by_option_file_environment_or_default(demo: Path) -> None:

@@ -101,6 +101,20 @@ def test_why_follows_dependencies_of_released_packages() -> None:
     assert "   rclcpp -> rcl: <exec_depend> as released in jazzy\n" in out
 
 
+def test_why_follows_test_dependencies_only_of_the_first_package() -> None:
+    packages = [
+        package("top", ["<depend>middle</depend>"]),
+        package("middle", ["<test_depend>low</test_depend>"]),
+        package("low"),
+    ]
+    assert why.run(workspace(packages), "top", "low") == ("'top' does not depend on 'low'\n", "", 1)
+    assert "middle -> low: <test_depend>" in why.run(workspace(packages), "middle", "low")[0]
+    both = package("middle", ["<test_depend>low</test_depend>", "<exec_depend>low</exec_depend>"])
+    out = why.run(workspace([packages[0], both, packages[2]]), "top", "low")[0]
+    assert "middle -> low: <exec_depend>" in out
+    assert "test_depend" not in out
+
+
 def test_why_without_a_path_gives_exit_code_1() -> None:
     assert why.run(workspace(CHAIN), "middle", "top") == (
         "'middle' does not depend on 'top'; but 'top' depends on 'middle': see 'ros-lint why top middle'\n",

@@ -67,3 +67,13 @@ def test_the_name_in_the_manifest_and_that_of_colcon_are_accepted() -> None:
         out, err, code = explain_package.run(result, name)
         assert (err, code) == ("", 0)
         assert out.startswith("robot (ros.ament_cmake, vendor_robot to colcon), robot\n")
+
+
+def test_a_target_of_a_script_that_is_evaluated_twice_is_listed_once() -> None:
+    files = {
+        **FILES,
+        "robot/CMakeLists.txt": "project(robot)\nif(UNKNOWN)\nadd_subdirectory(test)\nelse()\nadd_subdirectory(test)\nendif()\n",
+        "robot/test/CMakeLists.txt": "add_executable(check check.cpp)\n",
+    }
+    result = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "--distro")).load()
+    assert explain_package.run(result, "robot")[0].count("executable target") == 1

@@ -167,6 +167,13 @@ def test_a_second_refresh_prints_the_numbers_of_changed_lines(tmp_path: Path) ->
     assert str(written) == f"{tmp_path}/jazzy.idx: 9 lines, 1 added, 1 removed, 2 changed"
 
 
+def test_a_new_folder_has_no_removed_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "prefix").mkdir()
+    options = {"action": "scan", "prefixes": [str(tmp_path / "prefix")], "distro": "humble", "to": str(tmp_path / "new")}
+    command.run(options)
+    assert "removed" not in capsys.readouterr().out.replace("0 removed", "")
+
+
 def test_the_command_prints_the_files_that_it_wrote(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     options = {"action": "refresh", "source": _upstream(tmp_path / "up"), "distro": ["jazzy"], "rosdep": [], "to": ""}
     assert command.run(options) == 0

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.cli.options import BY_NAME, COMMANDS, OPTIONS, CliOption
+from ros_lint.cli.options import BY_NAME, COMMANDS, MOST, OPTIONS, CliOption
 
 _ONE_DISTRO = "ROS distribution to answer for; if unset, the first one of the settings, or else the newest LTS release"
 _COMMON_OPTIONS = (
@@ -229,7 +229,7 @@ def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
             switch = argparse.BooleanOptionalAction if option.default else "store_true"
             parser.add_argument(*filter(None, (option.short, flag)), action=switch, help=text)
         case "number":
-            parser.add_argument(flag, type=int, metavar=option.metavar, help=text)
+            parser.add_argument(flag, type=_number, metavar=option.metavar, help=text)
         case "words":
             several = "+" if option.several else None
             parser.add_argument(flag, action=_Words, nargs=several, metavar=option.metavar, help=text)
@@ -237,6 +237,13 @@ def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
             parser.add_argument(flag, action="append", metavar=option.metavar, help=text)
         case _:
             parser.add_argument(flag, choices=option.choices or None, metavar=option.metavar or None, help=text)
+
+
+def _number(text: str) -> int:
+    """Return the value of an option of the type "number". Raises ArgumentTypeError, as argparse expects."""
+    if text.isascii() and text.isdecimal() and len(text) <= len(str(MOST)) and int(text) <= MOST:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"must be a whole number from 0 to {MOST}, not '{text}'")
 
 
 class _Words(argparse.Action):

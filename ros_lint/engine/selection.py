@@ -49,6 +49,12 @@ class Selection(NamedTuple):
         return any(name in names and matches(path, pattern) for pattern, names in self.ignores)
 
 
+def check_selectors(rules: Sequence[Rule], selectors: Iterable[str]) -> None:
+    """Raise SelectionError for a selector that matches no rule."""
+    for selector in selectors:
+        _matching(rules, selector)
+
+
 def select(
     rules: Sequence[Rule],
     *,

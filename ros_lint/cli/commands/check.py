@@ -147,10 +147,18 @@ def _report(request: Request, progress: Progress) -> Report:
 def selection_of(settings: Settings) -> Selection:
     """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
     from ros_lint.engine import registry  # noqa: PLC0415  (not needed for a cached report)
-    from ros_lint.engine.selection import select  # noqa: PLC0415
+    from ros_lint.engine.selection import SelectionError, check_selectors, select  # noqa: PLC0415
 
+    rules = registry.load(settings["plugins"])
+    per_path = [name for names in settings["per-path-ignores"].values() for name in names]
+    for option in ("select", "extend-select", "ignore", "severity", "per-path-ignores"):
+        try:
+            check_selectors(rules, per_path if option == "per-path-ignores" else settings[option])
+        except SelectionError as error:
+            origin = settings.origin(option)
+            raise SelectionError(f"{origin}: {error}" if origin.startswith("--") else f"{origin}: {option}: {error}") from error
     return select(
-        registry.load(settings["plugins"]),
+        rules,
         chosen=settings["select"],
         added=settings["extend-select"],
         ignored=settings["ignore"],

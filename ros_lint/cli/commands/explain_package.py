@@ -60,7 +60,7 @@ def _sections(package: Package, most: int) -> Iterator[tuple[str, list[_Row]]]:
     """Yield the title and rows of each section. The uses of every other package are limited to ``most`` rows."""
     yield "declares", list(_declares(package))
     yield "uses", list(_uses(package, most))
-    yield "provides", list(_provides(package))
+    yield "provides", list(dict.fromkeys(_provides(package)))  # a script can be evaluated twice, in two folders
     yield "installs", list(_installs(package))
     yield "cannot be seen through", list(_hidden(package))
 

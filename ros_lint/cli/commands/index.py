@@ -118,12 +118,12 @@ def _write_scan(distro: str, to: str, idx: str, prov: str) -> None:
 
 def _replace(folder: str, name: str, text: str) -> Refreshed:
     """Write a data file atomically, so that it is never read incomplete. Return the numbers of changed lines."""
+    path = os.path.join(folder, name)
     try:
-        before = _by_name(Store((folder,)).lines(name)[1])
+        before = _by_name(Store((folder,)).lines(name)[1]) if os.path.exists(path) else {}  # the store has shipped data, too
     except KnowledgeError:
         before = {}  # a damaged file is about to be replaced
     after = _by_name(text.split("\n")[1:-1])
-    path = os.path.join(folder, name)
     handle, temporary = tempfile.mkstemp(dir=folder, prefix=f".{name}.")
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:

@@ -14,6 +14,7 @@ from ros_lint.facts.manifest import DEPENDENCY_KINDS
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from ros_lint.analysis.graph.dependency_graph import Reason
     from ros_lint.base.text import Span
     from ros_lint.workspace.model import Declared, Package, Workspace
 
@@ -34,17 +35,19 @@ class _EdgeReason(NamedTuple):
 def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code.
 
-    A package of the workspace counts with every dependency that affects the build order, any other package only with its
-    run-time dependencies. At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if
-    there is none, 2 if a name is unknown. Raises KnowledgeError.
+    The package ``start`` counts with every dependency that affects the build order, other packages of the workspace with these
+    except for dependencies of tests only, and packages outside of it with their run-time dependencies.
+
+    At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is none, 2 if a name is
+    unknown. Raises KnowledgeError.
     """
     unknown = [name for name in (start, end) if not _is_known(workspace, name)]
     if unknown:
         return "", "".join(_no_such(workspace, name) for name in unknown), 2
-    model = _DependencyModel(workspace)
+    model = _DependencyModel(workspace, start)
     result = paths(model.needs, start, end, most)
     if not result.paths:
-        back = paths(model.needs, end, start, 1).paths
+        back = paths(_DependencyModel(workspace, end).needs, end, start, 1).paths
         uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
         if uses:
             hint = f" ('{end}' depends on '{start}': see 'ros-lint why {end} {start}')" if back else ""
@@ -56,16 +59,18 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
 
 
 class _DependencyModel:
-    """The dependencies of packages in the workspace and outside of it."""
+    """The dependencies of packages in the workspace and outside of it. Dependencies of tests count only for ``start``."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: Workspace, start: str) -> None:
+        self._start = start
         self.workspace = workspace
         self._needs: dict[str, tuple[str, ...]] = {}
 
     def needs(self, name: str) -> tuple[str, ...]:
         """Return the names that a package depends on directly, sorted."""
         if name not in self._needs:
-            names = set(dependency_graph(self.workspace).needs.get(name, ()))
+            needs = dependency_graph(self.workspace).needs.get(name, {})
+            names = {dependency for dependency, reasons in needs.items() if any(self._counts(name, entry) for entry in reasons)}
             names.update(declared.name for declared in self._declared(name))
             if not self._packages(name):
                 names.update(self.workspace.world.depends(name, _TAGS.values()) or ())
@@ -77,7 +82,8 @@ class _DependencyModel:
         graph = dependency_graph(self.workspace)
         if dependency in graph.needs.get(name, ()):
             for reason in graph.reasons((name, dependency)):
-                yield _EdgeReason(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
+                if self._counts(name, reason):
+                    yield _EdgeReason(reason.tag, str(reason.span), "" if reason.certain else "if its condition is true")
             return
         for declared in self._declared(name):
             if declared.name == dependency:
@@ -95,10 +101,16 @@ class _DependencyModel:
         places = {use.span: use.what for package in self._packages(name) for use in package.uses if dependency in use.providers}
         return [(places[span], span) for span in sorted(places)]
 
+    def _counts(self, name: str, reason: Reason) -> bool:
+        """Return whether a reason of an edge from a package counts. The tests of a dependency do not run with its dependents."""
+        return name == self._start or reason.categories != ("test",)
+
     def _declared(self, name: str) -> Iterator[Declared]:
         for package in self._packages(name):
             if package.type.startswith("ros."):  # colcon ignores the manifest of other types
-                yield from package.declared
+                for declared in package.declared:
+                    if name == self._start or declared.depend.tag != "test_depend":
+                        yield declared
 
     def _packages(self, name: str) -> Sequence[Package]:
         return self.workspace.called(name)
