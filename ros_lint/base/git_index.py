@@ -1,6 +1,6 @@
 """Read the index of a git repository: the list of the files that git tracks.
 
-git itself is not called, because the configuration of a repository can make it run programs. The format is described in
+git itself is not called, because it may be missing, and because its configuration can make it run programs. The format is described in
 ``Documentation/gitformat-index.txt`` of git.
 """
 

@@ -98,6 +98,14 @@ OPTIONS: tuple[CliOption, ...] = (
     CliOption("per-path-ignores", "table", {}, "rules to ignore in files that match a pattern", on_command_line=False),
     CliOption("baseline", "path", "", "file of known findings, which are hidden", metavar="FILE"),
     CliOption(
+        "since",
+        "word",
+        "",
+        "show only findings that are new since the commit from which HEAD and a git revision diverged",
+        metavar="REF",
+        in_file=False,
+    ),
+    CliOption(
         "plugins",
         "flag",
         False,

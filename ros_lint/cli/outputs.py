@@ -29,6 +29,8 @@ def validate(settings: Settings) -> None:
         raise UsageError("--statistics prints text; count the findings of --format json instead")
     if settings["diff"] and (settings["output"] or settings["format"] != "text"):
         raise UsageError("--diff prints a patch; redirect standard output instead of using --output or --format")
+    if settings["since"] and (settings["fix"] or settings["diff"] or settings["write-baseline"]):
+        raise UsageError("--since only shows findings; it cannot be combined with --fix, --diff or --write-baseline")
     if settings["rule-url"] and not _URL.fullmatch(settings["rule-url"]):
         origin = settings.origin("rule-url")
         raise UsageError(f"{origin}: rule-url must be a URL with {{rule}}, such as https://example.org/rules/{{rule}}.html")

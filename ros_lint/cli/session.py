@@ -185,7 +185,7 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
 _WITHOUT_EFFECT = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
-    "quiet", "rule-url", "show-settings", "statistics", "unsafe-fixes", "write-baseline",
+    "quiet", "rule-url", "show-settings", "since", "statistics", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
 """Settings that do not affect the report. Of the configuration file only the contents do, not the path."""
 

@@ -45,15 +45,16 @@ class Baseline(NamedTuple):
     """The folders that were checked when it was written, relative to the folder of the file."""
     known: Mapping[FindingKey, KnownFindings]
 
-    def hide_known(self, report: Report, name: str, folders: Sequence[str]) -> Report:
+    def hide_known(self, report: Report, name: str, folders: Sequence[str], where: str = "listed in") -> Report:
         """Return a report without the known findings, and with a warning about known findings that no longer occur.
 
-        ``name`` is the name of the file in messages. ``folders`` are the checked folders. The warning is only given if
+        ``name`` is the name of the file in messages, ``where`` the words before it.
+        ``folders`` are the checked folders. The warning is only given if
         they equal the folders in the file, because findings in other folders may still occur.
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])
-        hidden = HiddenCount(f"listed in {name}", len(report.issues) - len(shown))
+        hidden = HiddenCount(f"{where} {name}", len(report.issues) - len(shown))
         gone = self._count_gone(report, counts) if tuple(folders) == self.folders else 0
         return report._replace(
             issues=shown,
@@ -69,6 +70,11 @@ class Baseline(NamedTuple):
 
     def _number(self, key: FindingKey) -> int:
         return self.known[key].number if key in self.known else 0
+
+
+def of(report: Report) -> Baseline:
+    """Return the baseline of the findings of a report, without the folders that were checked."""
+    return Baseline((), {key: KnownFindings(number, sure=True) for key, number in Counter(map(_key, report.issues)).items()})
 
 
 def read(path: str) -> Baseline:

@@ -47,6 +47,11 @@ def run(options: Mapping[str, Any]) -> int:
                 report, code = fix.run(open_session(request, progress.update), selection_of(request.settings))
             else:
                 report, code = _report(request, progress), 0
+            if request.settings["since"]:
+                from ros_lint.cli.since import only_new  # noqa: PLC0415
+
+                selection = selection_of(request.settings)
+                report = only_new(report, request, selection, os.environ, progress.update)
             if request.settings["write-baseline"]:
                 return max(code, _write_baseline(report, request))
             if known_findings is not None:

@@ -113,14 +113,17 @@ def _write_scan(distro: str, to: str, idx: str, prov: str) -> None:
         return
     os.makedirs(to, exist_ok=True)
     for name, text in ((f"{distro}.idx", idx), (f"{distro}.prov", prov)):
-        print(_replace(to, name, text))
+        print(_replace(to, name, text, shipped=False))
 
 
-def _replace(folder: str, name: str, text: str) -> Refreshed:
-    """Write a data file atomically, so that it is never read incomplete. Return the numbers of changed lines."""
+def _replace(folder: str, name: str, text: str, *, shipped: bool = True) -> Refreshed:
+    """Write a data file atomically, so that it is never read incomplete. Return the numbers of changed lines.
+
+    A new file is compared with the shipped data if ``shipped`` is true, because it overrides them.
+    """
     path = os.path.join(folder, name)
     try:
-        before = _by_name(Store((folder,)).lines(name)[1]) if os.path.exists(path) else {}  # the store has shipped data, too
+        before = _by_name(Store((folder,)).lines(name)[1]) if shipped or os.path.exists(path) else {}
     except KnowledgeError:
         before = {}  # a damaged file is about to be replaced
     after = _by_name(text.split("\n")[1:-1])

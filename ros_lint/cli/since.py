@@ -1,0 +1,67 @@
+"""The option ``--since``: hide the findings that an earlier commit has as well."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from typing import TYPE_CHECKING
+
+from ros_lint.base.tree import repository_of
+from ros_lint.cli import git_commits
+from ros_lint.cli.session import UsageError, open_session
+from ros_lint.engine import baseline, registry
+from ros_lint.engine.check import ReportContext, check
+from ros_lint.workspace.cache.file import NO_CACHE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ros_lint.cli.session import Request
+    from ros_lint.engine.report import Report
+    from ros_lint.engine.selection import Selection
+    from ros_lint.workspace.join import Progress
+
+
+def only_new(
+    report: Report, request: Request, selection: Selection, environment: Mapping[str, str], progress: Progress
+) -> Report:
+    """Return a report without the findings that the commit has from which HEAD and ``--since`` diverged.
+
+    The files of this commit are written into a temporary folder and checked with the same settings. Findings are compared as
+    for a baseline. Raises UsageError and GitError.
+    """
+    ref = request.settings["since"]
+    if repository_of(request.base) != request.base:
+        raise UsageError("--since needs paths in a git repository")
+    commit = git_commits.merge_base(request.base, ref, environment)
+    with tempfile.TemporaryDirectory(prefix="ros-lint-") as temporary:
+        folder = os.path.realpath(temporary)
+        try:
+            git_commits.write_files(request.base, commit, folder, environment)
+        except OSError as error:
+            raise git_commits.GitError(f"--since: the files of {commit} cannot be written: {error}") from error
+        before = _check(_at(request, folder), selection, progress)
+    return baseline.of(before).hide_known(report, f"the commit {commit[:12]}", request.roots, "also in")
+
+
+def _at(request: Request, folder: str) -> Request:
+    """Return the request for the same folders below another base, as far as they exist there."""
+
+    def existing(paths: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(path for path in paths if os.path.isdir(os.path.join(folder, path)))
+
+    return request._replace(
+        base=folder,
+        roots=existing(request.roots),
+        context=existing(request.context),
+        inside=(folder,),
+        tracked=None,
+        cache=NO_CACHE,
+    )
+
+
+def _check(request: Request, selection: Selection, progress: Progress) -> Report:
+    session = open_session(request, progress)
+    rules = registry.load(request.settings["plugins"])
+    context = ReportContext(rules, session.knowledge.date, session.roots, ())
+    return check(session.loader.load_all(), session.loader.suppressions(), selection, context)
