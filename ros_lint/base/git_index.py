@@ -1,7 +1,7 @@
 """Read the index of a git repository: the list of the files that git tracks.
 
-git itself is not called, because it may be missing, and because its configuration can make it run programs. The format is described in
-``Documentation/gitformat-index.txt`` of git.
+git itself is not called, because it may be missing, and because its configuration can make it run programs. The format is
+described in ``Documentation/gitformat-index.txt`` of git.
 """
 
 from __future__ import annotations
