@@ -174,6 +174,11 @@ def test_references_to_included_files(path: str, source: str) -> None:
     assert launch_file == ([] if path.startswith("ThisIs") else ["include a launch/b.launch.py"])
 
 
+def test_a_file_that_may_be_missing_leaves_both_values() -> None:
+    body = "try:\n    with open('/etc/robot') as file:\n        name = 'arm'\nexcept OSError:\n    name = 'hand'\n"
+    assert python(f"{body}return [Node(package='a', executable=name)]") == ["node? a arm", "node? a hand"]
+
+
 def test_paths_are_found_in_named_values() -> None:
     body = (
         "share = get_package_share_directory('a')\n"

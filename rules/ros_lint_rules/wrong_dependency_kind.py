@@ -44,12 +44,10 @@ Reported with low confidence:
 
 - Headers of a library that are not installed: their installation may have been forgotten.
 - `<test_depend>` on parts of launch that launch files import, if another dependency provides them.
-
-Two cases are infos, because they work for now:
-
-- `<test_depend>` on a package that another dependency provides: it works until that dependency drops it.
 - `<build_depend>` together with `<exec_depend>` for a package that is exported. Both are installed where other packages are
   built, but REP 149 requires `<build_export_depend>`.
+
+`<test_depend>` on a package that another dependency provides is an info, because it works until that dependency drops it.
 """
 
 from __future__ import annotations
@@ -262,7 +260,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
     if missing(Role.EXPORT, Role.EXPORT):
         if packages:
             why = "but it is part of the public interface, so REP 149 requires <build_export_depend> as well"
-            return _Lack(Role.EXPORT, why, severity=Severity.INFO)
+            return _Lack(Role.EXPORT, why, Confidence.LOW, Severity.INFO)
         return _Lack(Role.EXPORT, "but packages that build against this package need it, too", Confidence.MEDIUM)
     return None
 

@@ -107,7 +107,16 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
         there = LaunchCondition((presence(machine.another()),), None)
         signal = either(machine, [*node.body, *node.orelse], missing.body, there, frame)
         return _finally(machine, node, frame, before) or signal
-    guarded = any(map(catches_missing_file, node.handlers))
+    absent = next((handler for handler in node.handlers if catches_missing_file(handler)), None)
+    if absent is not None and _opens(node.body) and _assigns(absent.body) and not gives_up(absent.body, everywhere=False):
+        exists = LaunchCondition((machine.another(),), None)  # the machine that launches may have the file
+        machine.guarded += 1
+        try:
+            signal = either(machine, [*node.body, *node.orelse], absent.body, exists, frame)
+        finally:
+            machine.guarded -= 1
+        return _finally(machine, node, frame, before) or signal
+    guarded = absent is not None
     machine.guarded += guarded
     machine.caught += bool(node.handlers)
     raised: ProgramRaised | None = None
@@ -138,6 +147,19 @@ def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditio
     signal = execute(machine, node.finalbody, frame)
     machine.conditions = (*after, *machine.conditions[len(before) :])
     return signal
+
+
+_OPENERS = frozenset({"open", "read_bytes", "read_text"})
+
+
+def _opens(body: Sequence[ast.stmt]) -> bool:
+    """Return whether a block opens a file."""
+    return any(isinstance(node, ast.Call) and callee(node) in _OPENERS for statement in body for node in ast.walk(statement))
+
+
+def _assigns(body: Sequence[ast.stmt]) -> bool:
+    """Return whether a block itself assigns a value, so that the code after it continues with another value."""
+    return any(isinstance(statement, ast.Assign | ast.AnnAssign | ast.AugAssign) for statement in body)
 
 
 def _looks_up(body: Sequence[ast.stmt]) -> bool:
