@@ -71,8 +71,8 @@ def test_the_documented_plugin_runs_on_a_workspace(plugin: Path) -> None:
         file = plugin / "ws" / path
         file.parent.mkdir(parents=True)
         file.write_text(text, "utf-8")
-    options = ("ros_lint", "--plugins", "--select", "renamed-package", "--format", "concise")
-    assert "warning: 'acme_old_msgs' was renamed" in run(plugin, *options, "ws").stdout
+    options = ("ros_lint", "--plugins", "--select", "renamed-package")
+    assert "warning: 'acme_old_msgs' was renamed" in run(plugin, *options, "--format", "concise", "ws").stdout
     changed = run(plugin, *options, "--fix", "--unsafe-fixes", "--diff", "ws").stdout
     assert "+  <depend>acme_msgs</depend>" in changed
 

@@ -71,9 +71,13 @@ def _cmake(text: str) -> str:
 
 
 def _python(text: str) -> str:
+    """Write the statements as ast.unparse does, and the comments, in which names count as uses, behind them."""
+    if "noqa" in text:  # it belongs to its line
+        return text
     head = text.partition("\n")[0] + "\n" if text.startswith("#!") else ""
+    comments = [comment for comment in re.findall("#[^\n]*", text.removeprefix(head)) if "ros-lint:" not in comment]
     try:
-        return f"{head}{ast.unparse(ast.parse(text))}\n"
+        return f"{head}{ast.unparse(ast.parse(text))}\n" + "".join(f"{comment}\n" for comment in comments)
     except SyntaxError:
         return text
 

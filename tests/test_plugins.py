@@ -169,9 +169,15 @@ def test_a_rule_of_a_plugin_that_is_not_loaded_names_the_option(demo: Path, tmp_
     (demo / "ros-lint.toml").write_text("[severity]\nmine = 'info'\n")
     process = run(tmp_path / "site", demo)
     assert process.returncode == 2
-    assert process.stderr == "ros-lint: unknown rule 'mine'; rules of installed plugins ('mine 1.0') need --plugins\n"
+    assert (
+        process.stderr
+        == "ros-lint: ros-lint.toml: severity: unknown rule 'mine'; rules of installed plugins ('mine 1.0') need --plugins\n"
+    )
     process = run(tmp_path, demo)
-    assert process.stderr == "ros-lint: unknown rule 'mine'; if a plugin has it, install the plugin and add --plugins\n"
+    assert (
+        process.stderr
+        == "ros-lint: ros-lint.toml: severity: unknown rule 'mine'; if a plugin has it, install the plugin and add --plugins\n"
+    )
     assert "unknown rule 'mime'; did you mean 'mine'?\n" in run(tmp_path / "site", "rule", "mime", "--plugins").stderr
 
 

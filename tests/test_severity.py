@@ -19,6 +19,7 @@ from launch import LaunchDescription
 from launch_ros.actions import Node
 
 def generate_launch_description():
+    print(Transition, String)
     return LaunchDescription([Node(package='robot', executable='a', parameters=[yaml.safe_load('a: 1')])])
 """
 
@@ -43,7 +44,7 @@ def test_dependencies_of_launch_are_infos_in_launch_files() -> None:
 
 def test_pytest_is_a_warning_because_colcon_depends_on_it() -> None:
     setup = "from setuptools import setup\nsetup(name='robot', version='1.0.0', packages=['robot'], tests_require=['pytest'])\n"
-    files = {"setup.py": setup, "robot/__init__.py": "", "test/test_a.py": "import pytest\nimport numpy\n"}
+    files = {"setup.py": setup, "robot/__init__.py": "", "test/test_a.py": "import pytest\nimport numpy\nprint(pytest, numpy)\n"}
     assert severities("undeclared-dependency", files) == {"python3-pytest": "warning", "python3-numpy": "error"}
 
 

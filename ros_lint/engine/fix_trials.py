@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -195,15 +196,22 @@ def _edited_files(issue: Issue) -> Iterable[str]:
     return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
+def _written_names(issue: Issue) -> list[str]:
+    """Return the names that the fix of an issue writes: whole texts, or contents of tags."""
+    fix = issue.finding.fix
+    texts = [edit.text for edit in fix.edits] if fix else []
+    return [name for text in texts for name in re.findall(r"(?:>|\A)([\w.+-]+)(?=<|\Z)", text)]
+
+
 def _new_findings(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
     """Return the new findings in any distribution, limited to high confidence and to rules that are on by default.
 
-    A finding about the subject of a fix is also new if its confidence becomes high. Other findings may change: an undeclared
-    dependency, for example, can become a transitive dependency.
+    A finding about the subject of a fix, or about a name that a fix writes into a tag, is also new if its confidence becomes
+    high. Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
     """
     earlier, count = before.identity_counts(), after.identity_counts()
     earlier_serious, serious = before.serious_counts(), after.serious_counts()
-    fixed = {(issue.package, issue.finding.subject) for issue in group}
+    fixed = {(issue.package, name) for issue in group for name in (issue.finding.subject, *_written_names(issue))}
 
     def is_new(issue: Issue, name: DistroIdentity) -> bool:
         if count[name] > earlier[name]:
