@@ -56,10 +56,18 @@ def _bound_names(text: str, item: Import) -> Iterator[str]:
 
 def _occurs_again(text: str, name: str) -> bool:
     """Return whether a name occurs at least twice in a text, as a whole word."""
-    if text.count(name) < 2:
-        return False
-    matches = re.compile(rf"\b{re.escape(name)}\b").finditer(text)
-    return next(matches, None) is not None and next(matches, None) is not None
+    count, at = 0, text.find(name)
+    while at >= 0:
+        end = at + len(name)
+        count += not (_is_of_word(text[at - 1 : at]) or _is_of_word(text[end : end + 1]))
+        if count == 2:
+            return True
+        at = text.find(name, end)
+    return False
+
+
+def _is_of_word(character: str) -> bool:
+    return character.isalnum() or character == "_"
 
 
 def _line(text: str, at: int) -> str:
