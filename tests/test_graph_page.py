@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ros_lint.cli.commands import graph
-from ros_lint.cli.commands.graph_view import ViewOptions, view
+from ros_lint.cli.commands.graph_part import GraphOptions, edges_in_cycles, is_test_only, part_of_graph
 from ros_lint.cli.session import UsageError
 from ros_lint.workspace.model import Workspace
 from tests.one_package import loaded
@@ -31,48 +31,50 @@ def workspace(depends: dict[str, list[str]]) -> Workspace:
     return loaded({**files, **{f"{name}/CMakeLists.txt": f"project({name})\n" for name in depends}})
 
 
-def edges(options: ViewOptions, depends: dict[str, list[str]] | None = None) -> set[tuple[str, str]]:
-    return {(edge.start, edge.end) for edge in view(workspace(depends or DIAMOND), options).edges}
+def edges(options: GraphOptions, depends: dict[str, list[str]] | None = None) -> set[tuple[str, str]]:
+    return set(part_of_graph(workspace(depends or DIAMOND), options).edges)
 
 
-def names(options: ViewOptions) -> list[str]:
-    return [node.name for node in view(workspace(DIAMOND), options).nodes]
+def names(options: GraphOptions) -> list[str]:
+    return list(part_of_graph(workspace(DIAMOND), options).names)
 
 
 def test_an_edge_that_a_longer_path_implies_is_left_out_on_request() -> None:
-    assert ("top", "low") in edges(ViewOptions())
-    assert edges(ViewOptions()) - edges(ViewOptions(reduce=True)) == {("top", "low")}
+    assert ("top", "low") in edges(GraphOptions())
+    assert edges(GraphOptions()) - edges(GraphOptions(reduce=True)) == {("top", "low")}
 
 
 def test_edges_of_a_cycle_are_never_implied() -> None:
-    assert edges(ViewOptions(reduce=True), KNOT) == {("a", "b"), ("b", "a"), ("c", "a")}
-    assert {(edge.start, edge.end) for edge in view(workspace(KNOT), ViewOptions()).edges if edge.in_cycle} == {
-        ("a", "b"),
-        ("b", "a"),
-    }
+    assert edges(GraphOptions(reduce=True), KNOT) == {("a", "b"), ("b", "a"), ("c", "a")}
+    assert edges_in_cycles(part_of_graph(workspace(KNOT), GraphOptions())) == {("a", "b"), ("b", "a")}
 
 
 def test_a_focus_has_its_dependencies_and_dependents() -> None:
-    assert names(ViewOptions(focus="left")) == ["left", "low", "top"]
-    assert names(ViewOptions(focus="low", depth=1)) == ["left", "low", "right", "top"]
-    assert names(ViewOptions(focus="apart")) == ["apart"]
+    assert names(GraphOptions(focus="left")) == ["left", "low", "top"]
+    assert names(GraphOptions(focus="low", depth=1)) == ["left", "low", "right", "top"]
+    assert names(GraphOptions(focus="apart")) == ["apart"]
 
 
 def test_an_unknown_focus_is_an_error_with_a_hint() -> None:
     with pytest.raises(UsageError, match="there is no package 'lef' in the graph; did you mean 'left'"):
-        names(ViewOptions(focus="lef"))
+        names(GraphOptions(focus="lef"))
 
 
-def test_external_packages_are_drawn_on_request() -> None:
-    drawn = view(workspace(DIAMOND), ViewOptions(external=True))
-    assert [node.path for node in drawn.nodes if node.name == "rclcpp"] == [""]
-    assert [(edge.start, edge.test_only) for edge in drawn.edges if edge.end == "rclcpp"] == [("low", False), ("right", True)]
-    assert ("right", "rclcpp") not in edges(ViewOptions(external=True, kinds=("build",)))
+def test_external_packages_are_added_on_request() -> None:
+    graph_with_external = part_of_graph(workspace(DIAMOND), GraphOptions(external=True))
+    assert graph_with_external.places["rclcpp"] == ()
+    to_rclcpp = [edge for edge in graph_with_external.edges if edge[1] == "rclcpp"]
+    assert [(edge[0], is_test_only(graph_with_external, edge)) for edge in to_rclcpp] == [("low", False), ("right", True)]
+    assert ("right", "rclcpp") not in edges(GraphOptions(external=True, kinds=("build",)))
 
 
-def test_options_of_a_drawing_do_not_go_with_the_whole_graph() -> None:
-    with pytest.raises(UsageError, match="--format json is about the whole graph"):
-        graph.run(workspace(DIAMOND), "json", ViewOptions(reduce=True))
+def test_every_format_prints_the_chosen_part() -> None:
+    chosen = GraphOptions(focus="left", reduce=True)
+    for form in graph.FORMATS:
+        text = graph.run(workspace(DIAMOND), form, chosen)[0]
+        assert ("left" in text, "apart" in text) == (True, False), form
+    document = json.loads(graph.run(workspace(DIAMOND), "json", GraphOptions(external=True), metrics=True)[0])
+    assert [package["places"] for package in document["packages"] if package["name"] == "rclcpp"] == [[]]
 
 
 def page(depends: dict[str, list[str]], title: str = "robot") -> str:
@@ -86,7 +88,6 @@ def test_the_page_has_the_data_and_loads_nothing() -> None:
     found = re.search(r'<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)
     assert found
     data = json.loads(found[1])
-    assert data["title"] == "</script><b>"
     assert [node["name"] for node in data["nodes"]] == sorted(DIAMOND)
     [implied] = [edge for edge in data["edges"] if edge["implied"]]
     assert implied["reasons"] == [{"tag": "depend", "place": "top/package.xml:9", "kinds": ["build", "run"], "certain": True}]

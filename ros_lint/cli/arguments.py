@@ -121,10 +121,10 @@ def _add_order(parser: argparse.ArgumentParser) -> None:
 def _add_graph(parser: argparse.ArgumentParser) -> None:
     _add_order(parser)
     parser.add_argument("--format", choices=("dot", "mermaid", "json", "html"), default="dot", help="output format")
-    parser.add_argument("--focus", metavar="PKG", help="draw only a package, its dependencies and its dependents")
+    parser.add_argument("--focus", metavar="PKG", help="print only a package, its dependencies and its dependents")
     parser.add_argument("--depth", type=int, metavar="N", help="with --focus, only packages at most N dependencies away")
-    parser.add_argument("--external", action="store_true", help="also draw packages and rosdep keys outside of the workspace")
-    parser.add_argument("--edges", action=_Words, metavar="KINDS", help="kinds of dependencies to draw: build, run, test, group")
+    parser.add_argument("--external", action="store_true", help="also print packages and rosdep keys outside of the workspace")
+    parser.add_argument("--edges", action=_Words, metavar="KINDS", help="kinds of dependencies to print: build, run, test, group")
     parser.add_argument("--reduce", action="store_true", help="leave out dependencies that longer paths imply")
     parser.add_argument("--metrics", action="store_true", help="print figures per package instead: degrees, depth, reach")
 

@@ -2,7 +2,8 @@
 
 The JSON has ``schema_version`` 1 and, in the order of names:
 
-- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it;
+- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it, none for
+  a package outside of the workspace;
   and with ``--metrics`` also ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists longer
   paths.
 - ``edges``: ``from`` depends on ``to``; ``test_only``; ``certain``, false if it depends on an unknown condition;
@@ -15,50 +16,40 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from ros_lint.analysis.graph.cycles import cycles
-from ros_lint.analysis.graph.dependency_graph import dependency_graph
-from ros_lint.cli.commands.graph_view import ViewOptions, view
+from ros_lint.cli.commands.graph_part import GraphOptions, edges_in_cycles, is_test_only, part_of_graph
 from ros_lint.cli.commands.output import label, where
-from ros_lint.cli.session import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from ros_lint.analysis.graph.dependency_graph import Edge, Graph
+    from ros_lint.analysis.graph.dependency_graph import Graph
     from ros_lint.analysis.graph.metrics import Metrics
-    from ros_lint.cli.commands.graph_view import GraphView
     from ros_lint.workspace.model import Workspace
 
 Format = Literal["dot", "mermaid", "json", "html"]
 FORMATS: tuple[Format, ...] = ("dot", "mermaid", "json", "html")
-_EVERYTHING = ViewOptions()
+_WHOLE_GRAPH = GraphOptions()
 
 SCHEMA_VERSION = 1
 
 
 def run(
-    workspace: Workspace, form: Format = "dot", options: ViewOptions = _EVERYTHING, *, metrics: bool = False, title: str = ""
+    workspace: Workspace, form: Format = "dot", options: GraphOptions = _WHOLE_GRAPH, *, metrics: bool = False, title: str = ""
 ) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code, which is 0.
 
     With ``metrics``, the JSON contains the metrics and the graph; in the other formats, a table of the metrics replaces
-    the graph. ``title`` is the title of the page. Raises UsageError for options that do not go together, and if the focus is not
-    a package of the graph.
+    the graph. ``title`` is the title of the page. Raises UsageError if the focus is not a package of the graph.
     """
-    graph = dependency_graph(workspace)
-    if (metrics or form == "json") and options != _EVERYTHING:
-        what = "--metrics" if metrics else "--format json"
-        raise UsageError(f"{what} is about the whole graph; leave out --focus, --depth, --external, --edges and --reduce")
+    graph = part_of_graph(workspace, options)
+    figures = _measure(graph) if metrics else {}
     if form == "json":
-        return _json(graph, _measure(graph) if metrics else {}), "", 0
-    if metrics:
-        lines = _table(_measure(graph))
-    else:
-        drawn = view(workspace, options)
-        if form == "html":
-            from ros_lint.cli.commands import graph_page  # noqa: PLC0415  (only for this format)
+        return _json(graph, figures), "", 0
+    if form == "html" and not metrics:
+        from ros_lint.cli.commands import graph_page  # noqa: PLC0415  (only for this format)
 
-            return graph_page.render(drawn, tuple([cycle.cycle for cycle in cycles(graph)]), title or "the workspace"), "", 0
-        lines = _dot(drawn) if form == "dot" else _mermaid(drawn)
+        return graph_page.render(graph, title), "", 0
+    lines = _table(figures) if metrics else _dot(graph) if form == "dot" else _mermaid(graph)
     return "".join(f"{line}\n" for line in lines), "", 0
 
 
@@ -68,16 +59,17 @@ def _measure(graph: Graph) -> Mapping[str, Metrics]:
     return measure(graph)
 
 
-def _dot(drawn: GraphView) -> Iterator[str]:
+def _dot(graph: Graph) -> Iterator[str]:
+    in_cycles = edges_in_cycles(graph)
     yield "digraph workspace {"
     yield "  rankdir=LR;"
     yield "  node [shape=box, fontname=Helvetica];"
-    for node in drawn.nodes:
-        yield f"  {_quoted(node.name)}{'' if node.path else ' [style=dashed]'};"
-    for edge in drawn.edges:
-        style = [*(["style=dashed"] if edge.test_only else []), *(["color=red"] if edge.in_cycle else [])]
+    for name, places in graph.places.items():
+        yield f"  {_quoted(name)}{'' if places else ' [style=dashed]'};"
+    for edge in graph.edges:
+        style = [*(["style=dashed"] if is_test_only(graph, edge) else []), *(["color=red"] if edge in in_cycles else [])]
         attributes = f" [{', '.join(style)}]" if style else ""
-        yield f"  {_quoted(edge.start)} -> {_quoted(edge.end)}{attributes};"
+        yield f"  {_quoted(edge[0])} -> {_quoted(edge[1])}{attributes};"
     yield "}"
 
 
@@ -87,16 +79,17 @@ def _quoted(name: str) -> str:
     return f'"{text}"'
 
 
-def _mermaid(drawn: GraphView) -> Iterator[str]:
-    identifier = {node.name: f"p{number}" for number, node in enumerate(drawn.nodes)}
+def _mermaid(graph: Graph) -> Iterator[str]:
+    in_cycles = edges_in_cycles(graph)
+    identifier = {name: f"p{number}" for number, name in enumerate(graph.names)}
     yield "flowchart LR"
-    for node in drawn.nodes:
-        yield f'  {identifier[node.name]}["{label(node.name)}"]'
+    for name in graph.names:
+        yield f'  {identifier[name]}["{label(name)}"]'
     red = []
-    for number, edge in enumerate(drawn.edges):
-        arrow = "-.->" if edge.test_only else "-->"
-        yield f"  {identifier[edge.start]} {arrow} {identifier[edge.end]}"
-        if edge.in_cycle:
+    for number, edge in enumerate(graph.edges):
+        arrow = "-.->" if is_test_only(graph, edge) else "-->"
+        yield f"  {identifier[edge[0]]} {arrow} {identifier[edge[1]]}"
+        if edge in in_cycles:
             red.append(str(number))
     if red:
         yield f"  linkStyle {','.join(red)} stroke:red"
@@ -147,8 +140,3 @@ def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:
         yield ""
         yield "Redundant edges, because another path implies the same build order:"
         yield from (f"  {path[0]} -> {path[-1]}: {' -> '.join(path)}" for path in redundant_paths)
-
-
-def is_test_only(graph: Graph, edge: Edge) -> bool:
-    """Return whether an edge is only needed for tests."""
-    return all(reason.categories == ("test",) for reason in graph.reasons(edge))

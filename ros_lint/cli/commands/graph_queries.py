@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ros_lint.cli.commands import explain_package, explain_silence, graph, order, overlay, why
-from ros_lint.cli.commands.graph_view import KINDS, ViewOptions
+from ros_lint.cli.commands.graph_part import KINDS, GraphOptions
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, run_query
 from ros_lint.cli.session import Session, UsageError, no_packages
 from ros_lint.workspace.model import Workspace
@@ -17,7 +17,7 @@ def _graph(workspace: Workspace, options: Mapping[str, Any]) -> CommandOutput:
     unknown = set(options.get("edges", KINDS)) - set(KINDS)
     if unknown:
         raise UsageError(f"--edges: unknown kind '{min(unknown)}'; available: {', '.join(KINDS)}")
-    chosen = ViewOptions(
+    chosen = GraphOptions(
         options.get("focus", ""),
         options.get("depth", 0),
         options.get("external", False),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from functools import cache
-from importlib import resources
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Severity
+from ros_lint.base.html_page import fill, resource
 from ros_lint.reporters.ansi import Style, safe
 from ros_lint.reporters.summary import count, summary
 
@@ -38,20 +38,14 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
     ordered = sorted(packages.items(), key=lambda item: (-item[1][0].severity, item[0]))
     title = report.workspace or "the workspace"
     parts = {
-        "STYLE": _resource("page.css"),
-        "SCRIPT": _resource("page.js"),
+        "STYLE": resource(__name__, "page.css"),
+        "SCRIPT": resource(__name__, "page.js"),
         "TITLE": _escaped(title),
         "SUMMARY": "\n".join(f"<p>{_escaped(line)}</p>" for line in summary(report, _PLAIN).splitlines() if line),
         "FILTERS": "\n".join(_filters(report.issues)),
         "FINDINGS": "\n".join(line for package, issues in ordered for line in _package(package, issues, texts)),
     }
-    # One pass, because the texts of findings may contain the name of a part.
-    pieces = _resource("page.html").split("<!--")
-    return pieces[0] + "".join(f"{parts[name]}{rest}" for name, _, rest in (piece.partition("-->") for piece in pieces[1:]))
-
-
-def _resource(name: str) -> str:
-    return (resources.files(__name__) / name).read_text("utf-8")
+    return fill(resource(__name__, "page.html"), parts)
 
 
 def _escaped(text: str) -> str:

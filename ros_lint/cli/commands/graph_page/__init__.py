@@ -2,31 +2,46 @@
 
 from __future__ import annotations
 
-from importlib import resources
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from ros_lint.analysis.graph.cycles import cycles
+from ros_lint.base.html_page import fill, resource
 from ros_lint.base.json_text import for_html
+from ros_lint.cli.commands.graph_part import edges_in_cycles, implied_edges, is_test_only
 
 if TYPE_CHECKING:
-    from ros_lint.cli.commands.graph_view import GraphView
+    from ros_lint.analysis.graph.dependency_graph import Graph
 
 
-def render(view: GraphView, cycles: tuple[tuple[str, ...], ...], title: str) -> str:
-    """Return the page. ``cycles`` are shortest cycles to list, ``title`` is the name of the workspace."""
+def render(graph: Graph, title: str) -> str:
+    """Return the page of a graph. ``title`` is the name of the workspace."""
     import html  # noqa: PLC0415
 
-    folder = resources.files(__name__)
-    page, style, script = ((folder / name).read_text("utf-8") for name in ("page.html", "page.css", "page.js"))
-    data = {
-        "title": title,
-        "nodes": [node._asdict() for node in view.nodes],
+    return fill(
+        resource(__name__, "page.html"),
+        {
+            "TITLE": html.escape(title),
+            "STYLE": resource(__name__, "page.css"),
+            "SCRIPT": resource(__name__, "page.js"),
+            "DATA": for_html(_data(graph)),
+        },
+    )
+
+
+def _data(graph: Graph) -> dict[str, Any]:
+    implied, in_cycles = implied_edges(graph), edges_in_cycles(graph)
+    return {
+        "nodes": [
+            {"name": name, "path": places[0].path or "." if places else "", "type": places[0].type if places else ""}
+            for name, places in graph.places.items()
+        ],
         "edges": [
             {
-                "start": edge.start,
-                "end": edge.end,
-                "test": edge.test_only,
-                "cycle": edge.in_cycle,
-                "implied": edge.implied,
+                "start": edge[0],
+                "end": edge[1],
+                "test": is_test_only(graph, edge),
+                "cycle": edge in in_cycles,
+                "implied": edge in implied,
                 "reasons": [
                     {
                         "tag": reason.tag,
@@ -34,14 +49,10 @@ def render(view: GraphView, cycles: tuple[tuple[str, ...], ...], title: str) -> 
                         "kinds": reason.categories,
                         "certain": reason.certain,
                     }
-                    for reason in edge.reasons
+                    for reason in graph.reasons(edge)
                 ],
             }
-            for edge in view.edges
+            for edge in graph.edges
         ],
-        "cycles": cycles,
+        "cycles": [cycle.cycle for cycle in cycles(graph)],
     }
-    parts = {"TITLE": html.escape(title), "STYLE": style, "SCRIPT": script, "DATA": for_html(data)}
-    for name, text in parts.items():
-        page = page.replace(f"<!--{name}-->", text)
-    return page
