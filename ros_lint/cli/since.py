@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.tree import repository_of
 from ros_lint.cli import git_commits
+from ros_lint.cli.checking import check_workspaces
 from ros_lint.cli.session import UsageError, open_session
-from ros_lint.engine import baseline, registry
-from ros_lint.engine.check import ReportContext, check
+from ros_lint.engine import baseline
 from ros_lint.workspace.cache.file import NO_CACHE
 
 if TYPE_CHECKING:
@@ -18,13 +18,10 @@ if TYPE_CHECKING:
 
     from ros_lint.cli.session import Request
     from ros_lint.engine.report import Report
-    from ros_lint.engine.selection import Selection
     from ros_lint.workspace.join import Progress
 
 
-def only_new(
-    report: Report, request: Request, selection: Selection, environment: Mapping[str, str], progress: Progress
-) -> Report:
+def only_new(report: Report, request: Request, environment: Mapping[str, str], progress: Progress) -> Report:
     """Return a report without the findings that the commit has from which HEAD and ``--since`` diverged.
 
     The files of this commit are written into a temporary folder and checked with the same settings. Findings are compared as
@@ -40,12 +37,13 @@ def only_new(
             git_commits.write_files(request.base, commit, folder, environment)
         except OSError as error:
             raise git_commits.GitError(f"--since: the files of {commit} cannot be written: {error}") from error
-        before = _check(_at(request, folder), selection, progress)
+        session = open_session(_in_folder(request, folder), progress)
+        before = check_workspaces(session, session.loader.load_all(), session.roots)
     return baseline.of(before).hide_known(report, f"the commit {commit[:12]}", request.roots, "also in")
 
 
-def _at(request: Request, folder: str) -> Request:
-    """Return the request for the same folders below another base, as far as they exist there."""
+def _in_folder(request: Request, folder: str) -> Request:
+    """Return the request for the files of a commit in ``folder``, without cache. Requested folders that it lacks are left out."""
 
     def existing(paths: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(path for path in paths if os.path.isdir(os.path.join(folder, path)))
@@ -58,10 +56,3 @@ def _at(request: Request, folder: str) -> Request:
         tracked=None,
         cache=NO_CACHE,
     )
-
-
-def _check(request: Request, selection: Selection, progress: Progress) -> Report:
-    session = open_session(request, progress)
-    rules = registry.load(request.settings["plugins"])
-    context = ReportContext(rules, session.knowledge.date, session.roots, ())
-    return check(session.loader.load_all(), session.loader.suppressions(), selection, context)

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from ros_lint.cli.session import Request
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
-    from ros_lint.engine.selection import Selection
 
 
 def run(options: Mapping[str, Any]) -> int:
@@ -44,14 +43,13 @@ def run(options: Mapping[str, Any]) -> int:
             if request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = fix.run(open_session(request, progress.update), selection_of(request.settings))
+                report, code = fix.run(open_session(request, progress.update))
             else:
                 report, code = _report(request, progress), 0
             if request.settings["since"]:
                 from ros_lint.cli.since import only_new  # noqa: PLC0415
 
-                selection = selection_of(request.settings)
-                report = only_new(report, request, selection, os.environ, progress.update)
+                report = only_new(report, request, os.environ, progress.update)
             if request.settings["write-baseline"]:
                 return max(code, _write_baseline(report, request))
             if known_findings is not None:
@@ -136,42 +134,14 @@ def _report(request: Request, progress: Progress) -> Report:
     if cached := cache.fetch(recorded):
         return cached
     session = open_session(request, progress.update, *(recorded if cache else disks))
+    from ros_lint.cli.checking import check_workspaces  # noqa: PLC0415  (not needed for a cached report)
     from ros_lint.cli.selected_packages import selected_folders  # noqa: PLC0415
-    from ros_lint.engine import registry  # noqa: PLC0415
-    from ros_lint.engine.check import ReportContext, check  # noqa: PLC0415
 
     workspaces = session.loader.load_all()
     folders, warnings = selected_folders(request.settings, session.roots, lambda: workspaces)
-    rules = registry.load(request.settings["plugins"])
-    context = ReportContext(rules, session.knowledge.date, folders, (*session.warnings, *warnings))
-    report = check(workspaces, session.loader.suppressions(), selection_of(request.settings), context)
+    report = check_workspaces(session, workspaces, folders, warnings)
     cache.store(recorded, report)
     return report
-
-
-def selection_of(settings: Settings) -> Selection:
-    """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
-    from ros_lint.engine import registry  # noqa: PLC0415  (not needed for a cached report)
-    from ros_lint.engine.selection import SelectionError, check_selectors, select  # noqa: PLC0415
-
-    rules = registry.load(settings["plugins"])
-    per_path = [name for names in settings["per-path-ignores"].values() for name in names]
-    for option in ("select", "extend-select", "ignore", "severity", "per-path-ignores"):
-        try:
-            check_selectors(rules, per_path if option == "per-path-ignores" else settings[option])
-        except SelectionError as error:
-            origin = settings.origin(option)
-            raise SelectionError(f"{origin}: {error}" if origin.startswith("--") else f"{origin}: {option}: {error}") from error
-    return select(
-        rules,
-        chosen=settings["select"],
-        added=settings["extend-select"],
-        ignored=settings["ignore"],
-        severities=settings["severity"],
-        per_path=settings["per-path-ignores"],
-        pedantic=settings["pedantic"],
-        min_severity=settings["min-severity"],
-    )
 
 
 def exit_code(report: Report, fail_on: str) -> int:

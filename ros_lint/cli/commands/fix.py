@@ -6,9 +6,9 @@ import gc
 import sys
 from typing import TYPE_CHECKING
 
+from ros_lint.cli.checking import check_workspaces, selection_of
 from ros_lint.cli.selected_packages import selected_folders
 from ros_lint.engine import edits, registry
-from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
 
@@ -17,10 +17,9 @@ if TYPE_CHECKING:
 
     from ros_lint.cli.session import Session
     from ros_lint.engine.report import Report
-    from ros_lint.engine.selection import Selection
 
 
-def run(session: Session, selection: Selection) -> tuple[Report, int]:
+def run(session: Session) -> tuple[Report, int]:
     """Print the fixes as a patch (--diff) or write them (--fix).
 
     Return the report of the remaining findings, and 2 if a file could not be written, else 0.
@@ -29,11 +28,10 @@ def run(session: Session, selection: Selection) -> tuple[Report, int]:
     settings = session.settings
     rules = registry.load(settings["plugins"])
     folders, warnings = selected_folders(settings, session.roots, session.loader.load_all)
-    trials = FixTrials(session.loader, folders, selection, rules, unsafe=settings["unsafe-fixes"])
-    context = ReportContext(rules, session.knowledge.date, folders, (*session.warnings, *warnings))
+    trials = FixTrials(session.loader, folders, selection_of(settings), rules, unsafe=settings["unsafe-fixes"])
 
     def report(changed: Mapping[str, bytes]) -> Report:
-        return check(trials.trial(changed).workspaces, session.loader.suppressions(changed), selection, context)
+        return check_workspaces(session, trials.trial(changed).workspaces, folders, warnings, changed)
 
     result = fix(trials)
     for issue, reason in result.skipped:

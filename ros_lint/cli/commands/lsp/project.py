@@ -9,18 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ros_lint.base.paths import is_below
 from ros_lint.base.text import Text, read
 from ros_lint.base.tree import text_of
-from ros_lint.cli.commands.check import selection_of
+from ros_lint.cli.checking import check_workspaces, selection_of
 from ros_lint.cli.session import open_session, parse_request
 from ros_lint.cli.settings import find
 from ros_lint.engine import registry
-from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
 
 if TYPE_CHECKING:
     from ros_lint.cli.session import Request, Session
     from ros_lint.engine.report import Report
-    from ros_lint.engine.selection import Selection
     from ros_lint.workspace.model import Workspace
 
 Progress = Callable[[str, int, int], None]
@@ -55,9 +53,6 @@ class Project:
         """Read the configuration and all files again, as far as they changed. Raises UserError."""
         self._request: Request = parse_request(self._options, self._environment)
         self._session: Session = open_session(self._request, self._progress)
-        settings = self._request.settings
-        self._rules = registry.load(settings["plugins"])
-        self._selection: Selection = selection_of(settings)
 
     @property
     def base(self) -> str:
@@ -80,7 +75,7 @@ class Project:
         """
         loader = self._session.loader
         workspaces = loader.load_all(unsaved)
-        report = check(workspaces, loader.suppressions(unsaved), self._selection, self._context)
+        report = check_workspaces(self._session, workspaces, self._session.roots, changed=unsaved)
 
         def text(path: str) -> Text | None:
             return read(path, unsaved[path]) if path in unsaved else text_of(loader.tree, path)
@@ -92,10 +87,11 @@ class Project:
 
         Each fix is verified: it causes no other finding. Nothing is written.
         """
-        selection = self._selection
+        session = self._session
+        selection = selection_of(session.settings)
         if rule:
             selection = selection._replace(rules=tuple([other for other in selection.rules if other.name == rule]))
-        trials = FixTrials(self._session.loader, self._session.roots, selection, self._rules)
+        trials = FixTrials(session.loader, session.roots, selection, registry.load(session.settings["plugins"]))
         changed = fix(trials, unsaved).changed
         self.reopen()  # the loader of the trials keeps the contents of the edited files
         return {path: data for path, data in changed.items() if unsaved.get(path) != data}
@@ -105,8 +101,3 @@ class Project:
         relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}
         if not self._session.loader.forget(relative) or find(self.folder) in paths:
             self.reopen()
-
-    @property
-    def _context(self) -> ReportContext:
-        session = self._session
-        return ReportContext(self._rules, session.knowledge.date, session.roots, session.warnings)

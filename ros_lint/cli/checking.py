@@ -1,0 +1,57 @@
+"""Check a workspace with the settings of a session: the steps that ``check``, ``--fix``, ``--since`` and the server share."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from ros_lint.engine import registry
+from ros_lint.engine.check import ReportContext, check
+from ros_lint.engine.selection import Selection, SelectionError, check_selectors, select
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ros_lint.cli.session import Session
+    from ros_lint.cli.settings import Settings
+    from ros_lint.engine.report import Report
+    from ros_lint.workspace.model import Workspace
+
+
+def check_workspaces(
+    session: Session,
+    workspaces: Sequence[Workspace],
+    folders: Sequence[str],
+    warnings: Sequence[str] = (),
+    changed: Mapping[str, bytes] = MappingProxyType({}),
+) -> Report:
+    """Return the report of the loaded workspaces, one for each distribution, with the rules that the settings select.
+
+    Findings in ``folders`` are reported. ``warnings`` are added to those of the session. ``changed`` has the contents with
+    which files of the workspaces were replaced. Raises SelectionError, PluginError and KnowledgeError.
+    """
+    rules = registry.load(session.settings["plugins"])
+    context = ReportContext(rules, session.knowledge.date, tuple(folders), (*session.warnings, *warnings))
+    return check(workspaces, session.loader.suppressions(changed), selection_of(session.settings), context)
+
+
+def selection_of(settings: Settings) -> Selection:
+    """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
+    rules = registry.load(settings["plugins"])
+    per_path = [name for names in settings["per-path-ignores"].values() for name in names]
+    for option in ("select", "extend-select", "ignore", "severity", "per-path-ignores"):
+        try:
+            check_selectors(rules, per_path if option == "per-path-ignores" else settings[option])
+        except SelectionError as error:
+            origin = settings.origin(option)
+            raise SelectionError(f"{origin}: {error}" if origin.startswith("--") else f"{origin}: {option}: {error}") from error
+    return select(
+        rules,
+        chosen=settings["select"],
+        added=settings["extend-select"],
+        ignored=settings["ignore"],
+        severities=settings["severity"],
+        per_path=settings["per-path-ignores"],
+        pedantic=settings["pedantic"],
+        min_severity=settings["min-severity"],
+    )
