@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ from ros_lint.cli.commands import graph
 from ros_lint.cli.commands.graph_part import GraphOptions, edges_in_cycles, is_test_only, part_of_graph
 from ros_lint.cli.session import UsageError
 from ros_lint.workspace.model import Workspace
+from tests.browser import opened
 from tests.one_package import loaded
 from tests.packages import manifest_text
 
@@ -96,18 +96,7 @@ def test_the_page_has_the_data_and_loads_nothing() -> None:
 
 @pytest.mark.slow
 def test_the_page_in_a_browser(tmp_path: Path) -> None:
-    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    chromium = shutil.which("chromium")
-    if not chromium:
-        pytest.skip("chromium is not installed")
-    file = tmp_path / "graph.html"
-    file.write_text(page({**DIAMOND, **KNOT}), "utf-8")
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", "--disable-gpu"])
-        tab = browser.new_page()
-        errors: list[str] = []
-        tab.on("pageerror", lambda error: errors.append(str(error)))
-        tab.goto(file.as_uri())
+    with opened(tmp_path / "graph.html", page({**DIAMOND, **KNOT})) as tab:
 
         def shown() -> list[str]:
             return sorted(tab.locator(".node text").all_text_contents())
@@ -133,5 +122,3 @@ def test_the_page_in_a_browser(tmp_path: Path) -> None:
         tab.fill("#search", "nothing_like_it")
         tab.press("#search", "Enter")
         assert tab.inner_text("#status") == "No package contains 'nothing_like_it'."
-        assert not errors
-        browser.close()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pytest
 
 from ros_lint.reporters import html
 from ros_lint.reporters.ansi import Style
+from tests.browser import opened
 from tests.reports import REPORTS, texts
 
 HOSTILE = "</article><script>alert(1)</script><!--FINDINGS-->\x1b[31m\u202e"
@@ -67,17 +67,8 @@ def test_hostile_texts_stay_texts() -> None:
 
 @pytest.mark.slow
 def test_the_filters_in_a_browser(tmp_path: Path) -> None:
-    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    chromium = shutil.which("chromium")
-    if not chromium:
-        pytest.skip("chromium is not installed")
     report = REPORTS["everything"]
-    file = tmp_path / "report.html"
-    file.write_text(html.render(report, texts, Style()), "utf-8")
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", "--disable-gpu"])
-        tab = browser.new_page()
-        tab.goto(file.as_uri())
+    with opened(tmp_path / "report.html", html.render(report, texts, Style())) as tab:
         errors = sum(str(issue.severity) == "error" for issue in report.issues)
         assert tab.inner_text("#shown") == f"{len(report.issues)} of {len(report.issues)} findings"
         tab.select_option("select[name=severity]", "error")
@@ -88,4 +79,3 @@ def test_the_filters_in_a_browser(tmp_path: Path) -> None:
         assert tab.locator("article:visible").count() == 0
         tab.click("button[type=reset]")
         tab.wait_for_function("document.querySelectorAll('article[hidden]').length === 0")
-        browser.close()

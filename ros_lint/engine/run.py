@@ -121,9 +121,5 @@ def sort_key(issue: Issue) -> tuple[object, ...]:
 
 def owning_package(workspace: Workspace, path: str) -> str:
     """Return the name of the package that contains a file, or ""."""
-    inside = [
-        package
-        for package in (*workspace.packages, *workspace.unusable)
-        if not package.path or path == package.path or path.startswith(f"{package.path}/")
-    ]
-    return max(inside, key=lambda package: len(package.path)).name if inside else ""
+    owner = workspace.owner(path)
+    return owner.name if owner else ""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.analysis.finding import Severity
 from ros_lint.reporters.ansi import Style, safe
-from ros_lint.reporters.summary import crashed, summary, unread_file
+from ros_lint.reporters.summary import problems, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -59,10 +59,8 @@ def _place(span: Span) -> dict[str, str | int]:
 
 def _problems(report: Report) -> Iterator[str]:
     """Yield a command for each problem because of which the run is incomplete."""
-    if not report.packages:
-        yield command({"type": "error"}, "ros-lint: no package found, so nothing was checked")
-    for crash in report.crashes:
-        yield command({"type": "error"}, safe(f"ros-lint: a rule failed: {crashed(crash)}", Style()))
-    for entry in report.not_checked:
-        place = _place(entry.span) if entry.span else {}
-        yield command({"type": "warning", **place}, safe(f"not checked: {unread_file(entry)}", Style()))
+    for problem in problems(report):
+        severe = problem.severity is Severity.ERROR
+        place = _place(problem.span) if problem.span else {}
+        message = f"ros-lint: {problem.message}" if severe else problem.message
+        yield command({"type": "error" if severe else "warning", **place}, safe(message, Style()))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros_lint.analysis.finding import Severity
 from ros_lint.reporters.summary import DEFAULT_PATH, problems
 from ros_lint.reporters.xml_text import element, start
 
@@ -13,19 +12,17 @@ if TYPE_CHECKING:
     from ros_lint.reporters import SourceTexts
     from ros_lint.reporters.ansi import Style
 
-_LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "info"}
-
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return XML with an element for each file, and in it one for each finding. Problems of the run are in ``package.xml``."""
     files: dict[str, list[str]] = {}
     for problem in problems(report):
         path, line, column = problem.span[:3] if problem.span else (DEFAULT_PATH, 1, 1)
-        files.setdefault(path, []).append(_error(line, column, _LEVELS[problem.severity], problem.message, "ros-lint"))
+        files.setdefault(path, []).append(_error(line, column, str(problem.severity), problem.message, "ros-lint"))
     for issue in report.issues:
         span = issue.finding.span
         source = f"ros-lint.{issue.rule.name}"
-        error = _error(span.line, span.column, _LEVELS[issue.severity], f"{issue.finding.message} ({issue.rule.code})", source)
+        error = _error(span.line, span.column, str(issue.severity), f"{issue.finding.message} ({issue.rule.code})", source)
         files.setdefault(span.path, []).append(error)
     parts = [f"{start('file', name=path)}\n{''.join(errors)}</file>\n" for path, errors in files.items()]
     return f'<?xml version="1.0" encoding="UTF-8"?>\n<checkstyle version="4.3">\n{"".join(parts)}</checkstyle>\n'

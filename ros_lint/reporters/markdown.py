@@ -7,7 +7,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from ros_lint.reporters.ansi import Style, safe
-from ros_lint.reporters.summary import count, limits, problems, summary
+from ros_lint.reporters.summary import by_package, count, limits, problems, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _PLAIN = Style()
 _MOST_BYTES = 1_000_000
-"""Size of the tables at most. GitHub rejects a summary of more than 1 MiB."""
+"""Maximum size of the tables. GitHub rejects a summary of more than 1 MiB."""
 _HEAD = "| severity | place | finding | rule |\n|---|---|---|---|\n"
 
 
@@ -32,11 +32,8 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 def _tables(report: Report) -> Iterator[str]:
     """Yield a table for each package, packages with the most severe findings first, up to the size limit."""
-    packages: dict[str, list[Issue]] = {}
-    for issue in sorted(report.issues, key=lambda issue: -issue.severity):
-        packages.setdefault(issue.package, []).append(issue)
     size = left_out = 0
-    for package, issues in packages.items():
+    for package, issues in by_package(report.issues):
         table = _table(package, issues, report)
         size += len(table.encode())
         if size > _MOST_BYTES:

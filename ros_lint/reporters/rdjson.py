@@ -8,7 +8,6 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.analysis.finding import Severity
 from ros_lint.base.json_text import encode
 from ros_lint.reporters.summary import DEFAULT_PATH, problems
 
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
     from ros_lint.reporters import SourceTexts
     from ros_lint.reporters.ansi import Style
 
-_LEVELS = {Severity.ERROR: "ERROR", Severity.WARNING: "WARNING", Severity.INFO: "INFO"}
-
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return JSON with a diagnostic for each finding and for each problem because of which the run is incomplete."""
@@ -27,7 +24,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
     diagnostics = [_diagnostic(issue, report, texts) for issue in report.issues]
     for problem in problems(report):
         location = _location(problem.span, texts) if problem.span else {"path": DEFAULT_PATH}
-        diagnostics.append({"message": problem.message, "location": location, "severity": _LEVELS[problem.severity]})
+        diagnostics.append({"message": problem.message, "location": location, "severity": problem.severity.name})
     return encode({"source": {"name": "ros-lint"}, "diagnostics": diagnostics}, 2)
 
 
@@ -37,7 +34,7 @@ def _diagnostic(issue: Issue, report: Report, texts: SourceTexts) -> dict[str, A
     result: dict[str, Any] = {
         "message": finding.message,
         "location": _location(finding.span, texts),
-        "severity": _LEVELS[issue.severity],
+        "severity": issue.severity.name,
         "code": {"value": issue.rule.code, **({"url": url} if url else {})},
     }
     edits = finding.fix.edits if finding.fix else ()

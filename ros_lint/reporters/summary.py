@@ -10,10 +10,10 @@ from ros_lint.base.suggestions import and_list
 from ros_lint.reporters.ansi import Style, paint, safe
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from ros_lint.base.text import Span
-    from ros_lint.engine.report import Crash, HiddenCount, Report
+    from ros_lint.engine.report import Crash, HiddenCount, Issue, Report
     from ros_lint.workspace.target import UnreadFile
 
 _LISTED = 10
@@ -47,6 +47,17 @@ def problems(report: Report) -> Iterator[Problem]:
         yield Problem(Severity.ERROR, f"a rule failed: {crashed(crash)}")
     for entry in report.not_checked:
         yield Problem(Severity.INFO, f"not checked: {unread_file(entry)}", entry.span)
+
+
+def by_package(issues: Iterable[Issue]) -> list[tuple[str, list[Issue]]]:
+    """Return the issues by package: errors first, then warnings, then infos.
+
+    Packages come in the order of their gravest issues, packages with issues of one severity in the order of their places.
+    """
+    packages: dict[str, list[Issue]] = {}
+    for issue in sorted(issues, key=lambda issue: -issue.severity):
+        packages.setdefault(issue.package, []).append(issue)
+    return sorted(packages.items(), key=lambda item: (-item[1][0].severity, item[1][0].finding.span))
 
 
 def summary(report: Report, style: Style) -> str:

@@ -10,7 +10,7 @@ from ros_lint.base.suggestions import and_list, shorten_list
 from ros_lint.engine.report import page_url
 from ros_lint.reporters.ansi import Style, link, paint, safe
 from ros_lint.reporters.frames import Mark, frame
-from ros_lint.reporters.summary import count, summary
+from ros_lint.reporters.summary import by_package, count, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -29,11 +29,8 @@ _FILES = 2
 def render(report: Report, texts: SourceTexts, style: Style) -> str:
     """Return the report as text: packages with errors first; in a package errors, then warnings, then infos."""
     texts = cache(texts)
-    packages: dict[str, list[Issue]] = {}
-    for issue in sorted(report.issues, key=lambda issue: -issue.severity):
-        packages.setdefault(issue.package, []).append(issue)
     parts: list[str] = []
-    for package, issues in sorted(packages.items(), key=lambda item: (-item[1][0].severity, item[1][0].finding.span)):
+    for package, issues in by_package(report.issues):
         title = f"{safe(package, style) or 'outside any package'}: {count(len(issues), 'finding')}"
         parts.append(f"{paint(style, 'bold', title)}\n\n{render_issues(issues, texts, style)}\n")
     return "".join(parts) + summary(report, style)

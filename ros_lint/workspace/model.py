@@ -277,6 +277,15 @@ class Workspace:
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
+    def owner(self, path: str) -> Package | None:
+        """Return the innermost package, usable or not, that contains a file; None if no package contains it."""
+        inside = [
+            package
+            for package in (*self.packages, *self.unusable)
+            if not package.path or path == package.path or path.startswith(f"{package.path}/")
+        ]
+        return max(inside, key=lambda package: len(package.path), default=None)
+
     def surely_lacks(self, owner: str, kind: ContentKind, name: str) -> bool:
         """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.import_tree import Import, walk
-from ros_lint.collectors.python.imports import added_folders, scan
+from ros_lint.collectors.python.imports import IMPORTED_NAMES, added_folders, scan
 from ros_lint.collectors.python.lookups import Found, in_excerpt, literals, look_ups
 from ros_lint.collectors.python.source_errors import NotPythonError, TooDeepError
 from ros_lint.collectors.python.syntax import parse, refusal
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 _IMPORT_LINE = re.compile(r"^[ \t]*(?:from|import)[ \t]+([A-Za-z_][\w.]*)", re.MULTILINE)
 _TYPES = re.compile(r"[^\W\d]\w*\.(?:msg|srv|action)")
-_IMPORTED = re.compile(r"[ \t]+import[ \t]*(?:\(([^()]*)\)|((?:[^\n#;\\(]|\\\r?\n)*))")
 _ONE = re.compile(r"(?:\A|,)[\s\\]*([^\W\d]\w*)(?:[\s\\]+as[\s\\]+\w+)?[\s\\]*(?=,|\Z)")
 _COMMENT = re.compile("#[^\n]*")
 _PROGRAM = re.compile(r"""\.py['"]""")
@@ -104,7 +103,7 @@ def _types(source: Text, imports: Iterable[tuple[Import, Span]]) -> Iterator[Imp
     ``from std_msgs.msg import String`` -> ``std_msgs/msg/String``
     """
     for item, module in imports:
-        match = _IMPORTED.match(source.text, item.start + len(item.module)) if _TYPES.fullmatch(item.module) else None
+        match = IMPORTED_NAMES.match(source.text, item.start + len(item.module)) if _TYPES.fullmatch(item.module) else None
         if match is None:
             continue
         group = 1 if match[1] is not None else 2

@@ -20,6 +20,8 @@ _IMPORT = re.compile(r"import(?=[ \t(*\\]|_module\(|orskip\(|__\()")
 _MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\d]\w*)?[ \t\r]*(,|\Z)")
 _FROM = re.compile(r"from[ \t]+([^\W\d]\w*(?:\.[^\W\d]\w*)*)[ \t]+\Z")
 _RELATIVE = re.compile(r"from[ \t]*\.[ \t.\w]*\Z")
+IMPORTED_NAMES = re.compile(r"[ \t\\\r\n]+import[ \t]*(?:\(([^()]*)\)|((?:[^\n#;\\(]|\\\r?\n)*))")
+"""What follows the module in ``from module import names``: group 1 has names in parentheses, group 2 other names."""
 _TRIPLE = re.compile(r'"""|\'\'\'')
 _CONTINUED = re.compile(r"\\\r?\n[ \t\f]*(?:import|from)\b")
 _HEAD = re.compile(

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.python.imports import IMPORTED_NAMES
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from ros_lint.collectors.python.import_tree import Import
 
 _FROM = re.compile(r"\bfrom[\s\\]+\Z")
-_IMPORTED = re.compile(r"[ \t\\\r\n]+import[ \t]*(?:\(([^()]*)\)|((?:[^\n#;\\(]|\\\r?\n)*))")
 _ALIAS = re.compile(r"[ \t]+as[ \t]+(\w+)")
 _NAME = re.compile(r"[\s\\]*(?:\w+[\s\\]+as[\s\\]+)?(\w+)[\s\\]*\Z")
 _COMMENT = re.compile("#[^\n]*")
@@ -46,7 +47,7 @@ def _bound_names(text: str, item: Import) -> Iterator[str]:
         alias = _ALIAS.match(text, end)
         yield alias[1] if alias else item.module.partition(".")[0]
         return
-    match = _IMPORTED.match(text, end)
+    match = IMPORTED_NAMES.match(text, end)
     if match is None:
         return
     listed = _COMMENT.sub("", match[1] if match[1] is not None else match[2]).rstrip().rstrip(",")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ros_lint.analysis.finding import Severity
 from ros_lint.base.html_page import fill, resource
 from ros_lint.reporters.ansi import Style, safe
-from ros_lint.reporters.summary import count, summary
+from ros_lint.reporters.summary import by_package, count, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -32,10 +32,6 @@ _RELATED = 8
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
     """Return the page: findings by package, with the lines of their places, and the summary of the run."""
     texts = cache(texts)
-    packages: dict[str, list[Issue]] = {}
-    for issue in sorted(report.issues, key=lambda issue: -issue.severity):
-        packages.setdefault(issue.package, []).append(issue)
-    ordered = sorted(packages.items(), key=lambda item: (-item[1][0].severity, item[0]))
     title = report.workspace or "the workspace"
     parts = {
         "STYLE": resource(__name__, "page.css"),
@@ -43,7 +39,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
         "TITLE": _escaped(title),
         "SUMMARY": "\n".join(f"<p>{_escaped(line)}</p>" for line in summary(report, _PLAIN).splitlines() if line),
         "FILTERS": "\n".join(_filters(report.issues)),
-        "FINDINGS": "\n".join(line for package, issues in ordered for line in _package(package, issues, texts)),
+        "FINDINGS": "\n".join(line for package, issues in by_package(report.issues) for line in _package(package, issues, texts)),
     }
     return fill(resource(__name__, "page.html"), parts)
 

@@ -20,6 +20,7 @@ _MOST_USES = 5
 """Number of uses that a hover lists."""
 
 MOST_COMPLETIONS = 200
+"""Largest number of completions."""
 
 
 class Target(NamedTuple):
@@ -83,10 +84,11 @@ def _in_package(package: Package, target: Target) -> Iterator[Span]:
         return
     products = package.built.products
     if target.kind == "node":
-        modules = {entry.name: entry.module for entry in products.entry_points if entry.group == "console_scripts"}
-        if name in modules:
-            yield from _module(package, modules[name])
-            return
+        modules = {module.name: module.path for module in package.built.python.entry_point_modules}
+        for entry in products.entry_points:
+            if entry.name == name and entry.group == "console_scripts" and entry.module in modules:
+                yield package.start_of(modules[entry.module])
+                return
         for installed in products.installs:
             if installed.path == f"lib/{package.name}/{name}":
                 yield from _source(package, installed.source, installed.target)
@@ -232,9 +234,3 @@ def links(workspace: Workspace, path: str) -> Iterator[tuple[Span, Span]]:
         if target.kind in ("include", "file") and target.name:
             for package in workspace.called(target.package):
                 yield from ((target.span, span) for span in _in_package(package, target))
-
-
-def owner_of(workspace: Workspace, path: str) -> Package | None:
-    """Return the package that contains a file."""
-    inside = [package for package in workspace.packages if path.startswith(f"{package.path}/" if package.path else "")]
-    return max(inside, key=lambda package: len(package.path), default=None)

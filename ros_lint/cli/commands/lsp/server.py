@@ -272,7 +272,7 @@ def _add_navigation(server: RosLintServer) -> None:
         request = await _request(server, params.text_document.uri, params.position)
         if request is None or request.target is None:
             return None
-        owner = navigation.owner_of(request.snapshot.workspace, request.path)
+        owner = request.snapshot.workspace.owner(request.path)
         text = navigation.describe(request.snapshot, request.target, owner)
         return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), request.positions.range(request.target.span))
 
