@@ -104,7 +104,7 @@ def test_infos_of_one_rule_and_package_are_one_block() -> None:
     info = foo._replace(finding=foo.finding._replace(severity=Severity.INFO, fix=fix))
     unsafe = end._replace(finding=end.finding._replace(fix=fix._replace(safe=False)))
     assert render_issues([info, std_msgs, end, unsafe], texts).split("\n\n")[0] == (
-        "info[ROS203 transitive-dependency]: 3 findings of the check that what is used is declared itself\n"
+        "info[ROS203 transitive-dependency]: 3 findings; expected: what is used is declared itself\n"
         " --> ws/talker/src/talker.cpp:2:43: foo is declared by way of hand only (medium confidence)\n"
         " --> ws/talker/src/talker.cpp:5:1: the end\n"
         " --> ws/talker/src/talker.cpp:5:1: the end\n"

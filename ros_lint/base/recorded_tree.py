@@ -51,7 +51,7 @@ class RecordedTree:
 
     @property
     def answers(self) -> Answers:
-        """The answers of this run."""
+        """The queries of this run to the file system, with their answers."""
         lists, stamps, others, errors = [], {}, [], []
         for (query, path), answer in self._answers.items():
             match answer:

@@ -1,4 +1,4 @@
-"""Find the package that a path belongs to, and the folder around it whose packages are read as well, to check the package."""
+"""Find the package of a path, and the folder around the package. The other packages of this folder are read as context."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Apply the options that select packages by name to a loaded workspace."""
+"""The options that select packages of a workspace by name: ``--packages-select`` and the others."""
 
 from __future__ import annotations
 

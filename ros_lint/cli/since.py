@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def only_new(report: Report, request: Request, environment: Mapping[str, str], progress: Progress) -> Report:
-    """Return a report without the findings that the commit has from which HEAD and ``--since`` diverged.
+    """Return a report without the findings of the merge base: the commit from which HEAD and ``--since`` diverged.
 
     The files of this commit are written into a temporary folder and checked with the same settings. Findings are compared as
     for a baseline. Raises UsageError and GitError.

@@ -48,9 +48,9 @@ class Baseline(NamedTuple):
     def hide_known(self, report: Report, name: str, folders: Sequence[str], where: str = "listed in") -> Report:
         """Return a report without the known findings, and with a warning about known findings that no longer occur.
 
-        ``name`` is the name of the file in messages, ``where`` the words before it.
-        ``folders`` are the checked folders. The warning is only given if
-        they equal the folders in the file, because findings in other folders may still occur.
+        ``name`` is the name of the file in messages, and ``where`` the words before the name. ``folders`` are the checked
+        folders. The warning is only given if they equal the folders in the file, because findings in other folders may still
+        occur.
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])

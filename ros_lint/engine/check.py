@@ -85,7 +85,7 @@ def _union(parts: Iterable[Iterable[T]]) -> tuple[T, ...]:
 
 
 def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
-    """Yield the listed repositories that are not cloned and have no existing package of their name, by list."""
+    """Yield for each list, such as a .repos file, the repositories that are not cloned, without those named like a package."""
     world = workspace.world
     for path, names in world.awaited.lists:
         if unknown := [name for name in names if not world.is_package(package_name(name))]:

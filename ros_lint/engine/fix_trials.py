@@ -197,7 +197,7 @@ def _edited_files(issue: Issue) -> Iterable[str]:
 
 
 def _written_names(issue: Issue) -> list[str]:
-    """Return the names that the fix of an issue writes: whole texts, or contents of tags."""
+    """Return the names in the texts that the fix of an issue writes: a whole text, or the content of a tag."""
     fix = issue.finding.fix
     texts = [edit.text for edit in fix.edits] if fix else []
     return [name for text in texts for name in re.findall(r"(?:>|\A)([\w.+-]+)(?=<|\Z)", text)]

@@ -54,7 +54,7 @@ def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
 def _infos(issues: Sequence[Issue], texts: SourceTexts, style: Style) -> Iterator[str]:
     """Yield the rows of a block of infos: the rule, a line for each info, and the options that apply their fixes."""
     rule = issues[0].rule
-    title = f"{len(issues)} findings of the check that {rule.summary}"
+    title = f"{len(issues)} findings; expected: {rule.summary}"
     yield f"{_head(issues[0], style)}: {paint(style, 'bold', title)}"
     for issue in issues:
         finding = issue.finding

@@ -425,7 +425,7 @@ def _includes(package: Package) -> Iterator[Use]:
 
 
 def _installed(script: BuildScript) -> set[str]:
-    """Return the headers that are installed unconditionally."""
+    """Return the sources of the files that are certainly installed into include/."""
     return {file.source for file in script.products.installs if file.path.startswith("include/") and not file.conditional}
 
 

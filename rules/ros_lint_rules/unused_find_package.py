@@ -94,7 +94,10 @@ def _call(package: Package, find: Mention) -> str:
 
 
 def _is_of_interfaces(name: str, workspace: Workspace) -> bool:
-    """Return whether a package generates interfaces. Code names their types in full, even if it gets them by other headers."""
+    """Return whether a package generates interfaces.
+
+    Code contains the name of such a package wherever it uses an interface, because it writes types in full.
+    """
     released = workspace.world.released(name)
     local = workspace.by_name.get(name)
     return any(member.built.products.interfaces for member in local) if local else bool(released and released.interfaces)

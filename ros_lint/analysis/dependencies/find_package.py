@@ -47,7 +47,7 @@ def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozense
 def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
     """Return the packages that ``find_package()`` of each name finds, with their transitive dependencies.
 
-    Names and packages without data are in ``Closure.unknown``.
+    ``Closure.unknown`` has the names without a known package, and the packages with unknown dependencies.
     """
     starts: set[str] = set()
     for name in names:

@@ -76,7 +76,7 @@ def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 
 
 def is_found_by_cmake(need: Need) -> bool:
-    """Return whether a find_package() that is neither optional nor only for tests certainly needs the package."""
+    """Return whether CMake certainly searches for the needed package, by a find_package() that is required outside of tests."""
     return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
 
 

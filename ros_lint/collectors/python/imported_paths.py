@@ -52,7 +52,7 @@ def imported_paths(source: Text, path: str) -> frozenset[str] | None:
 
 
 def _of_tree(source: Text, path: str) -> frozenset[str] | None:
-    """Return the same from the syntax tree, None if the argument of a function that imports modules is not a constant."""
+    """Return the imported paths from the syntax tree, None if a function imports a module by a name that is not constant."""
     try:
         tree = parse(source)
     except NotPythonError:

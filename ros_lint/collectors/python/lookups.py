@@ -111,7 +111,7 @@ def _found(source: Text, tree: ast.Module, telling: Iterable[tuple[Expression, l
 
 
 def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]:
-    """Yield the expressions that look up a package, directly or through a name for the result of a look-up.
+    """Yield the expressions that look up a package, directly or through a variable that has the result of a look-up.
 
     Each expression has its look-up calls, with the argument that is the package name.
     """

@@ -93,7 +93,7 @@ def _cmake(
 ) -> BuildScript:
     """Return the evaluated CMakeLists.txt of a package.
 
-    If its code runs in other packages, it is added to ``helpers``, by workspace and name.
+    A package with CONFIG_EXTRAS, whose code runs in dependents, is added to ``helpers``, by workspace and name.
     """
     from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415

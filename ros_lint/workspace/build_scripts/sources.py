@@ -22,7 +22,7 @@ Scripts rarely install more, but such a folder may be anything.
 
 
 class Parts(NamedTuple):
-    """A package with the inputs of the evaluation of its scripts."""
+    """A package, with its CMake files and dependencies, from which its scripts are evaluated."""
 
     package: DiscoveredPackage
     commands: Mapping[str, ParsedScript]

@@ -245,7 +245,7 @@ class FileRoles:
 
     @cached_property
     def _has_no_tests(self) -> bool:
-        """True if CMake builds and runs no tests, so that no test starts the other files in the folders of tests."""
+        """True if CMake builds and runs no tests. Then no test starts the files in the folders of tests."""
         return not self._runs_python_tests and not any(target.test for target in self._script.products.targets)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What is at a place of a file, where it is defined and used, and what can be written there."""
+"""Answers about a place in a file: the thing that is named there, its definition and uses, and completions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Target(NamedTuple):
     """Something in a file that has a definition: a package, or something in a package."""
 
     span: Span
-    """The place that names it."""
+    """The place of the name."""
     package: str
     """Name of the package or rosdep key."""
     name: str = ""
@@ -71,7 +71,7 @@ def _size(span: Span) -> tuple[int, int]:
 def definitions(workspace: Workspace, target: Target) -> list[Span]:
     """Return where a target is defined: the name in a manifest, a CMake target, an entry point's module, or a file.
 
-    The list is empty for packages outside of the workspace. If the thing itself is not found, its package is the answer.
+    The list is empty for packages outside of the workspace. If the target is not found in its package, the package is returned.
     """
     packages = workspace.called(target.package)
     found = [span for package in packages for span in _in_package(package, target)]
@@ -196,7 +196,7 @@ _MOST_LINES = 6
 
 
 def completions(workspace: Workspace, text: Text, place: Place) -> tuple[str, Sequence[str]]:
-    """Return the word before a place, and the names that can be written in its place, at most 200.
+    """Return the word before a place, and the names that can replace the word, at most 200.
 
     These are names of packages and rosdep keys in a dependency tag; in a launch file, packages and the programs they install.
     """
@@ -220,7 +220,7 @@ def completions(workspace: Workspace, text: Text, place: Place) -> tuple[str, Se
 
 
 def _programs(workspace: Workspace, text: Text, place: Place) -> set[str]:
-    """Return the programs of the package that the lines around a place name nearest."""
+    """Return the programs of the package whose name is nearest above a place."""
     above = [text.line(number) for number in range(max(1, place.line - _MOST_LINES), place.line)]
     before = "\n".join([*above, text.line(place.line)])
     names = _PACKAGE.findall(before)

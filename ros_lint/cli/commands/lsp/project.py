@@ -1,4 +1,4 @@
-"""A workspace that is open in an editor: it is checked again and again with the unsaved texts of the editor."""
+"""A workspace that is open in an editor, and its check with the unsaved texts of the editor."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Progress = Callable[[str, int, int], None]
 
 
 class Snapshot(NamedTuple):
-    """A workspace as it was checked: the disk, with the unsaved texts of the editor in place of some files."""
+    """A workspace with the report about it. Unsaved texts of the editor replace the contents of files on disk."""
 
     base: str
     """Absolute folder to which all paths are relative."""
@@ -50,7 +50,7 @@ class Project:
         self.reopen()
 
     def reopen(self) -> None:
-        """Read the configuration and all files again, as far as they changed. Raises UserError."""
+        """Read the configuration and the changed files again. Raises UserError."""
         self._request: Request = parse_request(self._options, self._environment)
         self._session: Session = open_session(self._request, self._progress)
 

@@ -31,8 +31,8 @@ _WATCHED = "**/*"
 class OpenProject:
     """A project of the editor with its latest snapshot.
 
-    All work on a project is done in one thread, one step after the other. A snapshot that is out of date when it is ready is
-    not published; the project is checked again.
+    All work on a project is done in one thread. If a text changes during a check, its snapshot is not published, and the project
+    is checked again.
     """
 
     def __init__(self, project: Project) -> None:
@@ -103,7 +103,7 @@ class RosLintServer(LanguageServer):
         return opened, os.path.relpath(path, opened.project.base).replace(os.sep, "/")
 
     def change(self, uri: str, *, on_disk: bool = False) -> None:
-        """Note that a file changed in the editor or on disk, and check its project after a moment."""
+        """Record that a file changed in the editor or on disk, and check its project soon."""
         if (place := self.project_of(uri)) is None:
             return
         opened = place[0]

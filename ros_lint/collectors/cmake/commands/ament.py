@@ -366,7 +366,10 @@ def _vendor(run: Run, args: list[str]) -> None:
 
 
 def _tests(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_runs(paths...)`` or ``add_test()``: record files and folders that an interpreter runs as tests."""
+    """Run ``add_test()``, or ``ros_lint_runs()``, which stands for it in the macros of released packages.
+
+    Files and folders among the arguments are recorded as tests that run without being compiled.
+    """
     for arg in args:
         path = run.paths.source(strip_mark(arg)[0])
         if path is None and HOLE in arg:

@@ -126,7 +126,7 @@ def are_in_flags(run: Run) -> bool:
 
 
 _MOST_LINKED: Final = 1_000
-"""Targets that are followed from one target, directly or transitively."""
+"""Maximum number of targets that are followed from one target, directly or transitively."""
 
 
 def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:

@@ -24,7 +24,7 @@ from ros_lint.facts.visibility import Facet, Opaque, Problem
 DEEPEST: Final = 60
 """Greatest depth of nested calls. CMake allows 1,000; real packages need less than 20."""
 _MANY_ARGUMENTS: Final = 16
-"""Arguments of a command from which an index is faster than a search."""
+"""Number of arguments of a command from which an index is faster than a search."""
 _SHORT: Final = 1024
 """Characters of the longest value that is read without a charge."""
 _OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})

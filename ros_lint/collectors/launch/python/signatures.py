@@ -24,7 +24,7 @@ class Signature(NamedTuple):
     """All keywords of any distribution, with what they accept by their annotation; "" for anything else."""
 
     def position(self, keyword: str) -> int:
-        """Return the position at which an argument sets a keyword, -1 if none does."""
+        """Return the position of a parameter among the positional ones, -1 if the parameter is keyword-only."""
         position = list(self.kinds).index(keyword)
         return position if position < self.most_positional else -1
 

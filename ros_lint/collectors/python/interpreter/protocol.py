@@ -52,7 +52,7 @@ class Library(Protocol):
         ...
 
     def attribute(self, owner: LaunchObject, name: str) -> Value:
-        """Return the value of the attribute ``name`` of an object of the library."""
+        """Return the value of the attribute ``name`` of an object of the library (launch or setuptools)."""
         ...
 
     def subscript(self, interpreter: Interpreter, owner: Value, key: Value) -> Value:

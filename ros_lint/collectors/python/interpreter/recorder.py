@@ -151,7 +151,7 @@ class Recorder:
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
 
     def any_perhaps(self, values: Iterable[Value]) -> bool:
-        """Return whether any of the elements ``values`` may be missing under the present conditions."""
+        """Return whether any element of a list may be missing, although the conditions of the current statement hold."""
         return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
 
     def is_at(self, values: Sequence[Value], key: int | slice) -> bool:

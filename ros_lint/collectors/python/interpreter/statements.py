@@ -158,7 +158,7 @@ def _opens(body: Sequence[ast.stmt]) -> bool:
 
 
 def _assigns(body: Sequence[ast.stmt]) -> bool:
-    """Return whether a block itself assigns a value, so that the code after it continues with another value."""
+    """Return whether a statement of a block assigns a value, with which the code after the block continues."""
     return any(isinstance(statement, ast.Assign | ast.AnnAssign | ast.AugAssign) for statement in body)
 
 
