@@ -84,7 +84,11 @@ def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> 
 
 
 def _set_attribute(machine: Interpreter, owner: Instance, name: str, value: Value) -> None:
-    """Set an attribute of an object. If conditions hold that did not hold when it was created, the old value remains possible."""
+    """Set an attribute of an object.
+
+    If the present code runs under conditions that did not hold when the object was created, the old value remains an
+    alternative of the attribute.
+    """
     beyond = tuple([condition for condition in machine.conditions if condition not in owner.conditions])
     before = owner.attributes[name] if name in owner.attributes else owner.cls.find(name)
     if beyond and before is not None:
@@ -126,9 +130,9 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
 
 
 def _choices(machine: Interpreter, value: Value) -> Iterator[Value]:
-    """Yield each alternative of a value. While the caller uses an alternative, its conditions hold in the interpreter.
+    """Yield each alternative of a value, except alternatives whose conditions contradict the present conditions.
 
-    Alternatives that contradict the present conditions are omitted.
+    While the caller uses an alternative, the interpreter counts the conditions of the alternative as true.
     """
     for alternative in alternatives(value):
         if are_consistent((*machine.conditions, *alternative.conditions)):
@@ -228,7 +232,10 @@ def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
 
 
 def _delete_element(machine: Interpreter, owner: Value, key: Value) -> None:
-    """Remove the item ``key`` of a list or dictionary. If conditions hold, the item is marked as perhaps missing instead."""
+    """Remove the item ``key`` of a list or dictionary.
+
+    In code that runs only under conditions (a branch), the item is kept as perhaps missing instead.
+    """
     if isinstance(owner, dict):
         key = hashable(machine, key)
         known = UNKNOWN not in owner and key != UNKNOWN
@@ -258,4 +265,4 @@ STATEMENTS: dict[type[ast.stmt], Callable[[Interpreter, Any, Frame], None]] = {
     ast.Nonlocal: _nonlocal,
     ast.Delete: _delete,
 }
-"""The handlers of statements after which the next statement runs."""
+"""The function that interprets each kind of statement in this module, by the syntax tree class of the statement."""

@@ -1,8 +1,8 @@
 """Interpretation of branches and loops.
 
-If a condition is unknown, both sides are interpreted on the same objects, each under its condition. A name with
-different values afterwards has both as alternatives. If a side leaves its block, the rest of the block runs under the
-opposite condition.
+If the condition of an if statement is unknown, the interpreter runs both branches. A value that a branch adds exists only
+under the condition of the branch. A name with different values in the branches gets both values as alternatives. If a
+branch ends with ``return``, ``break`` or ``continue``, the rest of the block runs under the opposite condition.
 """
 
 from __future__ import annotations
@@ -35,36 +35,37 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 _MOST_CONDITIONS = 32
-"""The number of conditions that are distinguished after the statements of a block, for example after early returns.
+"""Maximum number of conditions that statements of a block, such as early returns, add for the rest of the block.
 
-From the next one on, the rest of the block runs under a single unknown condition in their place."""
+If there are more, the rest of the block runs under a single unknown condition in their place.
+"""
 _NAMES_A_STEP = 50
-"""The number of names that are copied and joined for one step of the budget."""
+"""The number of names that are copied and joined for one step of the budget, which limits the work of the interpreter."""
 _MOST_EXITS = 100
-"""The number of conditional exits after which an endless loop counts as left."""
+"""The number of conditional exits (``break``, ``return``) after which an endless loop counts as ended."""
 
 NEXT, CONTINUE, BREAK, LEAVE = range(4)
-"""The ways in which a statement ends: the next statement follows, or an iteration, loop or function is left."""
+"""How a statement ends: normally, or by leaving an iteration (``continue``), a loop (``break``) or a function (``return``)."""
 
 
 def forget_conditions(machine: Interpreter, depth: int) -> None:
-    """Replace the conditions beyond the first ``depth`` by an unknown condition if they are too many."""
+    """Replace the present conditions after the first ``depth`` ones by one unknown condition, if they are too many."""
     if len(machine.conditions) > depth + _MOST_CONDITIONS:
         machine.conditions = (*machine.conditions[:depth], machine.fresh(PERHAPS))
 
 
 class _Side(NamedTuple):
-    """One side of a branch, such as the body of an if statement, and the state after it was interpreted."""
+    """One branch of a statement, such as the body of an if statement, and the state of the interpreter at its end."""
 
     block: Sequence[ast.stmt]
     taken: LaunchCondition
-    """The condition of the side."""
+    """The condition under which the branch runs."""
     signal: int
     names: dict[str, Value]
     conditions: Conditions
-    """All conditions that hold at its end."""
+    """All conditions that hold at the end of the branch."""
     exits: list[Exit]
-    """The conditional exits within it."""
+    """The exits in the branch (such as ``return``) that are taken only under conditions."""
 
 
 def either(
@@ -77,10 +78,11 @@ def either(
     loop: bool = False,
     test: ast.expr | None = None,
 ) -> int:
-    """Interpret both sides of a branch, join their results, and return how the branch ends: NEXT, CONTINUE, BREAK or LEAVE.
+    """Interpret both branches of a statement whose condition is unknown. Return how it ends: NEXT, CONTINUE, BREAK or LEAVE.
 
-    ``body`` runs under ``condition``, ``other`` under its opposite. ``test`` is the tested expression. ``loop``
-    is True if ``body`` is the body of a loop that runs any number of times.
+    ``body`` runs under ``condition``, ``other`` under the opposite condition. A name with different values in the branches
+    gets both values as alternatives. ``test`` is the tested expression. ``loop`` is True if ``body`` is the body of a loop
+    that runs any number of times.
     """
     condition = machine.fresh(condition, test)
     before, start = machine.conditions, frame.names
@@ -120,7 +122,10 @@ def either(
 
 
 def _note_fallbacks(machine: Interpreter, condition: LaunchCondition, present: _Side, absent: _Side) -> None:
-    """Record the values of the names that have another value if the file of a tested condition does not exist."""
+    """Record the texts that the program uses in place of a missing file, if ``condition`` tests whether the file exists.
+
+    ``present`` is the branch for an existing file, ``absent`` the branch for a missing file.
+    """
     tested = machine.asked.get(condition.texts, ())
     if tested:
         for name, value in absent.names.items():
@@ -155,9 +160,9 @@ def _follow(
 
 
 def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
-    """Add ``names`` to the names of a frame. A name with different values gets both values as alternatives.
+    """Add ``names`` to the names of a function (``frame``). A name with different values gets both values as alternatives.
 
-    The values in ``names`` hold under ``conditions``, those of the frame under ``held``.
+    The values in ``names`` hold under ``conditions``, the values in the frame under ``held``.
     """
     for name, value in names.items():
         if name not in frame.names:
@@ -172,15 +177,15 @@ def _join_exit(machine: Interpreter, frame: Frame, way_out: Exit, around: Condit
 
 
 def _beyond(way_out: Exit, around: Iterable[LaunchCondition]) -> Conditions:
-    """Return the conditions of an exit that are not among the conditions ``around``."""
+    """Return the conditions of an exit, such as a ``return`` in a branch, without the conditions ``around``."""
     known = list(around)
     return tuple([condition for condition in way_out.conditions if condition not in known])
 
 
 def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[LaunchCondition]:
-    """Return the conditions under which none of ``exits`` is taken.
+    """Return the conditions under which the program takes none of ``exits`` (such as a ``return`` in a branch).
 
-    The first ``depth`` conditions of each exit hold in any case, and are not considered.
+    The first ``depth`` conditions of each exit are ignored, because they hold in any case.
     """
     bars: list[LaunchCondition] = []
     exits = list(exits)
@@ -194,8 +199,9 @@ def _bars(machine: Interpreter, exits: Iterable[Exit], depth: int) -> list[Launc
 def gives_up(body: Sequence[ast.stmt], *, everywhere: bool) -> bool:
     """Return whether a block of an if or try statement ends the launch file, so that the code after it is unconditional.
 
-    ``everywhere`` is True if no conditions hold around the statement. If it is False, ``raise Error("...")`` does not
-    count, because the message says what users of that branch have to install.
+    A block with ``raise`` or ``exit()`` as its last statement ends the launch file. ``everywhere`` is True if no conditions hold
+    around the statement. If ``everywhere`` is False, ``raise Error("...")`` does not count, because its message says what
+    the users of that branch have to install.
     """
     last = body[-1] if body else None
     return _stops(body) and (everywhere or not (isinstance(last, ast.Raise) and isinstance(last.exc, ast.Call)))
@@ -223,9 +229,9 @@ class _Loop:
         self._bars: list[LaunchCondition] = []
         """The conditions under which the loop continues after the iterations so far."""
         self.exits: list[Exit] = []
-        """The exits of the loop."""
+        """The exits of the loop so far: ``break`` and ``return``, with their conditions."""
         self.ended = False
-        """True if an exit is certainly taken."""
+        """True if the program certainly takes one of the exits."""
 
     def turn(self, body: Sequence[ast.stmt], guards: Conditions = ()) -> None:
         """Interpret the body for one iteration, which runs only under the conditions ``guards``."""
@@ -252,9 +258,9 @@ class _Loop:
         machine.conditions = (*self._before, *self._bars)
 
     def end(self, orelse: Sequence[ast.stmt]) -> int:
-        """Interpret the else block after the last iteration, join the names at all exits, and return how the loop ends.
+        """Interpret the else block of the loop, join the values of the names at all exits, and return how the loop ends.
 
-        The else block may end an outer loop, so the result is NEXT, CONTINUE, BREAK or LEAVE.
+        The result is NEXT, CONTINUE, BREAK or LEAVE, because the else block may contain ``break`` of an outer loop.
         """
         machine, frame = self._machine, self._frame
         breaks = [way_out for way_out in self.exits if way_out.signal == BREAK]

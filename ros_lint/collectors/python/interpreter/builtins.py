@@ -1,4 +1,4 @@
-"""Models of Python's builtin functions, and of functions of common libraries."""
+"""Models of Python's builtin functions and of functions of common libraries: each computes a result from symbolic arguments."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def _pair(index: int, value: Value) -> Value:
 
 
 def _keep(value: Value, function: Callable[[Value], Value]) -> Value:
-    """Return the result of a function for a value. If the value is guarded, the result is guarded by its conditions."""
+    """Return ``function(value)``. If ``value`` exists only under conditions (``Guarded``), so does the result."""
     if isinstance(value, Guarded):
         return Guarded(_keep(value.value, function), value.conditions)
     return function(value)
@@ -278,7 +278,7 @@ BUILTINS: Mapping[str, Value] = {
         )
     ),
 }  # fmt: skip
-"""The builtin names of Python."""
+"""The builtin names of Python. Only ``__file__`` has a value other than None."""
 
 FUNCTIONS: Mapping[str, Rule] = {
     **container_functions.FUNCTIONS,
@@ -310,4 +310,4 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.input": unknown_text,
     "builtins.type": unknown,
 }
-"""The models of functions, by their full names."""
+"""The models that compute the results of functions, by the full name of the function such as ``builtins.len``."""

@@ -1,4 +1,4 @@
-"""The call of a library function, as it is passed to the model of the function."""
+"""A call of a library function, as it is passed to the model that computes the symbolic result of the function."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ class LibraryCall:
         return self.arguments[position] if position < len(self.arguments) else None
 
     def texts(self, position: int, *names: str) -> tuple[str, ...]:
-        """Return the possible texts of the argument at ``position`` or with a keyword in ``names``, else (UNKNOWN,).
+        """Return the possible texts of the argument at ``position`` or with a keyword in ``names``, (UNKNOWN,) if it is missing.
 
-        Alternatives that are None are omitted, because Python would fail there.
+        If the argument may be a text or None, None is ignored, because Python would fail with it.
         """
         value = self.get(position, *names)
         if isinstance(value, Union):
@@ -66,13 +66,13 @@ Rule = Callable[[LibraryCall], Value]
 
 
 def unknown(call: LibraryCall) -> Value:
-    """Model of a function whose effects are unknown: return an unknown value, and mark the arguments as escaped."""
+    """Model of a function whose effects are unknown: return Unknown, and record that unknown code gets the arguments."""
     call.machine.escape([call.arguments, call.keywords])
     return Unknown(f"{call.name.rpartition('.')[2]}()")
 
 
 def unknown_text(call: LibraryCall) -> Value:
-    """Model of a function whose text is known only when the program runs: return an unknown text."""
+    """Model of a function that returns a text: return a text that is unknown until the program runs."""
     return written(UNKNOWN, call.node, call.frame.source)
 
 

@@ -1,4 +1,4 @@
-"""Opposites of conditions."""
+"""Opposites of the conditions under which the code of a program runs."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 def opposite_of(condition: LaunchCondition) -> LaunchCondition:
-    """Return the opposite of a condition."""
+    """Return the condition that holds if and only if ``condition`` does not hold."""
     return condition._replace(wanted=not condition.wanted)
 
 
 def complement(conditions: Iterable[LaunchCondition], fresh: Callable[[LaunchCondition], LaunchCondition]) -> LaunchCondition:
     """Return the condition that holds if and only if at least one of ``conditions`` does not hold.
 
-    If it cannot be expressed, the result is what ``fresh`` returns for an unknown condition.
+    If it cannot be written as a Python expression, return ``fresh(PERHAPS)``, that is, a new unknown condition.
     """
     conditions = tuple(conditions)
     if len(conditions) == 1:

@@ -1,4 +1,4 @@
-"""Models of Python's functions on collections, whose elements may exist only under conditions."""
+"""Models of Python's functions on collections, such as ``sorted`` and ``zip``, for elements that exist only under conditions."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def _under(conditions: Conditions, value: Value) -> Value:
 
 
 def _extreme(function: Callable[..., int]) -> Rule:
-    """Return the model of the function ``min`` or ``max``."""
+    """Return the model that computes the symbolic result of ``min`` or ``max``."""
 
     def rule(call: LibraryCall) -> Value:
         values = call.items(0) if len(call.arguments) == 1 else call.arguments
@@ -191,4 +191,4 @@ FUNCTIONS: Mapping[str, Rule] = {
     "builtins.max": _extreme(max),
     "builtins.sum": _sum,
 }
-"""The models of functions, by their full names."""
+"""The models that compute the results of functions, by the full name of the function such as ``builtins.zip``."""

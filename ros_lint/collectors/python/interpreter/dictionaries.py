@@ -1,7 +1,7 @@
 """Items of dictionaries that exist only under conditions.
 
-An item that a branch adds has a guarded value: it exists only if the conditions of its value hold. An item that a branch
-replaces exists in any case, and its value has alternatives.
+If a branch adds an item, the item exists only under the conditions of the branch, which are stored with its value
+(``Guarded``). If a branch replaces an item, the item exists in any case, and has the old and the new value as alternatives.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def store(machine: Interpreter, owner: dict[Any, Value], key: Any, value: Value) -> None:
-    """Set an item of a dictionary as ``owner[key] = value`` does under the present conditions."""
+    """Set an item of a dictionary as ``owner[key] = value`` does in code that runs only under the present conditions."""
     now = machine.conditions
     if not now or (key not in owner and not isinstance(value, Guarded)):
         owner[key] = machine.guard(value)
@@ -43,7 +43,7 @@ def store(machine: Interpreter, owner: dict[Any, Value], key: Any, value: Value)
 
 
 def value_or_default(machine: Interpreter, owner: Mapping[Any, Value], key: Any, default: Value) -> Value:
-    """Return the value of the item ``key`` if it exists, else ``default``; both as alternatives if it may exist."""
+    """Return the value of the item ``key`` if the item exists, else ``default``; both as alternatives if it may exist."""
     if key not in owner or not machine.is_here(owner[key]):
         return default
     value = machine.possible(owner[key])
@@ -56,14 +56,14 @@ def value_or_default(machine: Interpreter, owner: Mapping[Any, Value], key: Any,
 
 
 def entries(machine: Interpreter, owner: Mapping[Any, Value]) -> Iterator[tuple[Any, Value, Conditions]]:
-    """Yield key, value and conditions of each item that may exist under the present conditions."""
+    """Yield key, value and conditions of each item of a dictionary that may exist under the interpreter's present conditions."""
     for key, value in owner.items():
         if machine.is_here(value):
             yield key, machine.possible(plain(value)), around(value)
 
 
 def guarded(value: Value, conditions: Conditions) -> Value:
-    """Return a value that exists only under conditions, the value itself if there are none."""
+    """Return ``value`` as a value that exists only under ``conditions``, unchanged if ``conditions`` is empty."""
     return Guarded(value, conditions) if conditions else value
 
 

@@ -1,4 +1,4 @@
-"""Evaluation of Python expressions."""
+"""Evaluation of Python expressions, whose operands may be unknown or have alternatives."""
 
 from __future__ import annotations
 
@@ -185,9 +185,10 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
 
 
 def _together(values: list[Value], word: str) -> Value:
-    """Return an unknown value whose condition combines the comparisons ``values`` with ``word``: "and" or "or".
+    """Return the unknown truth value of comparisons that are combined by ``word``: "and" or "or".
 
-    The result is None if a value is not the result of comparing a text that is known at launch with a known text.
+    ``values`` are the results of the comparisons. The function returns None if a value is not the result of comparing a text
+    that is known only at launch with a known text.
     """
     parts: list[str] = []
     for value in values:

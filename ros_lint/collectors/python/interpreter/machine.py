@@ -1,10 +1,10 @@
-"""The interpreter of modules and calls: it evaluates programs symbolically and runs nothing.
+"""The interpreter of Python modules and calls: it evaluates programs symbolically and runs nothing.
 
-It interprets launch files; a subclass with another policy on unknown values interprets setup.py.
+It interprets launch files. A subclass interprets setup.py and treats unknown values differently.
 
-If a condition is unknown, both sides of a branch are interpreted on the same objects, each under its condition. A
-name with different values afterwards has both as alternatives. Steps, depth and sizes are limited; values beyond the
-limits are unknown.
+If a condition is unknown, both branches are interpreted, each under its condition. A name with different values in the
+branches gets both values as alternatives. The number of steps, the depth of calls and the size of values are limited;
+values beyond the limits are unknown.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ from ros_lint.facts.launch import LaunchCondition
 STEPS = 150_000
 _STEPS_A_CALL = 60_000
 _STEPS_AFTER_A_CALL = 1_000
-"""The number of steps that are left to the caller if the steps of a call do not suffice."""
+"""The number of steps that remain for the caller of a function if the function takes too many steps."""
 _DEEPEST_CALL = 40
 
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
@@ -85,7 +85,7 @@ class Machine(Interpreter):
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Return a context manager that adds ``conditions`` to the present conditions while its ``with`` block runs."""
+        """Return a context manager that adds ``conditions`` to the conditions of the interpreted code in its ``with`` block."""
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:
@@ -96,7 +96,7 @@ class Machine(Interpreter):
     # --- modules --------------------------------------------------------------------------------------------------
 
     def run(self, tree: ast.Module, source: Source) -> Frame:
-        """Interpret the statements of a module, and return its frame with the names that they bind."""
+        """Interpret the statements of a module, and return its frame: the names that the statements bind, with their values."""
         frame = Frame(source, None, source.names)
         source.names.setdefault("__name__", "launch_file")
         with suppress(ProgramRaised):
@@ -107,7 +107,8 @@ class Machine(Interpreter):
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
         """Return the interpreted module that the import statement ``at`` names, None if the module cannot be interpreted.
 
-        Each module is interpreted once. For a released module, this is the model in the library, if there is one.
+        Each module is interpreted once. A module of a released package is represented by a short program of the library, if the
+        library has one for that module.
         """
         top = name.partition(".")[0]
         known = top in STANDARD_LIBRARY or self.library.describes(top)
@@ -130,9 +131,9 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return a copy of a function in the model of a released module, with all nodes at ``call``, and the module of the copy.
+        """Return a copy of a function in the model of a released module, and the module of the copy.
 
-        So findings about the function are reported at the call.
+        All syntax nodes of the copy have the position of ``call``, so that findings about the function are reported at the call.
         """
         key = id(function.node), id(call)
         if key not in self._placed:
@@ -219,7 +220,7 @@ class Machine(Interpreter):
     def _initialize(
         self, instance: Instance, base: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
     ) -> None:
-        """Create the library object that an object of the program represents: ``base`` is the class that a library defines."""
+        """Create the library object for ``instance``, whose class the program derives from the library class ``base``."""
         result = self.library.call(self, base, arguments, keywords, node, frame)
         instance.made = result if isinstance(result, LaunchObject) else None
 
@@ -295,7 +296,7 @@ class Machine(Interpreter):
         return self.joined([Guarded(returned.value, returned.conditions[count:]) for returned in frame.returned])
 
     def _cut_off(self, what: str, arguments: list[Value], keywords: dict[str, Value], call: ast.Call, caller: Frame) -> Unknown:
-        """Record that a call is not interpreted to its end, and where. Return its result, which is unknown."""
+        """Record a call that is not interpreted to its end, and the statement where its interpretation ends. Return Unknown."""
         node, source = self.stopped_at or (call, caller.source)
         self.cut_off.append((what, node, source))
         self.stopped_at = None
@@ -318,7 +319,7 @@ class Machine(Interpreter):
         return union(guarded_text(text, FilePath(text)) for text in texts)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Record that the program opens a file, and return its content, Unknown if it is not a file of the workspace."""
+        """Record that the program opens a file, and return its content, Unknown if the file is not in the workspace."""
         if not self.guarded and not path.isascii():
             self.opened.append((path, at, source, self.conditions))
         unknown = Unknown(f"the content of {path.rpartition('/')[2] or 'a file'}")
@@ -348,7 +349,7 @@ class Machine(Interpreter):
 
 
 def _super(arguments: list[Value], frame: Frame) -> Super | None:
-    """Return the value of ``super()`` or ``super(cls, instance)``, None if class or object is unknown."""
+    """Return the value of ``super()`` or ``super(cls, instance)``, None if its class or its object is unknown."""
     cls = plain(arguments[0]) if len(arguments) == 2 else frame.names.get("__class__")
     if not isinstance(cls, Class):
         return None

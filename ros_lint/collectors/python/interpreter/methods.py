@@ -1,4 +1,4 @@
-"""Models of the attributes and methods of values."""
+"""Models of the attributes and methods of the values in a program, such as ``text.split()`` and ``path.parent``."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ if TYPE_CHECKING:
 def items(machine: Interpreter, value: Value) -> list[Value] | None:
     """Return the elements of a value in a new list, None if they are unknown.
 
-    An element that exists only under conditions is guarded by them.
+    An element that exists only under conditions is a Guarded value, which has these conditions.
     """
     value = plain(value)
     if isinstance(value, Union):
@@ -96,12 +96,12 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
 
 
 def more(value: Value, reason: str = "elements that are not known") -> Value:
-    """Return the guarded unknown element that stands for all unknown elements of a value."""
+    """Return a perhaps missing unknown element, which represents any number of unknown elements of a collection."""
     return Guarded(cause(value, reason), (PERHAPS,))
 
 
 def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Frame) -> Value:
-    """Return the value of the attribute ``node.attr`` of ``owner``. It is a Method for methods of texts and collections."""
+    """Return the value of the attribute ``node.attr`` of ``owner``. For methods of texts and collections, it is a Method."""
     name = node.attr
     if isinstance(owner, LibraryName):
         return machine.library.member(f"{owner.name}.{name}", node, frame.source)
@@ -148,14 +148,14 @@ def of_instance(owner: Instance, name: str) -> Value:
 
 
 _OF_MARKED = STRIPS | SPLITS | {"replace"}
-"""Methods that can be applied to texts with marks for values that are known only at launch."""
+"""Methods that can be applied to symbolic texts, in which special characters represent parts that are known only at launch."""
 _OF_PLAIN = TEXT_METHODS | {"zfill", "encode"}
 
 
 def call_method(
     machine: Interpreter, method: Method, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
 ) -> Value:
-    """Return the result of calling a method of a text, a collection or a path. Methods of collections change their owner."""
+    """Return the result of calling a method of a text, collection or path. Methods such as ``append`` change the collection."""
     owner, name = method.owner, method.name
     if isinstance(owner, (list, dict)):
         machine.budget.step(1 + len(owner) // 8)
@@ -347,8 +347,8 @@ def _popped(machine: Interpreter, owner: list[Value], position: Value) -> Value:
 def replace(machine: Interpreter, owner: list[Value], key: int | slice, values: list[Value]) -> None:
     """Replace the elements of a list at an index or slice by ``values``. Raises IndexError and ValueError.
 
-    If conditions hold, the new elements exist only under them, and the old elements only if they do not hold. If an element may
-    be missing, the positions are unknown, so any element may be the replaced element.
+    In code that runs only under conditions, the new elements exist only under these conditions, and the old elements only if
+    these conditions do not hold. If an element may be missing, positions are unknown, so any element may be the replaced one.
     """
     present = machine.present(owner)
     if isinstance(key, int):

@@ -1,4 +1,4 @@
-"""Operators, comparisons and truth of values, where a truth may be unknown."""
+"""Operators, comparisons and truth of values, for operands that may be unknown or have alternatives."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter
 
 TOO_LARGE = "is too large"
-"""The reason of an unknown value that would exceed a limit."""
+"""The reason for an unknown value: its computation would exceed a limit."""
 INSTALLED = "installed packages"
 """The name of the object that represents the list of installed packages of the ament index."""
 
@@ -58,7 +58,7 @@ _MOST_ITEMS = 5_000
 
 
 def each(value: Value, function: Callable[[Value], Value]) -> Value:
-    """Return the union of the results of a function for every alternative of a value.
+    """Apply a function to each alternative of a value, and return a value with the results as alternatives.
 
     Alternatives for which the function raises ProgramRaised are omitted. If none is left, ProgramRaised is raised.
     """
@@ -102,7 +102,7 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 
 
 def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
-    """Return the truth of a list with guarded elements, and a meaningless condition.
+    """Return the truth of a list whose elements exist only under conditions, and a meaningless condition.
 
     The truth is False if all elements are missing, True if no element may be missing, else None.
     """
@@ -163,7 +163,7 @@ def _shown(value: Any) -> str:
 def hashable(machine: Interpreter, key: Value) -> Any:
     """Return the key under which the interpreter stores an item of a dictionary: texts, numbers and None are unchanged.
 
-    The key is the symbolic text of a collection or launch object, and UNKNOWN for any other value.
+    A collection or launch object is replaced by its text with marks for unknown parts, any other value by UNKNOWN.
     """
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
@@ -191,7 +191,7 @@ def with_format(value: Value, text: str, spec: Value, conversion: int) -> str:
 
 
 def texts_made(found: tuple[str, ...], node: ast.expr, frame: Frame) -> Value:
-    """Return the possible texts ``found`` of an expression as one value, which records ``node`` as their expression."""
+    """Return the possible texts ``found`` of the expression ``node`` as one value, which stores ``node`` as its origin."""
     if len(found) == 1:
         return written(found[0], node, frame.source)
     return union(guarded_text(text, written(text, node, frame.source)) for text in found)
@@ -279,7 +279,10 @@ _KNOWN = (str, *_NUMBERS, list, tuple, dict, type(None))
 
 
 def of_sets(op: ast.operator, left: Sequence[Value], right: Sequence[Value]) -> Value:
-    """Return the result of ``|``, ``-``, ``&`` or ``^`` for two sets, Unknown if an element that matters is unknown."""
+    """Return the result of ``|``, ``-``, ``&`` or ``^`` for two sets.
+
+    If any element is unknown, the result of ``-``, ``&`` and ``^`` is Unknown.
+    """
     if isinstance(op, ast.BitOr):
         return SetOf(unique([*left, *right]))
     if not all(map(is_known, (*left, *right))):
@@ -398,7 +401,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def _asked(question: str) -> Unknown:
-    """Return an unknown truth whose condition is ``question``, a Python expression that launch can evaluate."""
+    """Return an unknown truth value that is true if ``question`` is true, a Python expression that launch can evaluate."""
     if UNKNOWN in question:
         return Unknown("comparison with an unknown value")
     return Unknown("a truth", LaunchCondition((expression(question),), None))
@@ -432,7 +435,8 @@ def waits(text: str) -> bool:
 def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
     """Return the values of a dictionary for a key that is known only at launch.
 
-    Each value is guarded by the condition that the key of its item equals ``key``, if all keys are known texts.
+    Each value has the condition that the key of its item equals ``key``. If a key of the dictionary is not a known text, the
+    values have no conditions.
     """
     if not _is_choice(owner, key):
         return list(owner.values())
@@ -440,7 +444,7 @@ def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
 
 
 def without(owner: dict[Any, Value], key: str) -> Conditions:
-    """Return the conditions under which a dictionary has no item ``key``, which is known only at launch."""
+    """Return the conditions under which a dictionary has no item ``key``, which is known only at launch, () if unknown."""
     if not _is_choice(owner, key):
         return ()
     return tuple([LaunchCondition((str(key),), str(name), wanted=False) for name in owner])
@@ -453,7 +457,7 @@ def _is_choice(owner: dict[Any, Value], key: str) -> bool:
 def may_have_more(values: Sequence[Value]) -> bool:
     """Return whether the number of elements of a collection is unknown.
 
-    It is unknown if an element is guarded or unknown, because such an element represents any number of elements.
+    It is unknown if an element is unknown or may be missing, because such an element represents any number of elements.
     """
     return any(isinstance(value, (Guarded, Unknown)) for value in values)
 

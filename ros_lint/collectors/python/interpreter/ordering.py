@@ -50,7 +50,7 @@ def is_known(value: Value) -> bool:
 
 
 def is_small(value: Any) -> bool:
-    """Return whether a value has few elements; the elements of nested collections are counted, too."""
+    """Return whether a value has at most MOST_COMPARED elements, including the elements of nested collections."""
     stack, count = [value], 0
     while stack:
         item = stack.pop()
@@ -73,7 +73,7 @@ def positions(keys: list[Any], *, reverse: bool = False) -> list[int]:
 
 
 def unique(values: Iterable[Value]) -> list[Value]:
-    """Return the elements of a set of ``values``: without values that certainly equal an earlier value."""
+    """Return the elements of the set of ``values``: all values except those that certainly equal an earlier value."""
     elements: list[Value] = []
     seen: set[Any] = set()
     for value in values:

@@ -1,4 +1,4 @@
-"""Models of the functions of os.path and the classes of pathlib that do not look at files."""
+"""Models of functions of os.path and classes of pathlib whose results depend only on the path, not on the files that exist."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def _join(call: LibraryCall) -> Value:
 
 
 def on_path(function: Callable[[str], str]) -> Rule:
-    """Return the model of a function that takes a path and returns a text, such as ``os.path.dirname``."""
+    """Return the model that computes the symbolic result of a function from a path to a text, such as ``os.path.dirname``."""
     return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
 
 
@@ -44,4 +44,4 @@ PATH_FUNCTIONS: Mapping[str, Rule] = {
     "os.fspath": on_path(str),
     **dict.fromkeys(("pathlib.Path", "pathlib.PurePath", "pathlib.PosixPath", "pathlib.PurePosixPath"), new_path),
 }
-"""The models of functions, by their full names."""
+"""The models that compute the results of functions, by the full name of the function such as ``os.path.join``."""

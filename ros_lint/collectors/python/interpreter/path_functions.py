@@ -1,4 +1,4 @@
-"""Models of the functions of os.path and the attributes of pathlib paths, for symbolic texts."""
+"""Functions of os.path and attributes of pathlib paths, for symbolic texts: paths with parts that are known only at launch."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def split(path: str) -> tuple[str, str]:
 
 
 def split_suffix(path: str) -> tuple[str, str]:
-    """Return a path without its suffix, and the suffix, as os.path.splitext does."""
+    """Return a path without its suffix, and the suffix, as os.path.splitext does. Both are UNKNOWN if known only at launch."""
     if is_plain(path):
         return posixpath.splitext(path)
     dot = _last_outside(path, ".")
@@ -63,7 +63,7 @@ def _last_outside(path: str, character: str) -> int:
 
 
 def of_path(owner: FilePath, name: str) -> Value:
-    """Return the attribute ``name`` of a path of pathlib: ``parent``, ``name``, ``stem`` and so on, else a Method."""
+    """Return the attribute ``name`` of a path of pathlib, such as ``parent`` or ``stem``. For a method, return a Method."""
     folder, last = split(owner.text)
     match name:
         case "parent":

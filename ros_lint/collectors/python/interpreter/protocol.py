@@ -29,11 +29,11 @@ class Library(Protocol):
         ...
 
     def member(self, name: str, node: ast.AST, source: Source) -> Value:
-        """Return the value of a dotted name such as ``os.path.join``; ``node`` is the expression or import with that name."""
+        """Return the value of a dotted name such as ``os.path.join``. ``node`` is the expression or the import with that name."""
         ...
 
     def is_substitution(self, name: str) -> bool:
-        """Return whether ``name`` is the name of a substitution class of launch, from whatever module it is imported."""
+        """Return whether ``name`` is the name of a substitution class of launch, which may be imported from any module."""
         ...
 
     def call(
@@ -60,15 +60,15 @@ class Library(Protocol):
         ...
 
     def texts(self, value: Value, budget: Budget) -> tuple[str, ...]:
-        """Return every symbolic text that a value can become at launch. The steps are taken from ``budget``."""
+        """Return every text that a value can become at launch, with marks for unknown parts. Steps are taken from ``budget``."""
         ...
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
-        """Return the possible values of a symbolic text if every launch argument declared so far has its default."""
+        """Return the possible values of a symbolic text if each launch argument that is declared so far has its default value."""
         ...
 
     def misuse(self, made: LaunchObject, how: How) -> How | None:
-        """Return how an operation misuses an object of the library, None if the operation is correct for the object."""
+        """Return the kind of misuse if the operation ``how`` misuses an object of the library, None if it is correct."""
         ...
 
 
@@ -76,9 +76,9 @@ class Interpreter(Recorder, ABC):
     """The operations of the interpreter that the handlers of statements, expressions and calls need."""
 
     most_items = 5_000
-    """The maximum number of elements that are gone through."""
+    """The maximum number of elements of a collection that are iterated over."""
     most_turns = 2_000
-    """The maximum number of turns of a loop."""
+    """The maximum number of iterations of a loop."""
 
     def __init__(self, library: Library, budget: Budget) -> None:
         super().__init__(budget)
@@ -86,7 +86,7 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:
-        """Return a context manager that adds ``conditions`` to the present conditions while its ``with`` block runs."""
+        """Return a context manager that adds ``conditions`` to the conditions of the interpreted code in its ``with`` block."""
 
     @abstractmethod
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
@@ -117,9 +117,9 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
-        """Return the value of an operation on ``operands``.
+        """Return ``value``, the result of an operation on ``operands``.
 
-        If the value is unknown and the interpreter records origins, the result is the unknown operand that is the cause.
+        If ``value`` is unknown and the interpreter records the origins of unknown values, return the unknown operand instead.
         """
 
     @abstractmethod
@@ -131,19 +131,19 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:
-        """Record that the program opens a file, and return its content, Unknown if it is not a file of the workspace."""
+        """Record that the program opens a file, and return its content, Unknown if the file is not in the workspace."""
 
     @abstractmethod
     def texts(self, value: Value) -> tuple[str, ...]:
-        """Return every symbolic text that a value can become at launch. Raises BudgetExceeded."""
+        """Return every text that a value can become at launch, with marks for unknown parts. Raises BudgetExceeded."""
 
     @abstractmethod
     def record_division(self, node: ast.expr, frame: Frame) -> None:
-        """Record that ``node`` divides a text by a text, if the operation certainly runs."""
+        """Record that the expression ``node`` divides a text by a text, which raises TypeError, if it certainly runs."""
 
     @abstractmethod
     def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
-        """Record that an operation misuses ``value``, if it is an object of the library and the operation certainly runs.
+        """Record that the operation ``how``, if it certainly runs, misuses ``value``, an object of the library.
 
-        Correct operations are not recorded.
+        An operation that is correct for the object is not recorded.
         """

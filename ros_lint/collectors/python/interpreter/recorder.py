@@ -27,13 +27,13 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
 from ros_lint.facts.launch import LaunchCondition
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
-"""The operation that uses a substitution or condition as a text or truth value."""
+"""The operation by which a program wrongly uses a launch substitution or condition as a text or truth value."""
 
 
 _MOST_ESCAPING = 1_000
-"""The maximum number of values that are marked as escaped at a time."""
+"""The maximum number of values that one call of Recorder.escape() marks as passed to code that is not interpreted."""
 _VALUES_A_STEP = 10
-"""The number of values that are marked for one step of the budget."""
+"""The number of values that Recorder.escape() marks for one step of the budget."""
 
 
 class Misused(NamedTuple):
@@ -46,7 +46,7 @@ class Misused(NamedTuple):
 
 
 def are_unknown(conditions: Conditions) -> bool:
-    """Return whether any of some conditions depends on an unknown value."""
+    """Return whether any of ``conditions`` depends on an unknown value."""
     return any(UNKNOWN in text for condition in conditions for text in condition.texts)
 
 
@@ -58,58 +58,58 @@ class Recorder:
         self._branches = 0
         self._variables: dict[str, Value] = {}
         self._removed: dict[tuple[str, ...], frozenset[LaunchCondition]] = {}
-        """The conditions under which elements were removed, by the texts of the conditions under which they remain."""
+        """The conditions under which an element was removed, by the texts of the condition under which the element remains."""
         self.conditions: Conditions = ()
         self.cut_off: list[tuple[str, ast.expr | ast.stmt, Source]] = []
-        """Calls that are not interpreted to their end: what they are, and where their interpretation ends."""
+        """Calls that are not interpreted to their end: why, and the statement or expression where their interpretation ends."""
         self.stopped_at: tuple[ast.stmt, Source] | None = None
-        """The innermost statement of the outermost module at which the budget was exceeded."""
+        """The statement at which the budget was exceeded: of nested statements, the innermost one in the outermost module."""
         self.tests: dict[tuple[str, ...], ast.expr] = {}
-        """The expressions that are tested, by the texts of their conditions."""
+        """The expressions that the program tests, by the texts of the conditions under which they are true."""
         self.made: list[LaunchObject] = []
         """All objects of the classes of the launch libraries, in order of creation."""
         self.looked_up: list[tuple[str, ast.expr, Source, Conditions]] = []
-        """Packages that are looked up immediately, with the places and conditions."""
+        """Packages that the program itself looks up, not launch, with expression, module and conditions of the look-up."""
         self.unbound: list[tuple[ast.Name, Source]] = []
         """Names that were not bound when they were evaluated."""
         self.misused: list[Misused] = []
-        """Substitutions that were used as texts."""
+        """Operations that use a launch substitution or condition as a text or truth value."""
         self.divided: list[tuple[ast.expr, Source]] = []
         """Operations ``text / text``, which raise TypeError."""
         self.wanted: set[str] = set()
-        """Unavailable modules and files that the program reads."""
+        """Modules and files that the program reads, but that are unavailable to the interpreter."""
         self.opened: list[tuple[str, ast.expr, Source, Conditions]] = []
-        """Paths of files that are opened for reading immediately, with places and conditions.
+        """Paths of the files that the program has to read, with expression and conditions of each read.
 
-        Reads whose error is caught are omitted, so that these files are required.
+        Reads in a try statement that catches the error of a missing file are omitted.
         """
         self.asked: dict[tuple[str, ...], tuple[str, ...]] = {}
-        """Paths of files whose existence is tested, by the texts of the condition.
+        """Possible paths of a file whose existence the program tests, by the texts of the condition that represents the test.
 
-        The program handles the case that they are missing.
+        The program handles the case that such a file is missing.
         """
         self.fallbacks: list[tuple[str, tuple[str, ...]]] = []
         """Texts that a program uses in place of the path of a file that does not exist, with the possible paths of that file."""
         self.borrows = False
-        """True if it calls models of released helpers, which are incomplete."""
+        """True if the program imports a module of a released package that is represented by a model, which is incomplete."""
         self.caught = 0
-        """The number of surrounding try statements with handlers."""
+        """The number of try statements with handlers around the interpreted statement."""
         self.guarded = 0
-        """The number of surrounding try statements that catch the error of a missing file."""
+        """The number of try statements around the interpreted statement that catch the error of a missing file."""
         self.lazily: set[str] = set()
-        """Packages that are looked up at launch only."""
+        """Packages that launch looks up while it runs the launch description, for example for ``FindPackageShare``."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
-        """The first place of each looked-up package, a literal if possible, by its name or symbolic text."""
+        """The first expression that names each looked-up package, a literal if possible, by the name or symbolic text."""
         self.variables: list[LaunchObject] = []
         """Actions that set environment variables of the launch process or launch configurations, in order."""
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
     def fresh(self, condition: LaunchCondition, test: ast.expr | None = None) -> LaunchCondition:
-        """Return ``condition``, or a new unknown condition in place of PERHAPS.
+        """Return ``condition``, or a new unknown condition if ``condition`` is PERHAPS, which represents any unknown condition.
 
-        A new condition differs from all others, so that it can be distinguished from its opposite. ``test`` is the expression
-        that is true under the condition.
+        A new condition differs from all earlier conditions, so that it can be distinguished from its opposite. ``test`` is the
+        expression that is true under the condition.
         """
         if condition is PERHAPS:
             condition = LaunchCondition((self.another(),), None)
@@ -123,7 +123,7 @@ class Recorder:
         return f"{UNKNOWN}{self._branches}"
 
     def guard(self, value: Value) -> Value:
-        """Return a value that exists only under the present conditions, as an element for a collection.
+        """Return an element for a collection that exists only under the present conditions.
 
         If no conditions hold, the value is returned unchanged.
         """
@@ -155,16 +155,13 @@ class Recorder:
         return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
 
     def is_at(self, values: Sequence[Value], key: int | slice) -> bool:
-        """Return whether it is certain which elements of a list are at an index or slice, although elements may be missing."""
+        """Return whether the elements at an index or slice of a list are certain, although some elements may be missing."""
         if isinstance(key, slice):
             return not self.any_perhaps(values)
         return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
 
     def removed(self, value: Value) -> Value:
-        """Return an element as it is after its removal under the current conditions.
-
-        The element still exists if one of the conditions does not hold.
-        """
+        """Return an element that is removed under the present conditions, as a value that exists if one of them does not hold."""
         first, *others = self.conditions
         remains = first._replace(wanted=not first.wanted)
         if others:
@@ -173,12 +170,15 @@ class Recorder:
         return Guarded(value, (remains,))
 
     def stop_at(self, statement: ast.stmt, source: Source) -> None:
-        """Record a statement at which the budget was exceeded. The outer statements are recorded after the inner ones."""
+        """Record a statement at which the budget was exceeded. It must be called for inner statements before outer statements."""
         if self.stopped_at is None or self.stopped_at[1] is not source:
             self.stopped_at = statement, source
 
     def joined(self, values: Sequence[Guarded]) -> Value:
-        """Return the union of values. If there are too many, the result is Unknown and the values escape."""
+        """Return one value with ``values`` as alternatives.
+
+        If there are too many, return Unknown, and record that code that is not interpreted gets the values.
+        """
         joined_value = union(values)
         if isinstance(joined_value, Unknown):
             self.escape(values)
@@ -210,15 +210,15 @@ class Recorder:
     # --- what is asked for, and set -------------------------------------------------------------------------------
 
     def ask(self, paths: tuple[str, ...]) -> Value:
-        """Return the unknown truth whether a file exists, and record its possible paths as tested."""
+        """Return the unknown result of a test whether a file exists, and record the possible ``paths`` of the file as tested."""
         answer = LaunchCondition((self.another(),), None)
         self.asked[answer.texts] = paths
         return Unknown("whether a file is there", answer)
 
     def look_up(self, package: str, at: ast.expr, source: Source, eager: bool, conditions: Conditions) -> None:
-        """Record that the program looks up a package.
+        """Record that the expression ``at`` looks up a package by the name ``package``, if ``conditions`` hold.
 
-        ``eager`` is True if the program, not launch, looks it up. The name is ``package`` under ``conditions``.
+        ``eager`` is True if the program itself looks up the package, False if launch looks it up later.
         """
         if UNKNOWN not in package and not source.lent:
             known = self.named.get(package)
@@ -237,7 +237,7 @@ class Recorder:
         self._variables[name] = union([self.variable(name), self.guard(value)]) if self.conditions else value
 
     def set_configuration(self, name: str, value: Value, at: ast.Call, source: Source) -> None:
-        """Record that a function, which launch calls with the context, sets a launch configuration by the assignment ``at``."""
+        """Record that the assignment ``at``, in a function to which launch passes its context, sets a launch configuration."""
         made = LaunchObject("SetLaunchConfiguration", [name, value], {}, at, source)
         made.conditions = self.conditions
         self.variables.append(made)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.recorder import Recorder
 
 _MOST_VALUES = 500
-"""The maximum number of values to compare. A call that reads more never counts as a repetition."""
+"""The maximum number of values to compare. A call that reads more values never counts as a repetition."""
 
 _DEEPEST = 12
 """The maximum nesting depth of collections and objects in a value to compare."""
@@ -44,18 +44,18 @@ class UnderWay(NamedTuple):
     conditions: int
     """The number of conditions under which the call happens."""
     outline: Any = None
-    """The outline of the values that the call reads; None if too large, or for the outermost call."""
+    """The outline (a hashable summary) of the values that the call reads. None for an outermost call, and if it is too large."""
 
 
 def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value], recorder: Recorder) -> bool:
     """Append a call to ``under_way`` and return True, or return False if the call repeats a call in ``under_way``.
 
-    A repeating call must not be interpreted. A call repeats an outer call of the same function if both read the same
-    values, and if the inner call is under more conditions. If it is under no further condition, all tests before it had
-    known results, so these results end the recursion.
+    A repeating call must not be interpreted. A call repeats an outer call of the same function if it reads the same values and
+    runs under more conditions. If it runs under no further condition, all tests before it had known results, so these
+    results end the recursion.
 
-    ``names`` are the values of the parameters, ``recorder`` has the conditions that hold. Most functions are not
-    recursive, so values are compared from the second nested call on.
+    ``names`` are the values of the parameters, by name. ``recorder`` has the conditions under which the call runs. Values
+    are compared from the second nested call on, because most functions are not recursive.
     """
     outline, conditions = None, len(recorder.conditions)
     outer = [call for call in under_way if call.node is function.node and call.conditions < conditions]
@@ -87,7 +87,7 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
 
 
 def _outline(names: dict[Any, Value], recorder: Recorder) -> Any:
-    """Return the outline of names with their values, see :class:`_Outliner`, None if there are too many values."""
+    """Return the outline (a hashable summary, see :class:`_Outliner`) of names and values, None if there are too many values."""
     outliner = _Outliner(recorder)
     made = outliner.of(names)
     return None if outliner.too_much else made
@@ -143,9 +143,10 @@ class _Outliner:
         return start, rest.rpartition(UNKNOWN)[2]
 
     def _elements(self, values: Iterable[Value], depth: int) -> Any:
-        """Return the outlines of the elements of a list. Equal unknown or guarded elements have one outline.
+        """Return the outlines (hashable summaries) of the elements of a list.
 
-        An unknown or guarded element represents any number of elements.
+        Unknown or perhaps missing elements with equal outlines have one outline in the result, because each of these elements
+        represents any number of elements.
         """
         outlines: dict[Any, None] = {}
         for value in filter(self._recorder.is_here, values):

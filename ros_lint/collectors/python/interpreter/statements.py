@@ -1,4 +1,4 @@
-"""Interpretation of Python statements."""
+"""Interpretation of Python statements except assignments, imports and loops."""
 
 from __future__ import annotations
 
@@ -153,12 +153,12 @@ _OPENERS = frozenset({"open", "read_bytes", "read_text"})
 
 
 def _opens(body: Sequence[ast.stmt]) -> bool:
-    """Return whether a block opens a file."""
+    """Return whether a block contains a call that opens a file."""
     return any(isinstance(node, ast.Call) and callee(node) in _OPENERS for statement in body for node in ast.walk(statement))
 
 
 def _assigns(body: Sequence[ast.stmt]) -> bool:
-    """Return whether a statement of a block assigns a value, with which the code after the block continues."""
+    """Return whether a statement of a block assigns a value that the code after the block can use."""
     return any(isinstance(statement, ast.Assign | ast.AnnAssign | ast.AugAssign) for statement in body)
 
 
@@ -185,7 +185,7 @@ def _continue(_machine: Interpreter, _node: ast.Continue, _frame: Frame) -> int:
 
 
 _SUBJECT, _ANYTHING = "<subject>", "<anything>"
-"""Names that no program can contain."""
+"""Names for the subject of a match statement and for the unknown result of a pattern. No program can contain these names."""
 
 
 def _match(machine: Interpreter, node: ast.Match, frame: Frame) -> int:
@@ -244,7 +244,7 @@ _LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_test
 
 
 def _decorated(machine: Interpreter, function: Function, decorator: ast.expr, frame: Frame) -> Value:
-    """Return the value of a function with a decorator. If the decorator is unknown, the function is marked as changed."""
+    """Return a function as its decorator changes it. If the decorator is unknown, set ``changed`` of the function."""
     name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
     if isinstance(name, LibraryName) and name.name.partition(".")[0] in _LEAVING:
         return function

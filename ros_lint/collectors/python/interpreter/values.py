@@ -22,7 +22,7 @@ Value = Any
 Conditions = tuple[LaunchCondition, ...]
 
 PERHAPS: Final = LaunchCondition((UNKNOWN,), None)
-"""An unknown condition."""
+"""An unknown condition, that is, a condition that may or may not hold."""
 
 
 class Module(NamedTuple):
@@ -33,7 +33,10 @@ class Module(NamedTuple):
 
 
 Modules = Callable[[str, Text], "Module | None"]
-"""Finds a module by its dotted name (with leading dots if relative), for the module that imports it."""
+"""A function that finds a module by its dotted name (with leading dots if relative) and the source of the importing module.
+
+It returns None if there is no such module.
+"""
 
 
 class Source:
@@ -71,8 +74,8 @@ def written(text: str, node: ast.expr, source: Source) -> Written:
 class Unknown:
     """An unknown value; ``reason`` says what is unknown.
 
-    The value is true under ``condition``, if that is known. ``node`` is the origin of the value, if the interpreter
-    records origins.
+    The value is true under ``condition``, None if no such condition is known. ``node`` is the expression from which the
+    unknown value comes, None if the interpreter does not record it.
     """
 
     __slots__ = ("condition", "node", "reason")
@@ -94,7 +97,7 @@ class Guarded:
 
 
 class Union:
-    """A value with several alternatives, each under its conditions."""
+    """A value that is one of several alternatives. Each alternative has the conditions under which it is the value."""
 
     __slots__ = ("values",)
 
@@ -110,7 +113,7 @@ class SetOf(list[Value]):
 
 
 class Globbed(list[Value]):
-    """The list of files that a call of ``glob(pattern)`` returns. A list that is made from it by an operator is a plain list."""
+    """The list of files that a call of ``glob(pattern)`` returns. An operator such as ``+`` turns it into a plain list."""
 
     __slots__ = ("pattern",)
     pattern: str
@@ -175,7 +178,7 @@ class LaunchObject:
         self.seen = False
         """True if the object is part of the launch description."""
         self.escaped = False
-        """True if it escaped to code that is not interpreted."""
+        """True if code that is not interpreted gets the object, so that this code may launch it."""
 
     def get(self, position: int, *names: str) -> Value:
         """Return the value of the argument at ``position`` or with a keyword in ``names``, None if it is missing."""
@@ -289,7 +292,10 @@ class Class:
         return any(cls is base for cls in self._line())
 
     def inherited(self, derived: Class, name: str) -> Value | None:
-        """Return the attribute that ``super()`` finds in an object of this class if a method of ``derived`` calls it."""
+        """Return the attribute ``name`` of ``super()`` in a method of the class ``derived``, for an object of this class.
+
+        The result is None if the attribute is not found.
+        """
         line = list(self._line())
         for cls in line[line.index(derived) + 1 :] if derived in line else ():
             if isinstance(cls, Class) and name in cls.names:
@@ -337,7 +343,7 @@ class Instance:
 
 
 class Super:
-    """The result of ``super()`` in a method of the class ``cls``, for one object."""
+    """The result of ``super()`` in a method of the class ``cls``, for the object ``instance``."""
 
     __slots__ = ("cls", "instance")
 
@@ -393,7 +399,7 @@ class ProgramRaised(Exception):  # noqa: N818  (it represents any exception of t
 
 
 def union(values: Iterable[Value]) -> Value:
-    """Return a Union of all alternatives of values. If all alternatives are the same, the result is the value itself.
+    """Return a value with all alternatives of ``values``. If all alternatives are the same, return that alternative itself.
 
     The result is Unknown if there are too many alternatives, or none.
     """
@@ -440,7 +446,7 @@ def under(texts: Iterable[str], conditions: Conditions) -> Iterator[str]:
 
 
 def plain(value: Value) -> Value:
-    """Return the value in a guarded value, that is, without its conditions. Other values are returned unchanged."""
+    """Return a value without the conditions under which it exists (``Guarded``). Other values are returned unchanged."""
     while isinstance(value, Guarded):
         value = value.value
     return value
@@ -452,7 +458,7 @@ def cause(value: Value, reason: str) -> Unknown:
 
 
 def around(value: Value) -> Conditions:
-    """Return the conditions of a guarded value, () for any other value."""
+    """Return the conditions under which a value exists (``Guarded``), () if it exists in any case."""
     conditions: Conditions = ()
     while isinstance(value, Guarded):
         conditions += value.conditions
