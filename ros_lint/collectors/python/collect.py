@@ -32,10 +32,10 @@ _LONGEST_NAME = 100
 def collect(source: Text, *, launch: bool = False) -> FileFacts:
     """Return the modules that a Python file imports and the packages that it looks up.
 
-    - An absolute import is a mention of the dotted module, with ``via="import"``. Relative imports are omitted. The purpose is
-      "unused" if the source never uses the imported names.
-    - A look-up such as ``get_package_share_directory("p")`` is a mention of ``p``, with ``via="package"``. If the name
-      of the package is computed, the look-up is opaque instead.
+    - An absolute import becomes a Mention (a name that may belong to another package) of the dotted module, with
+      ``via="import"``. Its purpose is "unused" if the source never uses the imported names. Relative imports are omitted.
+    - A look-up such as ``get_package_share_directory("p")`` becomes a Mention of ``p``, with ``via="package"``. If the name
+      of the package is computed, it becomes an Opaque instead (a place that could not be evaluated).
     - Paths of files in the share folder of a package, such as ``get_package_share_directory("p") + "/a.yaml"``, are in
       ``lookups``.
 
@@ -84,7 +84,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
 def _found(source: Text, launch: bool) -> tuple[list[Import], Found]:
     """Return the imports and the package look-ups of a source. Raises NotPythonError.
 
-    The source is parsed only if the text scans cannot decide.
+    Regular expressions search the text first. The source is parsed only if their result is not certain.
     """
     imports = scan(source.text)
     looked_up = Found() if launch else literals(source)

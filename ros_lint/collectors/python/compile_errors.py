@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 _OF_SOME_PYTHONS = ("asynchronous comprehension outside", "cannot assign to __debug__")
-"""Messages of errors that Python 3.10 raises and 3.11 does not, or at another position."""
+"""Beginnings of error messages that Python 3.10 reports, and Python 3.11 does not, or at another position."""
 _DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _LOOPS = (ast.For, ast.AsyncFor, ast.While)
 
@@ -21,8 +21,8 @@ _LOOPS = (ast.For, ast.AsyncFor, ast.While)
 def misplaced(error: SyntaxError, tree: ast.Module, source: Text) -> Iterator[Problem]:
     """Yield the problem for an error that the compiler of Python raised for ``tree``.
 
-    Every Python version gives the problem the same message and the same position. Errors that only some Python versions
-    raise are omitted.
+    The message and the position of the problem do not depend on the version of Python. Errors that only some versions of
+    Python raise are omitted.
     """
     if error.msg.startswith(_OF_SOME_PYTHONS):
         return

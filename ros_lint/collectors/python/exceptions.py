@@ -16,9 +16,9 @@ def kind_raised(node: ast.Raise) -> str:
 
 
 def catching(node: ast.Try, kind: str) -> ast.ExceptHandler | None:
-    """Return the first handler of a try statement that may catch an exception, None if every handler certainly does not.
+    """Return the first handler of a try statement that may catch an exception, None if no handler can catch it.
 
-    ``kind`` is the name of the builtin class of the exception, "" if its class is unknown.
+    ``kind`` is the name of the builtin class of the exception, "" if the class is unknown.
     """
     return next((handler for handler in node.handlers if _may_catch(handler, kind)), None)
 

@@ -1,7 +1,7 @@
 """Python sources without the bodies of irrelevant functions, so that the parser has less to read.
 
-A function is irrelevant to a question if its text contains none of the words that the question is about. The head of
-the function is kept, ``def f(): pass``. All lines keep their numbers.
+A function is irrelevant if its text contains none of the words that the caller searches for. Only the head of the function
+is kept, as ``def f(): pass``. The line numbers of the source do not change.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 _DEF = re.compile(r"^([ \t]*)((?:async[ \t]+)?def[ \t]+\w+)[ \t]*\(", re.MULTILINE)
 _LEAST = 200
-"""A shorter function costs as much to leave out as to read."""
+"""Minimum length of a function that is left out, in characters. Shorter functions are parsed as fast as they are left out."""
 
 
 class Excerpt(NamedTuple):
@@ -42,7 +42,8 @@ def excerpt(text: str, words: Collection[str]) -> Excerpt:
 def _functions(text: str) -> Iterator[tuple[int, int, str]]:
     """Yield start offset, end offset and head (``    def f``) of each function in a text.
 
-    Functions within functions are omitted. The functions are found by a regular expression, so a string may look like one.
+    Functions within functions are omitted. Because the functions are found by a regular expression, a result may be a part of
+    a string that looks like a function.
     """
     match = _DEF.search(text)
     while match:
@@ -52,10 +53,10 @@ def _functions(text: str) -> Iterator[tuple[int, int, str]]:
 
 
 def block_end(text: str, width: int, head: int) -> int:
-    """Return the offset of the line after a compound statement that is indented by ``width``.
+    """Return the offset of the line after a compound statement that is indented by ``width`` characters.
 
-    ``head`` is any offset in its first line. The clauses ``except``, ``elif``, ``else`` and ``finally`` belong to the
-    statement.
+    ``head`` is any offset in the first line of the statement. The clauses ``except``, ``elif``, ``else`` and ``finally`` belong
+    to the statement.
     """
     behind = text.find("\n", head) + 1
     if not behind:

@@ -24,19 +24,19 @@ class Import(NamedTuple):
     start: int
     """The offset of the module name."""
     module: str
-    """The dotted name, "" if computed. A relative one begins with its dots: ``.a`` for ``from . import a``."""
+    """The dotted name of the module, "" if it is computed. A relative name begins with dots: ``.a`` for ``from . import a``."""
     optional: bool
-    """True if the program runs without it: under TYPE_CHECKING, in dead code, or with the error caught."""
+    """True if the program runs without the module: under TYPE_CHECKING, in dead code, or with the error caught."""
     caught: bool = False
-    """True if it is optional because an ImportError in particular is caught."""
+    """True if the import is optional because an ImportError in particular is caught."""
     skips: bool = False
-    """True for a call that skips the test if the module is missing."""
+    """True for ``pytest.importorskip()``, which skips the test if the module is missing."""
 
 
 _SKIPS = "importorskip"
 _DYNAMIC = frozenset({"import_module", _SKIPS, "__import__"})
 GUARD = re.compile(r"TYPE_CHECKING|version_info|platform|DISTRO|distro|suppress|(?i:ros_?version)")
-"""Words of a test, or of a with statement, that may make the imports in it optional."""
+"""Words that may make imports optional, in the condition of an if statement or in a with statement around the imports."""
 _MISSING = frozenset({"ImportError", "ModuleNotFoundError"})
 _IMPORT_ERRORS = _MISSING | {"Exception", "BaseException"}
 _EXITS = frozenset({"exit", "quit", "_exit", "fail"})
@@ -50,8 +50,8 @@ def walk(source: Text, tree: ast.Module) -> list[Import]:
     - Imports under ``if TYPE_CHECKING``, and imports for ROS 1 only.
     - Imports in a try statement that continues after an ImportError, or under a test of the platform. Exception: every
       branch imports from the same package.
-    - Imports in an inner try statement whose handler replaces the ImportError by another error, because that error
-      explains what to install.
+    - Imports in a try statement inside a function or another block, if its handler replaces the ImportError by another error.
+      That error explains what to install.
     - Calls such as ``importlib.import_module("a")``, because programs with such calls usually run without the module.
     - Imports of ``a`` and of its submodules after ``pytest.importorskip("a")``.
     """
@@ -106,7 +106,7 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
 
 
 def _after_skips(imports: Iterable[Import]) -> list[Import]:
-    """Return imports in which the modules of earlier calls of ``importorskip()``, and their submodules, are optional."""
+    """Return the imports, and make those optional whose module, or a parent of it, an earlier ``importorskip()`` call names."""
     results: list[Import] = []
     skips: tuple[str, ...] = ()
     for item in imports:
@@ -117,9 +117,9 @@ def _after_skips(imports: Iterable[Import]) -> list[Import]:
 
 
 _Found = tuple["ast.Import | ast.ImportFrom", int]
-"""A statement, and its kind of optionality: 0 if required, 1 if optional, or _CAUGHT."""
+"""An import statement, and how optional it is: 0 if required, 1 if optional, _CAUGHT if its ImportError is caught."""
 _CAUGHT = 2
-"""The kind of an import whose ImportError is caught, rather than any error of the block."""
+"""The number for an import that is optional because an ImportError is caught, rather than any error of the block."""
 
 
 class _Walker:
@@ -183,7 +183,7 @@ class _Walker:
 
 
 def _is_off(test: ast.expr, off: frozenset[str]) -> bool:
-    """Return whether a condition is always false because of the names in ``off``, whose values are always false."""
+    """Return whether a condition is always false because of the names in ``off``, which always have a false value."""
     if isinstance(test, ast.BoolOp):
         return (any if isinstance(test.op, ast.And) else all)(_is_off(part, off) for part in test.values)
     return isinstance(test, ast.Name) and test.id in off
@@ -206,10 +206,11 @@ def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
 
 
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
-    """Yield the imports of alternative branches, each with its kind: 0 (required) if every branch imports from the same package.
+    """Yield the imports of alternative branches, each with a number: 0 if the import is required, else ``kind``.
 
-    All other imports have ``kind``. A relative import is required if another branch imports something, too: that branch may be
-    a replacement for its module only.
+    An import is required if every branch imports from the same top-level package. A relative import is also required if
+    another branch has imports, because these imports may replace its module only. Imports that are optional within their
+    branch keep their number.
     """
     needed = [{root for statement, optional in branch if not optional for root in _roots(statement)} for branch in branches]
     always = set.intersection(*needed)
@@ -227,7 +228,7 @@ def _is_relative(statement: ast.Import | ast.ImportFrom) -> bool:
 
 
 def _roots(statement: ast.Import | ast.ImportFrom) -> set[str]:
-    """Return the top-level packages of an import statement: ``import a.b, c`` -> {"a", "c"}. A relative import has "."."""
+    """Return the top-level packages of an import statement: ``import a.b, c`` -> {"a", "c"}, any relative import -> {"."}."""
     if _is_relative(statement):
         return {"."}
     names = [alias.name for alias in statement.names] if isinstance(statement, ast.Import) else [statement.module or ""]

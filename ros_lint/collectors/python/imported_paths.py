@@ -33,9 +33,14 @@ _NAME = re.compile(r"[ \t\r\n\\]*([\w.]+|\*)")
 def imported_paths(source: Text, path: str) -> frozenset[str] | None:
     """Return the paths of all modules and names that a file imports, without suffix, None if it may import further modules.
 
-    ``path`` is the path of the file. ``import a.b`` gives ``a`` and ``a/b``, ``from a import b`` the same, because ``b`` may
-    be a module. ``from . import b`` gives ``robot/b`` in ``robot/talker.py``. ``a/*`` stands for all modules in ``a``.
-    The statements are found without parsing, also in strings, unless the file names a function that imports modules.
+    ``path`` is the path of the file. Examples:
+
+    - ``import a.b`` and ``from a import b`` give ``a`` and ``a/b``, because ``b`` may be a module.
+    - ``from . import b`` gives ``robot/b`` in ``robot/talker.py``.
+    - ``from a import *`` gives ``a`` and ``a/*``, which means all modules in ``a``.
+
+    A regular expression finds the statements, also in strings. If the file names a function that imports modules, such as
+    ``import_module``, the file is parsed instead.
     """
     if _MENTIONED.search(source.text):
         return _of_tree(source, path)
@@ -72,7 +77,7 @@ def _of_tree(source: Text, path: str) -> frozenset[str] | None:
 
 
 def _of_from(module: str, level: int, names: Iterable[str], path: str) -> Iterator[str]:
-    """Yield the paths that ``from module import names`` means. ``level`` is the number of dots before the module."""
+    """Yield the paths of the modules that ``from module import names`` may import. ``level`` is the number of leading dots."""
     folders = path.split("/")[:-level] if level else []
     folder = "/".join([*folders, *(module.split(".") if module else ())])
     yield from accumulate(folder.split("/"), "{}/{}".format)

@@ -91,8 +91,8 @@ def scan(text: str) -> list[Import] | None:
 def _imported(text: str, match: re.Match[str], before: str) -> list[Import] | None:
     """Return the imports at a match of the word ``import``, None if only a parser can find them.
 
-    The result is [] for a relative import, and where the word is no statement. ``before`` is the text of the line before
-    the word, without indentation.
+    The result is [] for a relative import, and if the word does not belong to an import statement. ``before`` is the text of
+    the line before the word, without indentation.
     """
     if not before:
         return _names(text, match.end())
@@ -131,13 +131,13 @@ def _names(text: str, start: int) -> list[Import] | None:
 
 class _Block(NamedTuple):
     width: int
-    """The indentation of its head."""
+    """The number of characters before the head of the block, such as ``if a:``, in its line."""
     head: int
-    """The offset of the line of its head."""
+    """The offset of the line with the head of the block."""
     start: int
-    """The offset of the first line of the statement: ``try`` for ``except``."""
+    """The offset of the line with which the statement begins: for an ``except`` block, the line of ``try``."""
     guards: bool
-    """True if it may make the imports in it optional."""
+    """True if the block may make the imports in it optional."""
 
 
 class _Blocks:

@@ -35,7 +35,10 @@ class Found(NamedTuple):
 
 
 def literals(source: Text) -> Found | None:
-    """Return the result of :func:`look_ups` from a scan of the text, None if a syntax tree is needed."""
+    """Return the package look-ups of a source by a search of its text, None if only a syntax tree can give the result.
+
+    The result is equal to the result of :func:`look_ups`.
+    """
     text = source.text
     if "get_package_" not in text and "FindPackage" not in text:
         return Found()
@@ -61,9 +64,9 @@ def literals(source: Text) -> Found | None:
 
 
 def in_excerpt(source: Text) -> Found:
-    """Return the result of :func:`look_ups` for a source, but do not parse functions that cannot change the result.
+    """Return the package look-ups of a source by parsing it without the functions that cannot change the result.
 
-    Raises :class:`NotPythonError`.
+    The result is equal to the result of :func:`look_ups`. Raises :class:`NotPythonError`.
     """
     words = LOOK_UPS
     while True:
@@ -79,8 +82,8 @@ def in_excerpt(source: Text) -> Found:
 def look_ups(source: Text, tree: ast.Module) -> Found:
     """Return the packages that a source looks up, and the paths of files in their share folders.
 
-    A look-up is opaque if the name of its package is computed, and optional if it runs only where the package exists: a
-    condition tests for the package, or a handler catches the exception of a missing package.
+    If the name of a package is computed, the look-up is in ``opaque``. A look-up is optional if it runs only where the package
+    exists: a condition tests for the package, or a handler catches the exception of a missing package.
     """
     return _found(source, tree, _telling(scan(tree)))
 

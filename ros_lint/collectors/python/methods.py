@@ -1,4 +1,4 @@
-"""Methods of texts and constants of Python that all evaluators treat in the same way.
+"""String methods and constants of Python that the evaluators of launch files, setup.py and substitutions treat in the same way.
 
 The results of the methods are no longer than their arguments. Each evaluator defines the results for unknown values,
 and for all other methods.

@@ -26,14 +26,14 @@ class Newer(NamedTuple):
     """A construct in a source that Python versions before ``version`` reject. ``start`` and ``end`` are its offsets."""
 
     construct: str
-    """A noun in the plural."""
+    """The name of the construct, a noun in the plural such as "type statements"."""
     version: tuple[int, int]
     start: int
     end: int
 
 
 class Rewritten(NamedTuple):
-    """A source rewritten without constructs newer than Python 3.10, and where it had them.
+    """A source rewritten without constructs newer than Python 3.10, and the positions of these constructs.
 
     All offsets are offsets in the original source.
     """
@@ -41,11 +41,11 @@ class Rewritten(NamedTuple):
     text: str
     newer: tuple[Newer, ...]
     strings: Mapping[int, tuple[Token, ...]]
-    """Groups of adjacent strings that a name replaces, by the offset of the bracket before the name."""
+    """Groups of adjacent f-strings that are replaced by ``(_)``, by the offset of the bracket."""
     aliases: frozenset[int]
-    """Offsets of type statements, rewritten as assignments to a tuple of the word ``typ`` and the name."""
+    """Offsets of type statements. ``type X = Y`` is rewritten as ``typ, X = Y``."""
     parameters: Mapping[int, tuple[str, ...]]
-    """The names of the removed type parameters, by the offset of the statement."""
+    """The names of the removed type parameters, by the offset of the ``def`` or ``class`` statement."""
 
 
 class _Edit(NamedTuple):

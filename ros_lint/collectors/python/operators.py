@@ -1,4 +1,4 @@
-"""Operators of Python that all evaluators apply in the same way to known values, and the limits of their operands."""
+"""Operators of Python that all evaluators of Python code apply in the same way to known values, and limits for their operands."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ARITHMETIC: Final[Mapping[type[ast.operator], Callable[[Any, Any], Any]]] = {
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
 }
-"""Operators on numbers, texts and lists. The evaluator has to limit the sizes of operands."""
+"""Functions for the operators on numbers, texts and lists. The evaluator has to limit the sizes of the operands."""
 
 BITWISE: Final[Mapping[type[ast.operator], Callable[[Any, Any], Any]]] = {
     ast.BitOr: operator.or_,
@@ -32,7 +32,7 @@ COMPARISONS: Final[Mapping[type[ast.cmpop], Callable[[Any, Any], Any]]] = {
     ast.Gt: operator.gt,
     ast.GtE: operator.ge,
 }
-"""Comparisons by value. Identity and membership are implemented by each evaluator."""
+"""Functions for the comparisons by value. Each evaluator implements ``is`` and ``in`` itself."""
 
 _WIDE = re.compile(r"\d{4,}|%[-#0 +]*(?:\d*\.)?\*")
 

@@ -1,4 +1,4 @@
-"""Changes of the syntax tree of a rewritten source, so that it becomes the tree of the original source."""
+"""Changes the syntax tree of a source that was rewritten without newer syntax into the syntax tree of the original source."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.newer_syntax import Rewritten
 
 Place = tuple[int, int]
-"""A line from 1 and a column in bytes from 0, as in syntax trees."""
+"""A line from 1 and a column from 0 in bytes, as in syntax trees of Python."""
 
 _QUOTED: Final = re.compile(r"\\.|\"", re.DOTALL)
 _CONVERSIONS: Final = {"": -1, "a": 97, "r": 114, "s": 115}
@@ -50,7 +50,7 @@ class _Restorer:
         self._parameters = {place_of(source, start): names for start, names in rewritten.parameters.items()}
 
     def visit(self, node: ast.AST) -> None:
-        """Replace the direct children of a node that belong to rewritten constructs."""
+        """Replace the direct children of a node that stand for rewritten constructs by the trees of the original constructs."""
         for name, value in ast.iter_fields(node):
             if isinstance(value, ast.Name):
                 setattr(node, name, self._name(value))
@@ -72,7 +72,7 @@ class _Restorer:
             yield item
 
     def _name(self, node: ast.Name) -> ast.expr:
-        """Return the f-string that was replaced by the name ``node``, the name itself if it replaces nothing."""
+        """Return the f-string that the name ``node`` replaces, the name itself if it does not replace an f-string."""
         group = self._strings.get((node.lineno, node.col_offset - 1))
         if group is None or node.id != "_":
             return node
@@ -115,7 +115,7 @@ class _Restorer:
 def _bound(target: ast.expr, at: ast.stmt) -> ast.stmt:
     """Return an assignment of None to ``target``, with the position of ``at``.
 
-    It stands for a construct that binds a name, such as a type statement.
+    The assignment represents a construct that binds a name, such as a type statement.
     """
     statement = ast.Assign([target], ast.Constant(None))
     ast.copy_location(statement, at)

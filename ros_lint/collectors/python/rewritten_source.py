@@ -1,4 +1,4 @@
-"""Reading of unusual Python sources: those with newer syntax, and those that nest deeply. Limits are checked first."""
+"""Parses unusual Python sources: sources with newer syntax, and sources that nest deeply. Limits are checked first."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ _MOST_DIGITS = 1_000
 def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
     """Return the syntax tree of a source, and its constructs that are newer than Python 3.10.
 
-    ``read_inner`` reads an expression in an f-string as a source of its own. Raises NotPythonError; it is a TooDeepError
-    if the source exceeds a limit of ros-lint.
+    ``read_inner`` parses the text of an expression in an f-string as a separate source. Raises NotPythonError, or its subclass
+    TooDeepError if the source exceeds a limit of ros-lint.
     """
     try:
         paired = may_be_paired(source.text)
@@ -127,10 +127,10 @@ def _inner(text: str, offset: int, source: Text, read_inner: Callable[[Text], Pa
 
 
 def _expression(parsed: Parsed, offset: int, source: Text, newer: list[NewerSyntax]) -> ast.expr:
-    """Return the tree of an expression in an f-string, with the positions that it has in the source.
+    """Return the tree of an expression in an f-string, with the positions that the expression has in the source.
 
-    ``parsed`` is the expression as a source of its own, and ``offset`` is its offset in ``source``. The constructs in it
-    that are newer than Python 3.10 are appended to ``newer``.
+    ``parsed`` is the result of parsing the expression as a separate source. ``offset`` is the offset of the expression in
+    ``source``. Constructs in the expression that are newer than Python 3.10 are appended to ``newer``.
     """
     body = parsed.tree.body
     if len(body) != 1 or not isinstance(body[0], ast.Expr):

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple, Union
 
 Block = tuple[int, ...]
-"""The numbers of the branches around a statement, outermost first.
+"""The numbers of the branches (such as bodies of if statements) around a statement, outermost first.
 
-A binding in an outer block is visible in the inner ones.
+A binding in an outer branch is visible in the inner branches.
 """
 
 Step = Union[int, None]  # noqa: UP007  (evaluated on 3.10)
-"""One step of the path from a value to its part: an index, or None for each element in turn."""
+"""One step from a value to a part of the value: the index of an element, or None for each element (``for a in value``)."""
 
 
 _COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)
@@ -49,7 +49,7 @@ class Expression(NamedTuple):
     inner: list[ast.AST]
     """The node and all its descendants."""
     targets: tuple[ast.expr, ...] = ()
-    """The targets that the statement assigns the value, or its elements, to."""
+    """The targets to which the statement assigns the value of the expression, or the elements of the value."""
 
 
 class PythonScope:
@@ -79,7 +79,7 @@ class PythonScope:
 def scan(tree: ast.Module) -> list[Expression]:
     """Return the outermost expressions of all statements of a module, in textual order.
 
-    Their scopes contain all bindings of the module.
+    The scopes of the expressions contain all bindings of the module.
     """
     scanner = _Scanner()
     scanner.block(tree.body, PythonScope(None), ())

@@ -27,4 +27,4 @@ class Parsed(NamedTuple):
 
     tree: ast.Module
     newer: tuple[NewerSyntax, ...]
-    """Constructs that were added after Python 3.10, in order."""
+    """Constructs that were added after Python 3.10, in order of position."""

@@ -11,12 +11,12 @@ from ros_lint.collectors.python.scopes import Binding, Step, Where, reaching
 from ros_lint.collectors.symbolic_text import prefix, share
 
 _MOST: Final = 16
-"""The maximum number of alternative values of an expression."""
+"""The maximum number of alternative texts of an expression."""
 _DEEPEST: Final = 40
 _LONGEST: Final = 10_000
 
 Values = tuple["str | None", ...]
-"""The possible texts of an expression, never empty. None among them is an unknown value."""
+"""The possible texts of an expression, never empty. None represents an unknown text."""
 
 ANYTHING: Values = (None,)
 
@@ -56,7 +56,7 @@ def argument(node: ast.Call, *names: str) -> ast.expr | None:
 
 
 class Evaluator:
-    """Computes the possible texts of expressions of one file. The result for each expression is computed once."""
+    """Computes the possible texts of the expressions of one file. Each expression is evaluated once."""
 
     def __init__(self) -> None:
         self._done: dict[int, Values] = {}
@@ -65,7 +65,8 @@ class Evaluator:
     def values(self, node: ast.expr | None, where: Where) -> Values:
         """Return the possible texts of an expression, with None for an unknown text. The result is never empty.
 
-        Folders of installed packages are symbolic, see :mod:`ros_lint.collectors.symbolic_text`.
+        A folder of an installed package is represented by a path that no file system has, see
+        :mod:`ros_lint.collectors.symbolic_text`.
         """
         if node is None or self._depth > _DEEPEST:
             return ANYTHING

@@ -1,4 +1,4 @@
-"""The syntax trees of Python sources, and the reasons why a source has none."""
+"""The syntax trees of Python sources, and the reasons why a source cannot be parsed."""
 
 from __future__ import annotations
 
@@ -40,16 +40,16 @@ class Refusal(NamedTuple):
     """The reason why a source has no syntax tree: it is not valid Python, or exceeds a limit of ros-lint."""
 
     message: str
-    """A clause."""
+    """The reason as a clause, such as "this line is indented too far"."""
     span: Span
     known: bool
-    """True if the text is not Python of any version. Otherwise the file counts as not checked."""
+    """True if the text is certainly not Python of any version. If False, the file counts as not checked."""
 
     def problem(self) -> Problem:
         return Problem("syntax", f"not valid Python: {self.message}", self.span)
 
     def opaque(self, hides: Facet) -> Opaque:
-        """Return the refused source as an opaque place, which hides the facet ``hides`` of its package.
+        """Return the source as a place that could not be evaluated, and that hides the facts ``hides`` of its package.
 
         The place is marked as unchecked if the source exceeds a limit of ros-lint.
         """
@@ -68,8 +68,8 @@ def parse(source: Text) -> ast.Module:
 def read(source: Text) -> Parsed:
     """Return the syntax tree of a source, and its constructs that are newer than Python 3.10.
 
-    The result is the same with every Python that runs ros-lint. No caller may change the tree, because it is shared.
-    Raises the exceptions of :func:`parse`.
+    The result does not depend on the version of Python that runs ros-lint. No caller may change the tree, because it is
+    shared. Raises the exceptions of :func:`parse`.
     """
     found = _outcome(source.path, source.text)
     if isinstance(found, Refusal):
@@ -110,13 +110,13 @@ def read_anew(source: Text) -> Parsed:
 
 
 _MOST_LEVELS = 10_000
-"""Maximum nesting for the parser of Python 3.10, which overflows the stack at about ten times this depth."""
+"""Maximum nesting depth of sources for Python's own parser. Python 3.10 overflows its stack at about ten times this depth."""
 
 
 def read_expression(text: str) -> ast.expr:
     """Return the syntax tree of the text of an expression. Raises :class:`NotPythonError`.
 
-    The result is the same with every Python that runs ros-lint.
+    The result does not depend on the version of Python that runs ros-lint.
     """
     source = Text("", text)
     if plain(text) and not nests_too_deep(text):
@@ -160,7 +160,7 @@ def _long_statements(source: Text, tree: ast.Module) -> Iterator[str]:
 
 
 _SIMPLE = frozenset({ast.AnnAssign, ast.Assign, ast.AugAssign, ast.Expr, ast.Import, ast.ImportFrom, ast.Pass, ast.Return})
-"""Statements without a body, most of them."""
+"""The most frequent kinds of statements without a body."""
 _BODIES = ("body", "handlers", "cases", "orelse", "finalbody")
 _Part = ast.stmt | ast.ExceptHandler | ast.match_case
 

@@ -1,7 +1,7 @@
-"""The reason why a source is not valid Python, and its position: equal with every Python that runs ros-lint.
+"""The reason why a source is not valid Python, and its position, independent of the Python version that runs ros-lint.
 
-The messages and positions of Python's own parser change from version to version. Here strings, brackets and
-indentation are checked by their tokens. For all other errors the parser of libcst gives the position, because it has
+The messages and positions of Python's own parser change from version to version. Therefore, this module checks strings,
+brackets and indentation by their tokens. For all other errors the parser of libcst gives the position, because it has
 one grammar for all versions.
 """
 
@@ -26,9 +26,9 @@ class SyntaxReason(NamedTuple):
 
     offset: int
     message: str
-    """A clause."""
+    """The reason as a clause, such as "this line is indented too far"."""
     known: bool = True
-    """False where a bound of ros-lint is exceeded, or nothing wrong is seen: another version may read it."""
+    """False if a limit of ros-lint is exceeded or no error is found. Then another Python version may accept the source."""
 
 
 _CONFLICT: Final = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
@@ -38,7 +38,7 @@ _OF_PYTHON_2: Final = re.compile(r"^[ \t]*except\b[^,:\r\n]*(,)[ \t]*([a-z_]\w*)
 _CONTINUED: Final = frozenset({"elif", "else", "except", "finally"})
 _COMPOUND: Final = _CONTINUED | frozenset({"async", "class", "def", "for", "if", "try", "while", "with"})
 _LONGEST: Final = 100_000
-"""Maximum number of characters that libcst parses, which takes it more than a second."""
+"""Maximum number of characters of a statement for libcst, which parses such a statement for more than a second."""
 _LONGEST_TEXT: Final = 500_000
 _LEVELS: Final = 100
 """Maximum number of levels of indentation in Python."""
@@ -134,7 +134,7 @@ def _indentation(text: str, found: Sequence[Token]) -> Iterator[SyntaxReason]:
 
 
 def _in_statements(text: str, found: Sequence[Token], read_expression: Callable[[str], ast.expr]) -> Iterator[SyntaxReason]:
-    """Yield the errors in the first top-level statement that Python refuses. Only the first error is reliable."""
+    """Yield the errors in the first top-level statement that Python rejects. Only the first error is reliable."""
     try:
         code = rewrite(text, found).text
     except TokenError as error:
@@ -211,7 +211,7 @@ def _word(text: str, code: Sequence[Token], at: int) -> SyntaxReason:
 
 
 def _shown(written: str) -> str:
-    """Return a piece of a source as it is quoted in a message: its first line, shortened if it is long."""
+    """Return the first line of a piece of a source for a message, shortened if it is long."""
     line = written.strip().splitlines()[0]
     return line if len(line) <= _LONGEST_WORD else line[: _LONGEST_WORD - 3] + "..."
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 def collect(name: str, path: str, source: Text) -> PythonModule:
     """Return a module with the names that it defines or imports at its top level.
 
-    ``name`` is its dotted name, ``path`` its path relative to the package. The module is marked as open, because it may
-    have more names, if it contains ``import *``, ``__getattr__``, ``globals()`` or ``exec()``, or does not parse.
+    ``name`` is the dotted name of the module, ``path`` its path relative to the package. The module is marked as open, because
+    it may have more names, if it contains ``import *``, ``__getattr__``, ``globals()`` or ``exec()``, or does not parse.
     """
     try:
         tree = parse(source)

@@ -1,4 +1,4 @@
-"""Names in a Python source that are used and never bound, and the code in ``try`` blocks, whose exceptions are caught."""
+"""Names in a Python source that are used but never bound, and the code in ``try`` blocks, whose exceptions are caught."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Iterable, Iterator
 from ros_lint.collectors.python.versions import BUILTINS
 
 _ANYWHERE = frozenset({"exec", "eval", "globals", "locals", "vars", "setattr"})
-"""Functions that can bind names which are not in the source."""
+"""Functions that can bind names without an assignment in the source."""
 _MODULE = frozenset({"__file__", "__name__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__", "__path__"})
 _KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license", "quit", "WindowsError"}
 """Names that Python binds, including names that exist only in interactive sessions or on Windows."""
 
 
 def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
-    """Yield the first use of each name in ``met`` that certainly raises NameError. ``met`` are uses of names in ``tree``."""
+    """Yield the first use of each name in ``met`` that certainly raises NameError. ``met`` has uses of names in ``tree``."""
     names = [node for node in met if node.id not in _KNOWN]
     if not names:
         return

@@ -1,4 +1,4 @@
-"""The Python version of each distribution, and the names of its standard library."""
+"""The Python version of each ROS distribution, and the names of Python's standard library."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PYTHON_OF: Final[Mapping[str, Version]] = {
     "lyrical": (3, 14),
     "rolling": (3, 14),
 }
-"""The Python version of the Ubuntu release of tier 1: Jammy, Noble, Noble, Resolute, Resolute.
+"""The Python version of each ROS distribution: that of its Ubuntu release of tier 1 (Jammy, Noble, Noble, Resolute, Resolute).
 
 Source: REP 2000 up to Kilted, and "Lyrical Luth Supported Platforms" of docs.ros.org ("Python 3.12 - 3.14").
 """
