@@ -31,24 +31,29 @@ Not reported:
 - Calls under a condition, and imports guarded by `try`.
 - `ament_python`, if it is a package of the workspace.
 
-If the distribution is not set, the confidence of a removed CMake command is medium.
+If the distribution is not set, one info for the workspace names the packages that call a removed CMake command. It is not
+reported if the repository names only distributions that have the command.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from ros_lint.api import Confidence, Finding, Fix, Package, Related, Rule, Severity, Workspace, dependencies, edits, first_related
+from ros_lint.api import Call, Finding, Fix, Package, Related, Rule, Severity, Workspace, dependencies, edits, first_related
 
 _REMOVED = {"ament_target_dependencies": ("ament_cmake_target_dependencies", frozenset({"lyrical", "rolling"}))}
 _MODULE = "ament_python"
 
 
-def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    if package.builds_with == "ament_cmake":
-        yield from _commands(package, workspace)
-    elif package.builds_with == "ament_python":
-        yield from _modules(package, workspace)
+def check(workspace: Workspace) -> Iterator[Finding]:
+    for package in workspace.packages:
+        if package.builds_with == "ament_python":
+            yield from _modules(package, workspace)
+    for name, (provider, distros) in _REMOVED.items():
+        if workspace.target.distro in distros:
+            packages = [package for package in workspace.packages if package.builds_with == "ament_cmake"]
+            callers = [(package, calls) for package in packages if (calls := _unprovided_calls(package, name, provider))]
+            yield from _commands(name, callers, workspace) if workspace.target.explicit else _if_newer(name, callers, workspace)
 
 
 def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -61,28 +66,47 @@ def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
             first.span,
             _MODULE,
             first_related(Related("also here", mention.span) for mention in others),
+            package=package.name,
         )
 
 
-def _commands(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    script = package.script
-    if script is None:
-        return
-    found = dependencies.names_searched(package, script)
-    for name, (provider, distros) in _REMOVED.items():
-        calls = [call for call in package.calls(name, anywhere=True) if not call.blocks or call.test]
-        if not calls or workspace.target.distro not in distros or provider in found:
-            continue
+def _unprovided_calls(package: Package, name: str, provider: str) -> list[Call]:
+    """Return the unconditional calls of a CMake command; none if the package finds ``provider``, which defines the command."""
+    if package.script is None or provider in dependencies.names_searched(package, package.script):
+        return []
+    return [call for call in package.calls(name, anywhere=True) if not call.blocks or call.test]
+
+
+def _commands(name: str, callers: Iterable[tuple[Package, list[Call]]], workspace: Workspace) -> Iterator[Finding]:
+    """Yield an error for each package that calls a command which the chosen distribution does not have."""
+    for package, calls in callers:
         first, *others = calls
-        related = first_related(Related("also here", call.name_span) for call in others)
         yield Finding(
             f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with targets such as rclcpp::rclcpp",
             first.name_span,
             name,
-            related,
+            first_related(Related("also here", call.name_span) for call in others),
             Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False),
-            Confidence.HIGH if workspace.target.explicit else Confidence.MEDIUM,
+            package=package.name,
         )
+
+
+def _if_newer(name: str, callers: Sequence[tuple[Package, list[Call]]], workspace: Workspace) -> Iterator[Finding]:
+    """Yield one info about all packages that call a command which the assumed distribution does not have."""
+    named = {named.distro for named in workspace.named_distros}
+    if not callers or (named and not named & _REMOVED[name][1]):
+        return
+    (first, calls), *others = callers
+    subject = f"'{first.name}' calls" if not others else f"{len(callers)} packages call"
+    yield Finding(
+        f"{subject} {name}(), which was removed in {workspace.target.distro}; use target_link_libraries() with targets such as "
+        "rclcpp::rclcpp, or pass --distro if you build for an older distribution",
+        calls[0].name_span,
+        name,
+        first_related(Related(f"'{package.name}' calls it here", calls[0].name_span) for package, calls in others),
+        severity=Severity.INFO,
+        package=first.name,
+    )
 
 
 RULE = Rule(
@@ -93,5 +117,5 @@ RULE = Rule(
     since="0.1",
     doc=__doc__,
     fixable=True,
-    package=check,
+    workspace=check,
 )
