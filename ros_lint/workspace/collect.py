@@ -1,7 +1,7 @@
-"""Collect the facts of files: each file once, in several processes if there are many.
+"""Collect the facts of files: each file once, in several processes if there are many files.
 
-Unchanged files are taken from the cache. Only this module decides which collector reads which file. A collector
-gets one text and no other file.
+Facts are the data that a collector extracts from the text of one file. Facts of unchanged files are taken from the cache.
+Only this module decides which collector reads which file.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from ros_lint.workspace.collected import Collected, ReadFile
 FAILED = "ros-lint failed on this file ({}); please report this bug"
 
 _FILES_PER_PROCESS = 500
-"""Number of files for each further process: with fewer files, a process costs more than it saves."""
+"""Number of files for each further process: with fewer files, starting the process costs more than it saves."""
 
 _MAX_PROCESSES = 61
 """Maximum number of processes: Windows cannot wait for more."""
@@ -42,7 +42,7 @@ _SUFFIXES.update(dict.fromkeys(("urdf", "xacro", "sdf", "world", "rviz"), "resou
 
 
 _PYTHON_SHEBANG = re.compile(rb"#![^\n]*python")
-"""First line of a Python program, whatever the file name."""
+"""Matches the first line of a Python program, whatever the file name."""
 
 _HIDDEN_FACETS: dict[Kind, Facet] = {
     "manifest": Facet(0),  # without a manifest there is no package
@@ -53,11 +53,11 @@ _HIDDEN_FACETS: dict[Kind, Facet] = {
     "interface": Facet.USES | Facet.INTERFACES,
     "xml": Facet.USES | Facet.COMPONENTS,
 }
-"""Facets that an unreadable file hides, by kind of file; the default is ``Facet.USES``."""
+"""Aspects of a package that become unknown if a file cannot be read, by kind of file; the default is ``Facet.USES``."""
 
 
 def collect(text: Text, kind: Kind) -> Collected:
-    """Return the facts of a file. The contents of the file never cause an exception."""
+    """Return the facts of a file from its text. No contents of a file cause an exception."""
     # Collectors are imported here so that a workspace without launch files does not load theirs.
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
@@ -114,8 +114,8 @@ def collect_all(
 ) -> dict[str, Collected]:
     """Return the facts of each file, by path.
 
-    ``jobs`` is the number of processes, 0 chooses it by the number of files; ``tick`` is called with the number of
-    finished files.
+    ``jobs`` is the number of processes; 0 means that it depends on the number of files. ``tick`` is called with the number of
+    files that are finished.
     """
     files = [(path, kind) for path in paths if (kind := kind_of(path))]
     disk = tree.disk if isinstance(tree, RecordedTree) else tree
@@ -147,7 +147,7 @@ def collect_all(
 
 
 def _processes(jobs: int, files: int) -> int:
-    """Return the number of processes for some files: at most one for each core."""
+    """Return the number of processes for ``files`` files: at most one for each core, 0 or 1 if one process suffices."""
     cores = min(os.cpu_count() or 1, _MAX_PROCESSES)
     return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_PER_PROCESS)
 

@@ -1,4 +1,4 @@
-"""What is collected from one file."""
+"""The facts of one file: the data that collectors extract from its text."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class Collected(NamedTuple):
     suppressions: tuple[Suppression, ...] = ()
     machine_paths: tuple[MachinePath, ...] = ()
     unreadable: str = ""
-    """Reason why the file was not read, or ""."""
+    """Reason why the file was not read, "" if it was read."""
 
 
 class ReadFile(NamedTuple):
-    """A file whose facts were collected or found in the cache."""
+    """A file with its facts, which were collected in this run or found in the cache."""
 
     digest: bytes
     """Digest of the contents, ``NOT_READ`` if the file could not be read."""

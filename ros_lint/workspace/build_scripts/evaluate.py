@@ -1,4 +1,7 @@
-"""Evaluate the build scripts of all packages. A package comes before the packages in which its CMake code runs."""
+"""Evaluate the build scripts (CMakeLists.txt or setup.py) of all packages.
+
+CMake code of a package with CONFIG_EXTRAS runs in its dependents, so such a package is evaluated before its dependents.
+"""
 
 from __future__ import annotations
 
@@ -31,20 +34,23 @@ _PYTHON = ("setup.py", "setup.cfg", "pyproject.toml")
 
 
 class Evaluation(NamedTuple):
-    """The evaluated scripts of the packages of a workspace for one distribution."""
+    """The evaluated build scripts of all packages of a workspace for one distribution."""
 
     packages: Sequence[Parts]
     scripts: Sequence[BuildScript | None]
-    """The script of each package, in the order of the packages; None if it has no script."""
+    """The evaluated script of each package, in the order of ``packages``; None for a package without a build script."""
     helpers: Mapping[str, dict[str, Helper]]
-    """The packages whose CMake code runs in other packages, by workspace and name."""
+    """The packages with CONFIG_EXTRAS, whose CMake code runs in dependents.
+
+    The keys are the path of the workspace in the repository (``arm_ws``, usually "") and the name of the package.
+    """
 
 
 def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evaluation | None = None) -> Evaluation:
-    """Return the evaluated scripts of the packages.
+    """Return the evaluated build scripts of the packages for the distribution ``distro``.
 
-    Scripts of ``earlier``, the evaluation of the same tree for another distribution, are used again if they are the same for
-    ``distro``.
+    ``earlier`` is an evaluation of the same packages for another distribution. Its result is reused for each script that does
+    not depend on the distribution.
     """
     same = _same_scripts(packages, distro, earlier) if earlier else {}
     if earlier and len(same) == len(packages):
@@ -73,9 +79,9 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evalua
 
 
 def _same_scripts(packages: Sequence[Parts], distro: str, earlier: Evaluation) -> dict[int, BuildScript | None]:
-    """Return the scripts of ``earlier`` that are the same for ``distro``, by the index of the package.
+    """Return the scripts of ``earlier`` whose evaluation for ``distro`` gives an equal result, by the index of the package.
 
-    The result is empty if CMake code that runs in dependents is not the same.
+    The result is empty if a package with CONFIG_EXTRAS has to be evaluated again, because its CMake code runs in dependents.
     """
     scripts = {parts.package.path: (parts, script) for parts, script in zip(earlier.packages, earlier.scripts, strict=True)}
     same: dict[int, BuildScript | None] = {}
@@ -93,7 +99,8 @@ def _cmake(
 ) -> BuildScript:
     """Return the evaluated CMakeLists.txt of a package.
 
-    A package with CONFIG_EXTRAS, whose code runs in dependents, is added to ``helpers``, by workspace and name.
+    A package with CONFIG_EXTRAS, whose code runs in dependents, is added to ``helpers``: path of the workspace -> package name
+    -> Helper.
     """
     from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
@@ -140,7 +147,7 @@ def _python(tree: Tree, package: DiscoveredPackage) -> BuildScript | None:
 
 
 def _modules(tree: Tree, package: DiscoveredPackage, script: BuildScript) -> Iterator[PythonModule]:
-    """Yield the modules of the package that its entry points name."""
+    """Yield the modules of the package that are named by its entry points, e.g. ``my_package/node.py``."""
     files = frozenset(package.files)
     for name in dict.fromkeys(entry.module for entry in script.products.entry_points):
         stem = name.replace(".", "/")
@@ -153,7 +160,7 @@ def _modules(tree: Tree, package: DiscoveredPackage, script: BuildScript) -> Ite
 
 
 def _helps(parts: Parts) -> bool:
-    """Return whether CMake code of a package runs in its dependents (ament_package(CONFIG_EXTRAS ...))."""
+    """Return whether a package has CMake code that runs in its dependents: ament_package(CONFIG_EXTRAS ...)."""
     return any(
         argument[0].startswith("CONFIG_EXTRAS")
         for parsed in parts.commands.values()
@@ -164,7 +171,7 @@ def _helps(parts: Parts) -> bool:
 
 
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
-    """Yield the indices of packages whose code runs in others, each after its own dependencies."""
+    """Yield the indices of packages with CONFIG_EXTRAS, each package after those that it depends on."""
     remaining = {number: parts.package.name for number, parts in enumerate(packages) if _helps(parts)}
     while remaining:
         names = frozenset(remaining.values())

@@ -1,4 +1,4 @@
-"""Collect files related to a build script: plugin descriptions, programs, resources."""
+"""Collect the files that belong to a build script: plugin descriptions, programs, and resources such as maps and models."""
 
 from __future__ import annotations
 
@@ -21,17 +21,20 @@ from ros_lint.workspace.discovery.discover import DiscoveredPackage
 _PLUGIN_FILE = re.compile(r"plugin.*\.xml\Z", re.IGNORECASE)
 _SCRIPTS = re.compile(r"(?:scripts|nodes|bin|script)/[^/]+\Z")
 _MOST_RESOURCES = 40
-"""Maximum number of resources of a folder: a tree of models has thousands, and one reference suffices."""
+"""Maximum number of resource files to search for in each folder.
+
+A folder of models can have thousands of files, and one reference to the folder suffices for a finding.
+"""
 _DOCUMENTS = (".md", ".rst", ".txt", ".sh", ".bash")
 _TEXTS_WITH_COMMANDS = (*_DOCUMENTS, ".py", ".yaml", ".yml")
-"""Suffixes of texts that may contain ``ros2 run`` commands."""
+"""Suffixes of files whose text is searched for ``ros2 run`` commands."""
 
 _Texts = Sequence[tuple[str, bytes]]
-"""Files of a package that can refer to resources: paths in the tree and contents."""
+"""Path and contents of each file of a package whose text may refer to resources."""
 
 
 def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, ParsedScript], script: BuildScript) -> BuildScript:
-    """Return a script with facts of related files: plugin descriptions, scripts, resources.
+    """Return a build script with its ``files`` filled in: plugin descriptions, programs, and resources that are not installed.
 
     ``commands`` are the parsed CMake files of the package, by path relative to the package.
     """
@@ -80,10 +83,10 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
 def _inputs(
     scripts: Mapping[str, ParsedScript], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]
 ) -> Iterator[str]:
-    """Yield the files and folders of a package that arguments of its CMake commands name, except those of install().
+    """Yield the files and folders of a package that are arguments of its CMake commands other than install().
 
-    ``uninstalled`` has the resource files that are not installed, by folder, ``programs`` the paths of programs. A folder in
-    the result ends with a slash.
+    ``uninstalled`` maps each folder to its resource files that are not installed. ``programs`` has paths of programs. Only these
+    folders and files are yielded; a folder ends with a slash.
     """
     if not uninstalled and not programs:
         return
@@ -114,10 +117,10 @@ _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 
 
 def _read_in_sources(package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts) -> Iterator[str]:
-    """Yield the ``uninstalled`` folders that code probably reads from the source tree, because a text has their source path.
+    """Yield the ``uninstalled`` folders that code probably reads from the source tree, because a file contains their source path.
 
     Examples of the path are ``/home/me/src/robot/maps/hall`` and ``"src", "robot", "maps"``. A path with slashes in a file
-    of the folder itself does not count: xacro writes the path of its input into the generated model.
+    of the folder itself does not count, because xacro writes the path of its input into the generated model.
     """
     if not uninstalled:
         return
@@ -139,14 +142,14 @@ _BELOW_SOURCES = re.compile(rb"[\"']src[\"']\s*,\s*[\"'](?:[\w.-]+[\"']\s*,\s*[\
 
 
 def _is_below_sources(data: bytes, start: int) -> bool:
-    """Return whether the path component that starts at ``start`` follows a quoted ``src``: ``"src", "robot", "maps"``."""
+    """Return whether the path component that starts at ``start`` follows a quoted ``src``, as in ``"src", "robot", "maps"``."""
     return _BELOW_SOURCES.search(data, max(start - 200, 0), start) is not None
 
 
 def _may_be_read(path: str, subdirectories: Sequence[str]) -> bool:
-    """Return whether a CMake file can be part of the build.
+    """Return whether a CMake file can be part of the build of its package.
 
-    A CMakeLists.txt in a subfolder can be part only if an add_subdirectory() may name the folder.
+    A CMakeLists.txt in a subfolder can be part of the build only if an add_subdirectory() may name the subfolder.
     """
     folder, _, name = path.rpartition("/")
     last_folder = folder.rpartition("/")[2]
@@ -156,7 +159,10 @@ def _may_be_read(path: str, subdirectories: Sequence[str]) -> bool:
 def _referenced_resources(
     tree: Tree, package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts
 ) -> Iterator[tuple[str, Span]]:
-    """Yield each resource that is not installed and to which a text refers, with the position of the first reference."""
+    """Yield each resource file that is not installed but is looked up, with the position of the first look-up.
+
+    The look-ups are searched in the files ``referring``.
+    """
     remaining: dict[str, tuple[bytes, bytes]] = {}
     for file in (file for files in uninstalled.values() for file in files[:_MOST_RESOURCES]):
         folder, _, name = to_bytes(file).rpartition(b"/")
@@ -180,13 +186,13 @@ def _referenced_resources(
 
 _WORKING_FOLDER = re.compile(rb"\b(?:current_path|getcwd|cwd)\s*\(")
 _BEFORE = re.compile(rb"[\"']([\w.-]+)[\"']\s*,\s*[\"']\Z")
-"""A quoted path component before another component."""
+"""Matches a quoted path component before another component: ``"maps", `` in ``"maps", "hall.yaml"``."""
 
 
 def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> bool:
-    """Return whether ``match``, a reference to a resource, may be a look-up in the install prefix.
+    """Return whether ``match``, a reference to a resource file, may be a look-up in the install prefix.
 
-    False for a reference in a comment, in the working directory, in the source tree or in another folder.
+    The result is False for a reference in a comment, in the working directory, in the source tree or in another folder.
     """
     if _is_comment_line(path, data, match.start(1)):
         return False
@@ -200,10 +206,10 @@ def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> 
 
 
 def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, files: list[ScriptFile]) -> list[ScriptFile]:
-    """Return the scripts that are not installed, each with the ``ros2 run`` command in a text of the package that starts it.
+    """Return ``files`` with the position of a ``ros2 run`` command for each program that is not installed.
 
-    A script is one of ``files`` in a CMake package. In a Python package it may also be a module, because entry points make
-    programs of modules.
+    The command must be in a file of the package, e.g. its README.md. In a Python package, modules that no entry point names are
+    added to the result if a command starts them.
     """
     if script.of_cmake:
         installed = script.products.installed
@@ -230,7 +236,7 @@ def _with_runs(tree: Tree, package: DiscoveredPackage, script: BuildScript, file
 
 
 def _program_names(program: str) -> tuple[str, str]:
-    """Return the names by which a program may be started: with and without suffix."""
+    """Return the names by which a program may be started: the file name with and without the suffix ``.py``."""
     name = program.rpartition("/")[2]
     return name, name.removesuffix(".py")
 
@@ -238,8 +244,8 @@ def _program_names(program: str) -> tuple[str, str]:
 def _run_places(tree: Tree, package: DiscoveredPackage, programs: Sequence[str], endings: tuple[str, ...]) -> dict[str, Span]:
     """Return the position of a ``ros2 run`` command for each program that has one, by path of the program.
 
-    The texts of the package with one of the ``endings``, and each README.md in a folder above, are searched. The suffix
-    of the program is optional because install() can rename a program.
+    The command is searched in the files of the package with one of the ``endings``, and in the README.md of each folder above
+    the package. The command may omit the suffix ``.py``, because install() can rename a program.
     """
     names = {program.rpartition("/")[2]: program for program in programs}
     names = {**{name.removesuffix(".py"): program for name, program in names.items()}, **names}
@@ -255,7 +261,7 @@ def _run_places(tree: Tree, package: DiscoveredPackage, programs: Sequence[str],
 
 
 def _is_comment_line(file: str, data: bytes, start: int) -> bool:
-    """Return whether the line at the offset ``start`` begins with a comment sign."""
+    """Return whether the line that contains the offset ``start`` begins with a comment sign."""
     mark = b"#" if file.endswith((".py", ".yaml", ".yml")) else b"//"
     return data[data.rfind(b"\n", 0, start) + 1 : start].lstrip().startswith(mark)
 
@@ -265,9 +271,9 @@ def _is_picture(file: str) -> bool:
 
 
 def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
-    """Yield the files that may be programs, judged by the suffix (``.py``, ``.sh`` or none) and by the folder.
+    """Yield the files that may be programs: the suffix is ``.py``, ``.sh`` or missing, and the folder is one for programs.
 
-    The folder is one of ``folders``, which have other programs, or has a name that is usual for scripts.
+    A folder for programs is one of ``folders`` or has a usual name: ``scripts``, ``nodes``, ``bin``.
     """
     for file in files:
         if file.endswith((".py", ".sh")) or file.rfind(".") < file.rfind("/"):
@@ -277,7 +283,7 @@ def _programs(files: Sequence[str], folders: Container[str]) -> Iterator[str]:
 
 
 def _is_helper(file: ScriptFile, texts: Mapping[str, Text]) -> bool:
-    """Return whether another script in the folder imports ``file``, a Python script without an interpreter line."""
+    """Return whether ``file`` is a Python script without an interpreter line that another script in its folder imports."""
     if file.shebang or not (file.main and file.path.endswith(".py")):
         return False
     folder, _, name = file.path.removesuffix(".py").rpartition("/")
@@ -294,14 +300,14 @@ def _script_file(path: str, text: Text, executable: bool) -> ScriptFile:
 
 
 def text_in(tree: Tree, package: DiscoveredPackage, file: str) -> Text | None:
-    """Return the text of a file of a package, None if it is missing or unreadable."""
+    """Return the text of a file of a package, None if the file is missing or unreadable."""
     return text_of(tree, join(package.path, file)) if file in package.files else None
 
 
 class Executables(Set[str]):
-    """The paths, relative to a package, of files with the executable bit; supports ``in`` only.
+    """The paths, relative to a package, of files with the executable bit.
 
-    A path may lead out of the package (``../tools/run``). Each look-up reads the file system.
+    ``path in executables`` reads the file system, and accepts paths outside the package (``../tools/run``).
     """
 
     def __init__(self, tree: Tree, package: DiscoveredPackage) -> None:

@@ -1,4 +1,4 @@
-"""Resources of a package: files looked up at run time, such as parameters, models and maps."""
+"""Resource files of a package, which are looked up at run time: parameters, models, maps and so on."""
 
 from __future__ import annotations
 
@@ -27,11 +27,10 @@ _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
 
 
 def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:
-    """Return the folders with resources that contain no installed file, each with its resources.
+    """Return the outermost resource folders without any installed file, each with its resource files.
 
-    Of nested folders without installed files, only the outermost is returned.
-
-    ``files`` are the files of the package, ``sources`` the installed files; both are relative to the package.
+    A resource folder has a usual name such as ``config``, ``urdf`` or ``maps``. ``files`` are the files of the package,
+    ``sources`` its installed files. All paths are relative to the package.
     """
     # Few folders have many files, so each folder is examined once.
     source_folders = {parent(source) for source in sources}
@@ -59,15 +58,15 @@ _MAY_NAME = (
 
 
 def may_name(file: str) -> bool:
-    """Return whether a file is of a type that may look up resources: a program, a launch file, a model, parameters."""
+    """Return whether a file is of a type that may look up resource files: a program, a launch file, a model, parameters."""
     name = file.rpartition("/")[2]
     return file.endswith(_MAY_NAME) and name not in ("package.xml", "setup.py") and not is_auxiliary(file)
 
 
 def pattern_of(file: str) -> re.Pattern[bytes]:
-    """Return a pattern that finds a look-up of the file: ``config/a`` or ``"config", "a"``.
+    """Return a pattern that finds a look-up of a resource file by folder and name: ``config/a`` or ``"config", "a"``.
 
-    ``/home/me/config/a``, a path with more folders in front, does not match because it needs no installation.
+    The pattern does not match ``/home/me/config/a``: a path with more folders in front needs no installation.
     """
     folder, _, name = file.rpartition("/")
     last_folder = folder.rpartition("/")[2]

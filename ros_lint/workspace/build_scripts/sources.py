@@ -1,4 +1,4 @@
-"""The input for the evaluation of CMake scripts: files of a package, and files outside of it that a script names."""
+"""The input for the evaluation of CMake scripts: the files of a package, and files outside of it that its scripts name."""
 
 from __future__ import annotations
 
@@ -15,27 +15,30 @@ from ros_lint.workspace.build_scripts.files import Executables, text_in
 from ros_lint.workspace.discovery.discover import SKIPPED_FOLDERS, DiscoveredPackage
 
 _MOST_ENTRIES: Final = 10_000
-"""Maximum number of entries below a folder outside the package.
+"""Maximum number of files and folders below a folder outside the package; a larger folder counts as empty.
 
-Scripts rarely install more, but such a folder may be anything.
+Scripts rarely install more, but ``install(DIRECTORY ../..)`` may name a huge folder.
 """
 
 
 class Parts(NamedTuple):
-    """A package, with its CMake files and dependencies, from which its scripts are evaluated."""
+    """A package with its parsed CMake files and its declared dependencies: the input for the evaluation of its build script."""
 
     package: DiscoveredPackage
     commands: Mapping[str, ParsedScript]
-    """CMake files by path relative to the package."""
+    """Parsed CMake files, by path relative to the package."""
     depends: Mapping[str, tuple[str, ...]]
-    """Declared names by the letter of their dependency kind, a letter of :data:`ros_lint.knowledge.index.KINDS`."""
+    """Names of declared dependencies, by the letter of the tag: "b" for <build_depend>, "t" for <buildtool_depend> ...
+
+    :data:`ros_lint.knowledge.index.KINDS` has the letters.
+    """
 
 
 class Surroundings:
-    """The files that scripts of a package can read outside of the package; :class:`OutsideTree` documents the methods.
+    """The files outside of a package that its CMake scripts can read; :class:`OutsideTree` documents the methods.
 
     Targets of links that lead out of the tree are not visible. For a package behind a link, no file outside
-    of it is visible, because ``..`` then depends on the path.
+    of it is visible, because the folder ``..`` then depends on the path.
     """
 
     def __init__(self, tree: Tree) -> None:
@@ -46,7 +49,7 @@ class Surroundings:
         self._scripts: dict[str, ParsedScript | None] = {}
 
     def of(self, package: str) -> OutsideTree:
-        """Return the outside files that the scripts of ``package``, the path of a package, can read."""
+        """Return the files outside of a package that its scripts can read. ``package`` is the path of the package."""
         plain = not package or self._tree.identity(package) == join(self._base, package)
         return OutsideTree(self.kind, self.below, self.script) if plain else OutsideTree()
 
@@ -70,7 +73,7 @@ class Surroundings:
         return self._scripts[path]
 
     def _entries_of(self, folder: str) -> Mapping[str, Entry]:
-        """Return the entries of a folder by name; empty if it is unreadable or not part of the tree."""
+        """Return the entries of a folder by name; {} if the folder is unreadable or outside the tree."""
         if folder not in self._entries:
             self._entries[folder] = {}
             if SKIPPED_FOLDERS.isdisjoint(folder.split("/")) and is_below(self._tree.identity(folder), self._base):
@@ -79,7 +82,7 @@ class Surroundings:
         return self._entries[folder]
 
     def _gathered(self, folder: str) -> list[str]:
-        """Return the files below a folder; empty if the folder has too many entries.
+        """Return the files below a folder; [] if the folder has more than ``_MOST_ENTRIES`` entries.
 
         Files behind links to folders are left out, because CMake neither copies nor globs them.
         """
@@ -98,7 +101,7 @@ class Surroundings:
 
 
 def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
-    """Return the inputs for the scripts of a package; ``surroundings`` is shared by all packages of the tree."""
+    """Return the inputs for the evaluation of the scripts of a package. All packages share one ``surroundings``."""
     package, depends = parts.package, parts.depends
     build_depends = tuple(dict.fromkeys((*depends.get("b", ()), *depends.get("t", ()))))
     version = package.manifest.version if package.manifest else ""
@@ -123,7 +126,7 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
 
 
 class _Scripts(Mapping[str, ParsedScript]):
-    """The CMake files of a package. Files without a CMake name are parsed when they are requested."""
+    """The parsed CMake files of a package, by path. A file with another name, e.g. ``flags.txt``, is parsed on request."""
 
     def __init__(self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, ParsedScript]) -> None:
         self._tree = tree
@@ -149,7 +152,10 @@ class _Scripts(Mapping[str, ParsedScript]):
 
 
 def _list_unlisted(package: DiscoveredPackage, surroundings: Surroundings, folder: str) -> list[str]:
-    """Return the files below a skipped folder of a package; empty if not all are visible."""
+    """Return the files below a subfolder that discovery skipped, relative to the package.
+
+    The result is [] if the subfolder is a link or cannot be read completely.
+    """
     if any(skipped.path == folder and skipped.link for skipped in package.unvisited):
         return []
     return [strip_folder(package.path, file) for file in surroundings.below(join(package.path, folder))]

@@ -1,7 +1,8 @@
-"""Cache the facts of files. Facts depend on the contents of the file and on the code of ros-lint, and on nothing else.
+"""Cache the facts of files. Facts are the data that collectors extract from the contents of one file.
 
-A file is assumed to be unchanged if its :class:`~ros_lint.base.tree.Stamp` is unchanged and settled.
-Otherwise the file is read, and its digest decides. So facts are found again after ``git checkout`` or in a new clone.
+A file is assumed to be unchanged if its :class:`~ros_lint.base.tree.Stamp` (times, size,
+inode) is unchanged and settled: each later change would result in another stamp. Otherwise the file is read, and the digest of its contents decides. So the facts are found again
+after ``git checkout`` or in a new clone.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class CachedFacts(NamedTuple):
-    """The facts of a file, and the state of the file when it was read."""
+    """The facts of a file, and its state when it was read."""
 
     path: str
     stamp: Stamp
@@ -38,7 +39,7 @@ _Segment = tuple[CachedFacts, ...]
 
 
 class FactCache:
-    """The cached facts of the files of a workspace. ``folders`` are the folders that links may lead into.
+    """The cached facts of the files of a workspace. ``folders`` are folders outside the workspace that links may lead into.
 
     The facts are stored in segments, so that a run after a small change encodes little. A new segment absorbs older
     segments that are not much larger, so the number of segments grows with the logarithm of the number of files.
@@ -54,10 +55,10 @@ class FactCache:
         self._start = 0
 
     def fetch(self, tree: Tree, disk: Tree, paths: Sequence[str]) -> dict[str, ReadFile]:
-        """Return the cached facts of files that have not changed.
+        """Return the cached facts of those files among ``paths`` that have not changed.
 
-        Stamps are read from ``tree``. If the stamp of a file may be the same after a change, its contents are
-        read from ``disk`` and compared.
+        The stamps (times, size, inode) of files are read from ``tree``. If an equal stamp does not prove that a file is unchanged, its
+        contents are read from ``disk`` and compared.
         """
         if not self._file:
             return {}
@@ -84,7 +85,7 @@ class FactCache:
         return True
 
     def store(self, disk: Tree, fresh: Mapping[str, ReadFile]) -> None:
-        """Store the facts of files that were read now. Files that could not be read are left out."""
+        """Store the facts of files that were read in this run. Files that could not be read are left out."""
         if not self._file:
             return
         new = dict(self._renewed)
@@ -107,7 +108,7 @@ class FactCache:
         )
 
     def _absorbed(self, size: int) -> Iterator[str]:
-        """Yield the names of the segments to merge with a new one of ``size`` files, the newest first."""
+        """Yield the names of the segments to merge with a new segment of ``size`` files, the newest first."""
         superseded = sum(map(len, self._segments.values())) - len(self._cached)
         for name in reversed(self._segments):
             amount = len(self._segments[name])
@@ -132,7 +133,7 @@ def _codec() -> Codec[_Segment]:
 
 @cache
 def _state() -> str:
-    """Return a digest of everything that determines the facts of a file, except for the file itself."""
+    """Return a digest of the code of ros-lint that determines the facts of a file."""
     rooms = [os.path.join(SOURCES, room) for room in ("base", "facts", "collectors", os.path.join("workspace", "cache"))]
     modules = [os.path.join(SOURCES, "workspace", name) for name in ("collect.py", "collected.py")]
     return state_of([*(path for room in rooms for path in files_below(room)), *modules], _codec().schema)

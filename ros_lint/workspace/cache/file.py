@@ -1,8 +1,8 @@
-"""The cache file of a workspace: the results of earlier runs, and the reasons why results are not used.
+"""The cache file of a workspace with the results of earlier runs.
 
 The file is not used if it is damaged, if it is a link or has further links, or if another user can write the file or
-its folder. Records are decoded by :mod:`ros_lint.base.columns`, which creates only facts and reports. So a file can
-make a run slow, but it cannot run code.
+its folder. Records are decoded by :mod:`ros_lint.base.columns`, which creates only facts and reports. So a manipulated file
+can make a run slow, but it cannot run code.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ SOURCES = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file
 class CacheFile:
     """The cached results of a workspace. With an empty ``folder``, nothing is cached.
 
-    ``notes`` has the reasons why cached results were not used or not written, for the user.
+    ``notes`` has the reasons why cached results were not used or not written, to be shown to the user.
     """
 
     def __init__(self, folder: str, workspace: str) -> None:
@@ -40,7 +40,7 @@ class CacheFile:
         self._notes: dict[str, None] = {}
 
     def __bool__(self) -> bool:
-        """Return whether results are cached at all."""
+        """Return whether results are cached."""
         return bool(self._path)
 
     @property
@@ -49,7 +49,7 @@ class CacheFile:
         return tuple(self._notes)
 
     def read(self, wanted: Callable[[str], bool], codec: Codec[T]) -> dict[str, T]:
-        """Return the decoded records with the wanted names, oldest first; {} if the file cannot be used."""
+        """Return the decoded records whose names are ``wanted``, the oldest first; {} if the file cannot be used."""
         if not os.path.lexists(self._path):
             return {}
         try:
@@ -62,7 +62,10 @@ class CacheFile:
             return {}
 
     def write(self, records: Mapping[str, T], codec: Codec[T], obsolete: Callable[[Sequence[str]], Collection[str]]) -> None:
-        """Add or replace records. ``obsolete`` gets the names in the file and returns those of the records to remove."""
+        """Add or replace records of the cache file.
+
+        ``obsolete`` is called with the names of the records in the file, and returns the names of the records to remove.
+        """
         if not self._path:
             return
         try:
@@ -96,18 +99,18 @@ class CacheFile:
 
 
 NO_CACHE = CacheFile("", "")
-"""Stores nothing."""
+"""A cache that stores nothing."""
 
 
 def digest(text: str) -> str:
-    """Return a short digest of a text."""
+    """Return the SHA-256 digest of a text, shortened to 24 hexadecimal digits."""
     import hashlib  # noqa: PLC0415
 
     return hashlib.sha256(to_bytes(text)).hexdigest()[:24]
 
 
 def state_of(paths: Iterable[str], schema: str) -> str:
-    """Return a digest of the Python interpreter, the versions of some files, and the schema of a codec."""
+    """Return a digest of the version of Python, the time stamps and sizes of some files, and the schema of a codec."""
     stamps = []
     for path in sorted(paths):
         try:

@@ -1,4 +1,4 @@
-"""The cache folder: where it is, which workspaces it has, and which files are removed from it."""
+"""The user's cache folder of ros-lint: where it is, which workspaces have a file in it, and which files are removed."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from ros_lint.base.text import from_bytes
 from ros_lint.workspace.cache import layout
 
 SUFFIX = ".cache"
-"""Suffix of the file of a workspace."""
+"""Suffix of the cache file of a workspace."""
 
 WORKSPACE = "workspace"
-"""Name of the record with the path of the workspace."""
+"""Name of the record, in a cache file, with the path of the workspace."""
 
 MOST_BYTES = 1 << 30
-"""Maximum size of all files in bytes. If they are larger, the files that were used least recently are removed."""
+"""Maximum size of all cache files in bytes. If it is exceeded, the least recently used files are removed."""
 
 _DAY = 86400.0
 """Seconds of a day."""
 
 _MOST_DAYS = 90
-"""Number of days after which an unused file is removed."""
+"""Number of days without use after which a cache file is removed."""
 
 _ABANDONED = 3600.0
-"""Seconds after which a temporary file is removed, because the process that wrote it has ended."""
+"""Age in seconds at which a temporary file is removed, because the process that wrote it has ended."""
 
 
 class CachedWorkspace(NamedTuple):
-    """The file of a workspace in the cache folder."""
+    """The cache file of a workspace."""
 
     file: str
     """Path of the file."""
@@ -56,7 +56,7 @@ def folder(environment: Mapping[str, str]) -> str:
 
 
 def cached_workspaces(place: str) -> list[CachedWorkspace]:
-    """Return the files in a cache folder, the most recently used first; [] if the folder does not exist.
+    """Return the cache files in the folder ``place``, the most recently used first; [] if the folder does not exist.
 
     Raises OSError for a folder that cannot be read.
     """
@@ -67,7 +67,7 @@ def cached_workspaces(place: str) -> list[CachedWorkspace]:
 
 
 def remove(place: str, unwanted: Callable[[CachedWorkspace], bool]) -> list[CachedWorkspace]:
-    """Remove unwanted files from a cache folder, and return them. Abandoned temporary files are removed, too.
+    """Remove the unwanted cache files of a folder, and return them. Abandoned temporary files are removed, too.
 
     Raises OSError for a file that cannot be removed.
     """
@@ -79,17 +79,17 @@ def remove(place: str, unwanted: Callable[[CachedWorkspace], bool]) -> list[Cach
 
 
 def note_use(path: str) -> None:
-    """Note that a file is used now, unless that was noted within a day."""
+    """Set the modification time of a cache file to now, unless it is less than a day old."""
     with suppress(OSError):
         if time.time() - os.stat(path).st_mtime > _DAY:
             os.utime(path)
 
 
 def tidy(place: str, written: str, *, with_gone_workspaces: bool) -> None:
-    """Remove files that are too old and, until the folder is small enough, files that were used least recently.
+    """Remove old cache files from a folder, and the least recently used ones until the folder is small enough.
 
-    ``written`` is a file that is kept, because it was just written. ``with_gone_workspaces`` also removes the files of
-    workspaces that do not exist any more, for which all files are read.
+    ``written`` is a file that is kept, because it was just written. ``with_gone_workspaces`` also removes the cache files of
+    workspaces that do not exist any more; this is slow, because it reads all cache files.
     """
     with suppress(OSError):
         if with_gone_workspaces:
@@ -113,7 +113,10 @@ def _remove_abandoned(place: str) -> None:
 
 
 def _files(place: str, suffix: str) -> Iterator[tuple[str, os.stat_result]]:
-    """Yield the path and the state of each file with a suffix in a folder. Links are not followed. Raises OSError."""
+    """Yield the path and the state of each file in a folder whose name ends with ``suffix``. Links are not followed.
+
+    Raises OSError for a folder that cannot be read.
+    """
     try:
         entries = os.scandir(place)
     except FileNotFoundError:
@@ -126,7 +129,7 @@ def _files(place: str, suffix: str) -> Iterator[tuple[str, os.stat_result]]:
 
 
 def _workspace_of(path: str) -> str:
-    """Return the path of the workspace of a file, "" if the file cannot be read."""
+    """Return the path of the workspace to which a cache file belongs, "" if the file cannot be read."""
     try:
         return from_bytes(layout.read(path, lambda name: name == WORKSPACE)[WORKSPACE])
     except (OSError, layout.DamagedError, KeyError):

@@ -1,6 +1,6 @@
 """The layout of a cache file: named records of bytes, each with a checksum.
 
-A file is replaced as a whole, so that a process that ends at any time leaves the old file or the new one.
+A cache file is replaced as a whole. A process that is killed leaves either the old file or the complete new file.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from collections.abc import Callable, Mapping
 from ros_lint.base import files
 
 TEMPORARY = ".tmp"
-"""Suffix of a file that is being written."""
+"""Suffix of a temporary file that is being written."""
 
 MOST_BYTES = 256 << 20
-"""Maximum size of a file in bytes. The file of a workspace with 500 packages has 2 MB."""
+"""Maximum size of a cache file in bytes. The file of a workspace with 500 packages has 2 MB."""
 
 _MAGIC = b"ros-lint cache 1"
-"""Begin of each file; the number changes with the layout."""
+"""First bytes of each cache file; the number changes with the layout."""
 
 
 class DamagedError(ValueError):
@@ -27,7 +27,7 @@ class DamagedError(ValueError):
 
 
 def read(path: str, wanted: Callable[[str], bool]) -> dict[str, bytes]:
-    """Return those records of a file that have wanted names, in the order of the file.
+    """Return the records of a cache file whose names are ``wanted``, in the order of the file.
 
     Raises DamagedError, and OSError for a file that is missing, not a regular file, linked, or writable by another user.
     """
@@ -35,7 +35,10 @@ def read(path: str, wanted: Callable[[str], bool]) -> dict[str, bytes]:
 
 
 def replace(path: str, records: Mapping[str, bytes]) -> None:
-    """Write a file with these records, or raise OSError and leave the file as it was. Names are words of ASCII."""
+    """Write ``records`` to a cache file in place of its contents. Names of records are ASCII words.
+
+    Raises OSError, and then leaves the file unchanged.
+    """
     contents = _pack(records)
     if len(contents) > MOST_BYTES:
         raise files.too_large(len(contents), MOST_BYTES, path)
@@ -51,7 +54,9 @@ def replace(path: str, records: Mapping[str, bytes]) -> None:
 
 
 def _pack(records: Mapping[str, bytes]) -> bytes:
-    """Return the contents of a file: a line, the index with name, size and checksum of each record, and the records."""
+    """Return the contents of a cache file: a header line, an index and the records.
+
+    The index has the name, the size and the checksum of each record."""
     index = "".join(f"{name} {len(data)} {zlib.crc32(data):08x}\n" for name, data in records.items()).encode("ascii")
     return b"".join([b"%s %d %08x\n" % (_MAGIC, len(index), zlib.crc32(index)), index, *records.values()])
 
