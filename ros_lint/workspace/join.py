@@ -1,4 +1,7 @@
-"""Join the facts of packages: resolve their uses of other packages, and create the model that rules read."""
+"""Join the facts of packages: find their uses of other packages, and create the objects that rules read.
+
+Facts are the data that collectors extract from one file.
+"""
 
 from __future__ import annotations
 
@@ -22,11 +25,11 @@ from ros_lint.workspace.usage.resolve import Resolver, resolve
 from ros_lint.workspace.usage.unreached_modules import unreached_modules
 
 Progress = Callable[[str, int, int], None]
-"""Called with the current step, the number of finished items and the number of all items."""
+"""Called with the name of the current step, the number of finished items and the number of all items."""
 
 
 class ReadPackage(NamedTuple):
-    """A package with the facts of its files."""
+    """A package with the facts (data extracted by collectors) of its files."""
 
     discovered: DiscoveredPackage
     declared: tuple[Declared, ...]
@@ -37,7 +40,7 @@ class ReadPackage(NamedTuple):
 
     @property
     def source(self) -> PackageSource:
-        """The package as the resolution of names needs it."""
+        """The package in the form that the resolution of names to packages needs."""
         package = self.discovered
         builds_with = package.type.removeprefix("ros.")
         return PackageSource(package.name, package.path, package.files, self.script, self.facts, self.launch, builds_with)
@@ -52,7 +55,10 @@ def join_packages(
     *,
     search: bool,
 ) -> Iterator[Package]:
-    """Yield ``read_packages`` with their uses of the visible packages. With ``search``, texts are searched for names, too."""
+    """Yield ``read_packages`` with their uses of the ``visible`` packages.
+
+    ``search`` also searches the files for declared names and for modules that are never imported.
+    """
     if not read_packages:
         return
     sources = [read_package.source for read_package in visible]
@@ -111,13 +117,13 @@ def join_packages(
 
 
 def _undeclared(package: Package) -> list[Use]:
-    """Return the uses that no dependency tag of the package names."""
+    """Return the places that need another package without a dependency tag for it."""
     names = {declared.name for declared in package.declared}
     return [use for use in package.uses if names.isdisjoint(use.providers)]
 
 
 def unusable_package(manifest: Manifest) -> Package:
-    """Return the package of a manifest that colcon cannot use."""
+    """Return an empty package for a package.xml that colcon cannot use."""
     return Package(
         name=manifest.name,
         path=parent(manifest.path),

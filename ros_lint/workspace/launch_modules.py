@@ -1,7 +1,7 @@
 """Interpret Python launch files again with the modules and files that they read.
 
-Each launch file is first interpreted alone and lists its missing inputs. If something stays unresolved and the
-workspace has these inputs, the file is interpreted again with them.
+Each launch file is first interpreted alone, which gives a list of its missing inputs. If values stay unknown and the
+workspace has the missing inputs, the launch file is interpreted again with them.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ _MAX_BYTES = 1 << 18
 
 
 class LaunchPackage(NamedTuple):
-    """A package with the inputs that its launch files may read."""
+    """A package with its launch files, and the files that its launch files may read."""
 
     name: str
     path: str
     files: Collection[str]
-    """Paths relative to the package."""
+    """Paths of all files, relative to the package."""
     script: BuildScript | None
     launch: tuple[LaunchFile, ...]
 
@@ -45,9 +45,9 @@ def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage]) -> list[tuple
 
 
 def for_distro(distro: str, file: LaunchFile) -> LaunchFile:
-    """Return a launch file without references that apply only to other distributions.
+    """Return a launch file without references to packages that apply only to other distributions.
 
-    The file is unchanged if ``distro`` is not a maintained distribution.
+    The launch file is returned unchanged if ``distro`` is not a maintained distribution.
     """
     if distro not in DISTRIBUTIONS or not any(reference.distros for reference in file.references):
         return file
@@ -55,7 +55,7 @@ def for_distro(distro: str, file: LaunchFile) -> LaunchFile:
 
 
 class _InputFinder:
-    """Finds modules and installed files in the sources of the workspace."""
+    """Finds the modules that launch files import, and the sources of installed files that launch files read."""
 
     def __init__(self, tree: Tree, packages: Sequence[LaunchPackage]) -> None:
         self._tree = tree
@@ -65,7 +65,7 @@ class _InputFinder:
         self._installed: dict[str, dict[str, str]] = {}
         self._parsed_modules: dict[str, Module | None] = {}
         self._on_path: set[str] = set()
-        """Modules found in folders that a file adds to ``sys.path``: their neighbours can be imported, too."""
+        """Modules found in folders that a file adds to ``sys.path``: other modules in these folders can be imported, too."""
         for package in packages:
             self._by_name.setdefault(package.name, []).append(package)
             script = package.script
@@ -73,7 +73,7 @@ class _InputFinder:
                 self._modules.setdefault(top, []).append(package)
 
     def with_inputs(self, file: LaunchFile, package: LaunchPackage) -> LaunchFile:
-        """Return a launch file interpreted with its missing inputs, or unchanged if none is available."""
+        """Return a launch file interpreted with its missing inputs, or unchanged if no missing input is available."""
         text = self._text(file.path) if _needs_inputs(file) else None
         if text is None or not any(
             self._module(name, text) or self._installed_file(name, file, package) for name in file.missing_inputs
@@ -105,7 +105,7 @@ class _InputFinder:
         return read(path, data) if len(data) <= _MAX_BYTES else None
 
     def _parsed(self, path: str) -> Module | None:
-        """Return a module, None if it is not Python. Cached because many launch files import the same module."""
+        """Return a parsed module, None if it is not valid Python. Results are cached, as many launch files share modules."""
         if path not in self._parsed_modules:
             text = self._text(path)
             self._parsed_modules[path] = _parse_module(text) if text else None
@@ -114,7 +114,7 @@ class _InputFinder:
     # --- modules --------------------------------------------------------------------------------------------------
 
     def _module(self, name: str, importer: Text) -> str:
-        """Return the path of a module that ``importer`` imports, "" if the file is ambiguous or missing."""
+        """Return the path of a module that the file ``importer`` imports, "" if the module is ambiguous or missing."""
         package = self._package_of(importer.path)
         if package is None:
             return ""
@@ -138,7 +138,7 @@ class _InputFinder:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
     def _module_of_named_package(self, module: str, importer: Text) -> str:
-        """Return the path of a module in a package whose quoted name is in ``importer``.
+        """Return the path of a module in another package whose name is quoted in ``importer``.
 
         ``importer`` may add the folder of that package to ``sys.path``. The result is "" if no such package has the module, or
         if several have it.
@@ -173,7 +173,8 @@ class _InputFinder:
     def _neighbour(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
         """Return the source file that is installed at ``path``, a path relative to the installed folder of a launch file.
 
-        If the launch file is not installed, ``path`` is relative to its folder in the sources. "" if there is no such file.
+        If the launch file is not installed, ``path`` is relative to its folder in the sources. The result is "" if there is no
+        such file.
         """
         sources = self._installed_sources(package)
         install_path = next((place for place, source in sources.items() if source == file.path), "")
@@ -183,7 +184,7 @@ class _InputFinder:
         return source if strip_folder(package.path, source) in package.files else ""
 
     def _installed_sources(self, package: LaunchPackage) -> dict[str, str]:
-        """Return the sources of the installed files of a package, by install path."""
+        """Return the source of each installed file of a package, by install path."""
         sources = self._installed.get(package.path)
         if sources is None:
             provides = package.script.products.installs if package.script else ()
@@ -193,7 +194,7 @@ class _InputFinder:
 
 
 def _needs_inputs(file: LaunchFile) -> bool:
-    """Return whether a launch file contains something that its missing inputs may resolve."""
+    """Return whether a launch file contains unknown values that its missing inputs may determine."""
     if not file.missing_inputs or file.helper:
         return False
     if file.opaque or not HELPERS.keys().isdisjoint(file.missing_inputs):
@@ -204,7 +205,7 @@ def _needs_inputs(file: LaunchFile) -> bool:
 
 
 def _resolvable_values(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield the values that name packages, executables and parameter files."""
+    """Yield the values of an action that name packages, executables and parameter files."""
     yield from (value for value in (action.package, action.target) if value is not None)
     yield from (value for name, value in action.parameters if not name)
 

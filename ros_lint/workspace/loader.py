@@ -1,7 +1,7 @@
-"""From files to the model: discover, collect each file once, evaluate the build scripts, join.
+"""Load a workspace: find the packages, collect the facts of each file once, evaluate the build scripts, join the results.
 
-Only this module knows all steps. A loader keeps the facts of files, so that a workspace with a few changed files
-(the trial of a fix) is joined again without reading the others.
+Facts are the data that a collector extracts from one file. A loader keeps them, so that a workspace with a few changed
+files (to try out a fix) is loaded again without reading the other files.
 """
 
 from __future__ import annotations
@@ -45,7 +45,10 @@ from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
 _NO_ROLE = Role(0)
 
 _MOST_CONTEXT = 20_000
-"""Maximum number of folders outside packages that are searched for the packages of the context."""
+"""Maximum number of folders outside packages that are searched for context packages.
+
+Context packages are not checked, but the checked packages may depend on them.
+"""
 
 
 class DistroData(NamedTuple):
@@ -57,21 +60,21 @@ class DistroData(NamedTuple):
 
 
 class _Found(NamedTuple):
-    """The packages of a tree with their manifests. No other files are read."""
+    """The packages of a tree with their package.xml. No other files have been read."""
 
     roots: tuple[str, ...]
-    """The folders that are read."""
+    """The folders in which packages were searched."""
     discovery: Discovery
     packages: list[DiscoveredPackage]
-    """The packages of the discovery without excluded files and submodules that are not cloned."""
+    """The discovered packages without excluded files and without git submodules that are not cloned."""
     lists: tuple[str, ...]
-    """Files that list repositories."""
+    """Paths of files that list repositories: ``*.repos``, ``*.rosinstall``, ``.gitmodules``."""
     unread_lists: tuple[UnreadFile, ...]
     expected: ExpectedRepositories
 
     @property
     def depends_on_distro(self) -> bool:
-        """True if a condition chooses the build type of a package, so that another distribution may have other packages."""
+        """True if the build type of a package has a condition, because another distribution may then have other packages."""
         manifests = [*(package.manifest for package in self.discovery.packages), *self.discovery.rejected]
         exports = [export for manifest in manifests if manifest for export in manifest.exports]
         return any(export.tag == "build_type" and conditions.of(export) for export in exports)
@@ -83,14 +86,14 @@ class _Read(NamedTuple):
     packages: list[ReadPackage]
     evaluation: build_scripts.Evaluation
     launch: list[tuple[LaunchFile, ...]]
-    """The launch files of each package, for all distributions."""
+    """The launch files of each package. They include references that apply only to other distributions."""
 
 
 class Loader:
     """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
 
-    Paths are relative to the base of the tree. ``others`` are further distributions to check for: :meth:`load_all` reads and
-    evaluates only once everything that is independent of the distribution.
+    Paths are relative to the base folder of the tree. ``others`` are further distributions to check for. :meth:`load_all` shares
+    between all distributions the data that does not depend on the distribution.
     """
 
     def __init__(
@@ -110,7 +113,7 @@ class Loader:
     ) -> None:
         self.tree = tree
         self.pinned: dict[str, bytes] = {}
-        """Contents of files as read by :meth:`pin`."""
+        """Contents, by path, of the files that :meth:`pin` has read."""
         self._original_tree = tree
         self._roots = tuple(roots)
         self._around = tuple(context)
@@ -123,15 +126,15 @@ class Loader:
         self._named_distros: tuple[NamedDistro, ...] | None = None
 
     def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
-        """Return the workspace for the first distribution, with the contents of some files replaced.
+        """Return the workspace for the first distribution. ``changed`` has new contents of files, by path.
 
-        Without ``sources`` only manifests are read, which suffices for questions about the graph. Scripts, launch
-        files and uses are then missing, so rules must not run.
+        Without ``sources`` only package.xml files are read, which suffices for questions about the dependency graph. Build
+        scripts, launch files and uses are then missing, so rules must not run.
         """
         return next(self._load(changed or {}, sources))
 
     def load_all(self, changed: Mapping[str, bytes] | None = None) -> tuple[Workspace, ...]:
-        """Return the workspace for each distribution, with the contents of some files replaced."""
+        """Return the workspace for each distribution. ``changed`` has new contents of files, by path."""
         return tuple(self._load(changed or {}, sources=True))
 
     def _load(self, changed: Mapping[str, bytes], sources: bool) -> Iterator[Workspace]:
@@ -172,7 +175,10 @@ class Loader:
         data: DistroData,
         sources: bool,
     ) -> Workspace:
-        """Return the workspace of the read packages, with a view for each of several workspaces side by side."""
+        """Return the workspace of the packages.
+
+        If the repository contains several workspaces with packages of equal names, the result has a view for each of them.
+        """
         rejected_manifests = found.discovery.rejected
         world = _world(read_packages, rejected_manifests, data, found.expected)
         hidden = hidden_namesakes(
@@ -213,7 +219,7 @@ class Loader:
         return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
 
     def pin(self, paths: Iterable[str]) -> None:
-        """Read some files again and fix their contents for all further loads, even if they change on disk.
+        """Read some files again and fix their contents for all further loads, even if the files change on disk.
 
         A file that cannot be read is left out.
         """
@@ -224,28 +230,29 @@ class Loader:
         self._collected = dict(self._collected_with(self.pinned))
 
     def forget(self, paths: Iterable[str]) -> bool:
-        """Read files again at the next load, because they may have changed on disk.
+        """Discard the facts of some files, so that the next load reads the files again.
 
-        Returns False if one of the files is not among those that were read: its facts may be kept elsewhere.
+        Returns False if the loader had no facts of one of the files, because data of this file may then be kept elsewhere.
         """
         forgotten = [self._collected.pop(path, None) for path in paths]
         return None not in forgotten
 
     def text(self, path: str) -> Text | None:
-        """Return the text of a file, None if it cannot be read."""
+        """Return the text of a file, None if the file cannot be read."""
         return text_of(self.tree, path)
 
     def suppressions(self, changed: Mapping[str, bytes] | None = None) -> Iterator[Suppression]:
-        """Yield the suppressions in all files of the loaded packages."""
+        """Yield the suppression comments in all files of the loaded packages."""
         collected = self._collected_with(changed or {})
         for path in sorted(collected):
             yield from collected[path].suppressions
 
     def _discover(self, tree: Tree, target: TargetDistro) -> tuple[tuple[str, ...], Discovery]:
-        """Return the folders that are read (the context, or else the requested folders), and their packages.
+        """Return the folders that were searched, and the packages in them.
 
-        The context is left out if it has too many folders, or if colcon finds nothing in a requested folder from there, for
-        example because an outer folder is ignored.
+        The folders are the context, which contains the requested folders. They are only the requested folders if the context has
+        too many folders, or if colcon finds nothing in a requested folder when it starts from the context, for example because an
+        outer folder is ignored.
         """
         if self._around:
             around = discover(tree, self._around, target.context, _MOST_CONTEXT)
@@ -292,7 +299,10 @@ class Loader:
         target: TargetDistro,
         earlier: _Read | None,
     ) -> _Read:
-        """Return the packages with their facts for a distribution. ``earlier`` are the packages for another distribution."""
+        """Return the packages with their facts for a distribution.
+
+        ``earlier`` is the result for another distribution, which is reused as far as possible.
+        """
         of_package = [
             {file: collected[path] for file in package.files if (path := join(package.path, file)) in collected}
             for package in discovered
@@ -359,10 +369,7 @@ def _members(read_packages: Sequence[ReadPackage], rejected: Sequence[Manifest],
 
 
 def _declared(manifest: Manifest | None, target: TargetDistro) -> tuple[Declared, ...]:
-    """Return each dependency element whose condition is not false.
-
-    Groups, conflicts and replaces are included.
-    """
+    """Return each dependency tag of a package.xml whose condition is not false, with group, conflict and replace tags."""
     result = []
     context = target.context
     for depend in manifest.depends if manifest else ():
@@ -373,7 +380,7 @@ def _declared(manifest: Manifest | None, target: TargetDistro) -> tuple[Declared
 
 
 def _without_submodules(discovered: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
-    """Return the packages, with submodules that are not cloned added to the unvisited folders."""
+    """Return the packages, with submodules that are not cloned added to their unvisited folders."""
     result = []
     for package in discovered:
         submodules = [folder for folder in folders if folder.startswith(f"{package.path}/" if package.path else "")]
@@ -404,7 +411,7 @@ def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
 
 
 def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
-    """Yield the paths in build scripts that exist on the disk, but are not in the tree."""
+    """Yield the paths in build scripts that exist on the disk, but are not part of the commit because git does not track them."""
     for package in packages:
         for problem in package.built.problems:
             path = resolve_path(package.path, problem.subject.rstrip("/"))
@@ -419,5 +426,5 @@ def _unchecked_scripts(read_packages: Sequence[ReadPackage]) -> Iterator[UnreadF
 
 
 def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
-    """Yield the places that ros-lint does not check because of a limit or a bug of its own."""
+    """Yield the places that ros-lint does not check because of one of its limits or a bug in it."""
     yield from (UnreadFile(place.span.path, place.reason, place.span) for place in opaque if place.unchecked)

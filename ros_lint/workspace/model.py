@@ -1,4 +1,4 @@
-"""The model that rules read: the joined facts of packages. It reads no file."""
+"""The packages and the workspace as rules read them: the joined data from all files. This module reads no file."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ if TYPE_CHECKING:
 
 
 class Declared(NamedTuple):
-    """A dependency tag whose condition is not false for the target."""
+    """A dependency tag of package.xml whose condition is not false for the target distribution."""
 
     depend: Depend
     """The tag."""
     role: Role
-    """Purposes that the tag declares."""
+    """Purposes that the tag declares, e.g. ``Role.BUILD | Role.EXEC``."""
     certain: bool
-    """False if the condition reads a variable whose value is unknown."""
+    """False if the condition of the tag reads a variable whose value is unknown."""
 
     @property
     def name(self) -> str:
-        """Name of the package or rosdep key."""
+        """Name of the package or rosdep key in the tag."""
         return self.depend.name
 
     @property
@@ -57,90 +57,90 @@ class Package(NamedTuple):
     name: str
     """Name in ``package.xml``, by which other manifests, rosdep and the ament index refer to the package.
 
-    Without a name in a manifest it is the name that colcon uses.
+    Without a name in package.xml it is the name that colcon uses.
     """
     path: str
-    """Folder of the package, relative to the base; "" is the base."""
+    """Folder of the package, relative to the base folder of the run; "" is the base folder."""
     type: str
     """Type as printed by ``colcon list``: ros.ament_cmake, ros.ament_python, cmake, python ..."""
     manifest: Manifest | None
-    """The package.xml, with its problems, even if colcon cannot use it."""
+    """The parsed package.xml with the errors in it, even if colcon cannot use it; None if there is none."""
     declared: ByName[Declared]
-    """Dependency tags, without tags whose condition (REP 149) is false."""
+    """Dependency tags of package.xml, without tags whose condition (REP 149) is false."""
     groups: tuple[str, ...]
     """Dependency groups that the package is a member of."""
     group_depends: tuple[Declared, ...]
     """``<group_depend>`` tags, without tags whose condition is false."""
     colcon_depends: tuple[ColconDepend, ...]
-    """Dependencies from ``colcon.pkg``, ``colcon.meta`` or a build script without a manifest."""
+    """Dependencies from ``colcon.pkg``, ``colcon.meta`` or, for a package without package.xml, the build script."""
     files: tuple[str, ...]
-    """Files below the folder, sorted and relative to it, without nested packages and skipped folders."""
+    """Files below the folder of the package, sorted and relative to it, without nested packages and skipped folders."""
     unvisited_folders: tuple[str, ...]
-    """Folders, relative to the package, that were not visited: their files are unknown."""
+    """Folders, relative to the package, that were not visited. Their files are unknown."""
     nested: tuple[Manifest, ...]
-    """Manifests in subfolders, which colcon does not find."""
+    """The package.xml files in subfolders, which colcon does not find."""
     script: BuildScript | None
-    """The evaluated CMakeLists.txt or setup.py; None if there is none."""
+    """The evaluated CMakeLists.txt or setup.py; None if the package has neither."""
     launch: tuple[LaunchFile, ...]
-    """All launch files of the package: also tests, examples, helper modules and files that are not installed.
+    """All launch files of the package, also tests, examples, helper modules and files that are not installed.
 
-    ``launch.package_launch_files`` yields those that users launch.
+    ``launch.package_launch_files`` yields only the launch files that users launch.
     """
     uses: tuple[Use, ...]
     """Places in the sources, launch files and build script that need another package.
 
-    Launch files that name a package that does not exist are not among them: see ``LaunchFile.references``.
+    References of launch files to packages that do not exist are left out; see ``LaunchFile.references``.
     """
     textual_mentions: Mapping[str, Span]
-    """For declared names without a use: a place where a text of the package contains the name."""
+    """For each declared name that no code uses but that occurs in a file of the package: the place of the occurrence."""
     opaque: tuple[Opaque, ...]
     """Places that could not be evaluated. :meth:`hidden` returns the places that matter to a rule."""
     possibly_used: frozenset[str] = frozenset()
-    """Names that CMake finds and no code certainly uses, although other evidence suggests a use."""
+    """Names of packages that CMake finds and that are perhaps used: no code certainly uses them, but other evidence exists."""
     registrations: tuple[Registration, ...] = ()
-    """Classes that the C++ sources make loadable."""
+    """Component and plugin classes that the C++ sources register."""
     unwritten_classes: frozenset[str] = frozenset()
     """Classes in plugin descriptions whose name does not occur in the sources."""
     lookups: tuple[LookUp, ...] = ()
-    """Files that models, RViz configurations and parameters look up in packages."""
+    """Files of packages that models, RViz configurations and parameter files refer to, e.g. ``package://robot/meshes/arm.stl``."""
     parameter_files: tuple[ParameterFile, ...] = ()
-    """YAML files of the package."""
+    """The YAML files of the package."""
     machine_paths: tuple[MachinePath, ...] = ()
-    """Paths in files of the package that exist on one machine only."""
+    """Paths in files of the package that exist on one machine only, e.g. ``/home/me/maps``."""
     unusable_headers: tuple[str, ...] = ()
-    """Installed headers that dependents cannot compile: they include files that are not installed."""
+    """Installed headers that dependents cannot compile, because the headers include files that are not installed."""
     compiled_headers: Mapping[str, frozenset[str]] = MappingProxyType({})
-    """For each source compiled in every build: the headers of the package that it certainly includes.
+    """For each source that is compiled in every build: the headers of the package that it certainly includes.
 
     Sources of tests are left out.
     """
     loaders: tuple[PluginLoader, ...] = ()
-    """Plugin loaders in the C++ sources."""
+    """Plugin loaders (``pluginlib::ClassLoader``) in the C++ sources."""
     uninstalled_imports: tuple[UninstalledImport, ...] = ()
-    """Imports, in Python programs, of modules that are not installed next to the program."""
+    """Imports in Python programs of modules that are not installed next to the program."""
     unreached_modules: frozenset[str] = frozenset()
-    """Installed Python files with imports of other packages that no program, launch file, script or test of the package imports.
+    """Installed Python files that import other packages, but that no program, launch file, script or test of the package imports.
 
     Paths are relative to the package. Modules that other packages import are left out.
     """
     pip_requirements: frozenset[str] = frozenset()
-    """Normalized names of the distributions that requirement files and setup.py name.
+    """Normalized names of the Python distributions that requirement files and setup.py name.
 
-    Empty unless the package imports modules that no dependency tag names.
+    Empty unless the package imports a module that no dependency tag declares.
     """
     imported_types: tuple[ImportedType, ...] = ()
     """Messages, services and actions that Python files import by name."""
     interface_files: tuple[InterfaceFile, ...] = ()
-    """Interface definitions, except for IDL files."""
+    """Interface definitions (``*.msg``, ``*.srv``, ``*.action``), except for IDL files."""
     renamed: str = ""
-    """Name that colcon uses instead of ``name``, "" if both are equal.
+    """Name that colcon uses instead of ``name``, "" if both names are equal.
 
-    It comes from ``colcon.pkg``, ``colcon.meta`` or the build script of a plain package.
+    It comes from ``colcon.pkg``, ``colcon.meta`` or, for a package without package.xml, the build script.
     """
 
     @property
     def colcon_name(self) -> str:
-        """The name by which colcon orders and selects the package; colcon rejects duplicates of it."""
+        """The name by which colcon orders and selects the package. colcon rejects two packages with the same name."""
         return self.renamed or self.name
 
     @property
@@ -160,7 +160,7 @@ class Package(NamedTuple):
 
     @property
     def builds_with(self) -> str:
-        """Build type: ament_cmake, ament_python, cmake ..."""
+        """Build type without "ros.": ament_cmake, ament_python, cmake ..."""
         return self.type.removeprefix("ros.")
 
     @property
@@ -172,41 +172,42 @@ class Package(NamedTuple):
         )
 
     def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:
-        """Return the places that hide ``facet`` of the package; empty if everything is visible.
+        """Return the places that could not be evaluated and make ``facet``, a part of the package, incompletely known.
 
+        Example: ``install(FILES ${UNKNOWN} DESTINATION lib/robot)`` hides a part of Facet.EXECUTABLES.
         ``place``, a path in the install prefix, limits the result to places that may hide that path.
         """
         return tuple(opaque for opaque in self.opaque if opaque.hides & facet and (not place or opaque.reaches(place)))
 
     def declares(self, name: str) -> Role:
-        """Return all roles that the package declares for a name, including tags with an uncertain condition."""
+        """Return all roles that the package declares for a dependency, including tags with an uncertain condition."""
         role = Role(0)
         for declared in self.tags(name):
             role |= declared.role
         return role
 
     def tags(self, name: str) -> Sequence[Declared]:
-        """Return the tags that declare a name, including tags with an uncertain condition."""
+        """Return the tags that declare the dependency ``name``, including tags with an uncertain condition."""
         return self.declared.named(name)
 
     @property
     def cmake_lists(self) -> str:
-        """Path of the CMakeLists.txt in the package folder, relative to the base."""
+        """Path of the CMakeLists.txt in the package folder, relative to the base folder of the run."""
         return join(self.path, "CMakeLists.txt")
 
     def calls(self, *names: str, anywhere: bool = False) -> Iterator[Call]:
-        """Yield calls of CMake commands in the package's CMakeLists.txt, or, with ``anywhere``, in all of its CMake files."""
+        """Yield the calls of some CMake commands in the package's CMakeLists.txt; with ``anywhere``, in all its CMake files."""
         if self.script is None:
             return
         calls, path = self.script.commands.calls.named(*names), self.cmake_lists
         yield from calls if anywhere else [call for call in calls if call.path == path]
 
     def relative(self, path: str) -> str:
-        """Return a path relative to the package."""
+        """Return a path relative to the package. The argument is relative to the base folder of the run."""
         return strip_folder(self.path, path)
 
     def base_path(self, path: str) -> str:
-        """Return a path of the package relative to the base, as in spans: the inverse of :meth:`relative`."""
+        """Return a path relative to the base folder of the run, as in spans. The argument is relative to the package."""
         return join(self.path, path)
 
     def start_of(self, path: str) -> Span:
@@ -231,11 +232,11 @@ class Workspace:
         untracked: frozenset[str] = frozenset(),
     ) -> None:
         self.packages = packages
-        """The packages that colcon finds, sorted by path; two may have the same name."""
+        """The packages that colcon finds, sorted by path. Several packages may have the same name."""
         self.unusable = unusable
-        """Folders with a ``package.xml`` in which colcon finds no package, named as in the manifest.
+        """Folders with a ``package.xml`` in which colcon finds no package, e.g. because it rejects the package.xml.
 
-        For example, the manifest is rejected. Rules are not called for them, and ``packages`` and ``by_name`` lack them.
+        The name is that in the package.xml. No rule is called for these folders, and ``packages`` and ``by_name`` lack them.
         """
         self.world = world
         """Look-ups of names in the workspace, in underlays and among released packages."""
@@ -244,7 +245,7 @@ class Workspace:
         self.not_checked = not_checked
         """Files that could not be read, and data that is missing."""
         self.source_lists = source_lists
-        """Files that list repositories of the workspace: ``*.repos``, ``*.rosinstall``, ``.gitmodules``.
+        """Paths of files that list repositories of the workspace: ``*.repos``, ``*.rosinstall``, ``.gitmodules``.
 
         The repositories need not be cloned.
         """
@@ -254,31 +255,31 @@ class Workspace:
         self.named_distros = named_distros
         """The distributions that the repository builds for; () if the user chose the distribution of the run."""
         self.memo: dict[object, Any] = {}
-        """Results of the functions with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
+        """Cached results of functions decorated with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
 
     def seen_from(self, package: Package) -> Workspace:
         """Return the workspace in which the names in ``package`` are looked up. The engine calls this, so rules need not.
 
-        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. If the workspace of ``package``
-        contains a name, packages of this name in the other workspaces are left out.
+        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. The result lacks the packages of
+        the other workspaces whose names the workspace of ``package`` contains, too.
         """
         return self._views.get(workspace_of(package.path), self) if self._views else self
 
     @cached_property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
-        """The packages by the name in ``package.xml``."""
+        """The packages, by the name in ``package.xml``."""
         packages: dict[str, tuple[Package, ...]] = {}
         for package in self.packages:
             packages[package.name] = (*packages.get(package.name, ()), package)
         return packages
 
     def called(self, name: str) -> tuple[Package, ...]:
-        """Return the packages with this name in ``package.xml``; if there are none, the packages with this name in colcon."""
+        """Return the packages called ``name`` in ``package.xml``; if there are none, the packages that colcon calls ``name``."""
         named = self.by_name.get(name)
         return named or tuple([package for package in self.packages if package.colcon_name == name])
 
     def owner(self, path: str) -> Package | None:
-        """Return the innermost package, usable or not, that contains a file; None if no package contains it."""
+        """Return the innermost package, also from ``unusable``, that contains a file; None if no package contains it."""
         inside = [
             package
             for package in (*self.packages, *self.unusable)
@@ -289,33 +290,33 @@ class Workspace:
     def surely_lacks(self, owner: str, kind: ContentKind, name: str) -> bool:
         """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.
 
-        True for packages of the workspace, because they have been searched. A released package must lack ``name`` in
-        the distribution that the user chose, or in every distribution.
+        The result is True for packages of the workspace, because they have been searched. A released package must lack ``name``
+        in the distribution that the user chose, or in every distribution.
         """
         return owner in self.by_name or self.world.lacks(owner, kind, name, everywhere=not self.target.explicit)
 
     def unread(self, package: Package | None = None) -> bool:
-        """Return whether a file of the package, or of the workspace if None, could not be read.
+        """Return whether a file of ``package`` could not be read, or a file of the workspace if ``package`` is None.
 
-        Such a file may contain uses and declarations that are not known.
+        An unread file may contain uses and declarations that are not known.
         """
         folder = f"{package.path}/" if package is not None and package.path else ""
         return any(entry.span is not None and entry.span.path.startswith(folder) for entry in self.not_checked)
 
     def is_made(self, package: Package, path: str) -> bool:
-        """Return whether git ignores a path in a package: such a path is generated or downloaded."""
+        """Return whether git ignores a path in a package. Such a file is generated or downloaded."""
         return bool(self._ignores) and gitignore.is_ignored(self._ignores, join(package.path, path))
 
     def is_untracked(self, package: Package, path: str) -> bool:
         """Return whether a path that a build script names exists, but is not part of the commit because git does not track it.
 
-        ``path`` is relative to the package. Always False outside of pre-commit hooks.
+        ``path`` is relative to the package. The result is always False outside of pre-commit hooks.
         """
         return resolve(package.path, path) in self._untracked
 
     @cached_property
     def loaded(self) -> Mapping[str, frozenset[str]]:
-        """Component classes that launch files load, by package."""
+        """Component classes that launch files load, by the name of the package that provides the class."""
         classes: dict[str, frozenset[str]] = {}
         for package in self.packages:
             for launch in package.launch:

@@ -1,4 +1,4 @@
-"""Workspaces side by side in one repository, such as ``arm_ws/src`` and ``car_ws/src``: colcon builds each of them separately."""
+"""Several workspaces in one repository, such as ``arm_ws/src`` and ``car_ws/src``. colcon builds each of them separately."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import Protocol, TypeVar
 
 _STEP = r"\d+[-_. ]|(?:chapter|day|exercise|lab|lesson|part|step|tutorial|week)[-_ ]?\d"
 _BUILT_SEPARATELY = re.compile(rf"{_STEP}|\w+_ws\Z|extra_packages\Z")
-"""Beginnings of the names of folders that are built separately. micro-ROS builds ``extra_packages`` for a microcontroller."""
+"""Matches the beginnings of the names of folders that are built separately, e.g. ``lesson_2`` and ``arm_ws``.
+
+micro-ROS builds ``extra_packages`` separately for a microcontroller.
+"""
 
 
 class _Located(Protocol):
@@ -20,10 +23,10 @@ L = TypeVar("L", bound=_Located)
 
 
 def workspace_of(path: str) -> str:
-    """Return the folder of the workspace that contains a package, by the package's path relative to the base.
+    """Return the folder of the workspace that contains a package. ``path`` is the path of the package in the repository.
 
-    It is the folder above the first ``src``, else a folder that is built separately, such as ``lesson_2`` of a course, else
-    "", the workspace in the base.
+    The workspace is the folder above the first ``src`` (``arm_ws/src/arm`` -> ``arm_ws``), else a folder that is built
+    separately, such as ``lesson_2`` of a course, else "".
     """
     top, inside, _ = f"/{path}/".partition("/src/")
     if inside:
@@ -34,9 +37,9 @@ def workspace_of(path: str) -> str:
 
 
 def hidden_namesakes(packages: Iterable[tuple[str, str]]) -> Mapping[str, frozenset[str]]:
-    """Return, for each workspace, the paths of packages in other workspaces that have the name of one of its packages.
+    """Return, for each workspace, the paths of packages in the other workspaces whose names this workspace contains, too.
 
-    ``packages`` are names and paths. A workspace without such packages is left out.
+    ``packages`` are pairs of a package name and a path. A workspace without such packages is left out.
     """
     places: dict[str, dict[str, list[str]]] = {}
     for name, path in packages:
@@ -50,7 +53,7 @@ def hidden_namesakes(packages: Iterable[tuple[str, str]]) -> Mapping[str, frozen
 
 
 def own_first(candidates: Sequence[L], path: str) -> Sequence[L]:
-    """Return the candidates in the workspace of the package at ``path``, or all candidates if there are none in it."""
+    """Return the candidates in the workspace that contains the package at ``path``, or all candidates if it has none."""
     if len(candidates) < 2:
         return candidates
     workspace = workspace_of(path)

@@ -1,4 +1,4 @@
-"""The target distribution of a run, and inputs that could not be checked."""
+"""The distribution that a run checks for, and the inputs that could not be checked."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ class TargetDistro(NamedTuple):
     distro: str
     """Name of the distribution, such as "jazzy"."""
     source: str
-    """Origin of the choice, such as ``--distro``, for messages."""
+    """Origin of the choice for messages, such as ``--distro``."""
     explicit: bool = True
-    """False if the distribution is assumed: then names of other active distributions count as existing."""
+    """False if the distribution is assumed, so that names of other active distributions count as existing."""
     others: tuple[str, ...] = ()
-    """The other distributions of a run for several. A safe fix has to hold in them, too."""
+    """The other distributions of the run. A safe fix must be correct in them, too."""
 
     @property
     def distros(self) -> tuple[str, ...]:
-        """All distributions of the run, this one first."""
+        """All distributions of the run, ``distro`` first."""
         return (self.distro, *self.others)
 
     @property
@@ -40,29 +40,32 @@ class TargetDistro(NamedTuple):
 
 
 class NamedDistro(NamedTuple):
-    """A distribution that a repository builds for, with the first place that names it."""
+    """A distribution that a repository builds for, with the place where a file names it first."""
 
     distro: str
     """Name of the distribution, such as "jazzy"."""
     path: str
-    """Path of the file, relative to the base."""
+    """Path of the file, relative to the base folder of the run."""
     line: int
     """Line of the file, from 1."""
     indexed: bool = True
-    """False if the distribution is at its end of life and has no package index."""
+    """False if ros-lint has no index of its packages, because the distribution is at its end of life."""
 
 
 class UnreadFile(NamedTuple):
-    """An input that could not be checked. ``what`` is the path of a file, or another description."""
+    """A file or other data that could not be checked."""
 
     what: str
     """Path of the file, or name of the missing data."""
     reason: str
-    """Reason, for messages."""
+    """Reason why the input could not be checked, for messages."""
     span: Span | None
     """Place of the file; None for missing data."""
 
     @classmethod
     def of(cls, path: str, error: OSError) -> UnreadFile:
-        """Return a file or folder that cannot be read. ``path`` is relative to the base, "" is the base."""
+        """Return the entry for a file or folder that cannot be read.
+
+        ``path`` is relative to the base folder of the run; "" is the base folder.
+        """
         return cls(path or ".", error.strerror or str(error), file_start(path))

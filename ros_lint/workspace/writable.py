@@ -9,9 +9,10 @@ from ros_lint.base.tree import Entry, Tree
 
 
 class Writable:
-    """The files that a fix may write: files below the requested folders, with links resolved, that have only one path.
+    """The files that a fix may write: files below the requested folders that have only one path.
 
-    ``roots`` and ``paths`` (the files of all packages) are relative to the base of the tree. A link gives a file a second path.
+    ``roots`` are the requested folders and ``paths`` the files of all packages, both relative to the base folder of the tree.
+    Links are resolved. A link gives a file a second path.
     """
 
     def __init__(self, tree: Tree, roots: Iterable[str], paths: Iterable[str]) -> None:
@@ -20,7 +21,7 @@ class Writable:
         self._names = names_of_files(tree, dict.fromkeys(paths))
 
     def refusal(self, path: str) -> str:
-        """Return why a file must not be written, "" if it may be written."""
+        """Return the reason why a fix must not write a file, "" if it may write the file."""
         identity = self._tree.identity(path)
         if not any(is_below(identity, root) for root in self._roots):
             return f"'{path}' is outside the folders to check"
@@ -29,7 +30,7 @@ class Writable:
 
 
 def names_of_files(tree: Tree, paths: Iterable[str]) -> dict[str, list[str]]:
-    """Return the ``paths`` that lead to each file, by the real path of the file; only links give a file several paths."""
+    """Return, by the real path of each file, those of the ``paths`` that lead to it. Only links give a file several paths."""
     paths_by_identity: dict[str, list[str]] = {}
     folders: dict[str, tuple[str, frozenset[str]]] = {}
     for path in paths:

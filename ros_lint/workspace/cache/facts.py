@@ -1,8 +1,8 @@
 """Cache the facts of files. Facts are the data that collectors extract from the contents of one file.
 
-A file is assumed to be unchanged if its :class:`~ros_lint.base.tree.Stamp` (times, size,
-inode) is unchanged and settled: each later change would result in another stamp. Otherwise the file is read, and the digest of its contents decides. So the facts are found again
-after ``git checkout`` or in a new clone.
+A file is assumed to be unchanged if its :class:`~ros_lint.base.tree.Stamp` (times, size, inode) is unchanged and settled.
+Settled means that each later change would result in another stamp. Otherwise the file is read, and the digest of its
+contents decides. So the facts are found again after ``git checkout`` or in a new clone.
 """
 
 from __future__ import annotations
@@ -57,8 +57,8 @@ class FactCache:
     def fetch(self, tree: Tree, disk: Tree, paths: Sequence[str]) -> dict[str, ReadFile]:
         """Return the cached facts of those files among ``paths`` that have not changed.
 
-        The stamps (times, size, inode) of files are read from ``tree``. If an equal stamp does not prove that a file is unchanged, its
-        contents are read from ``disk`` and compared.
+        The stamps (times, size, inode) of files are read from ``tree``. If an equal stamp does not prove that a file is
+        unchanged, its contents are read from ``disk`` and compared.
         """
         if not self._file:
             return {}

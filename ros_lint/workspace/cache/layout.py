@@ -56,7 +56,8 @@ def replace(path: str, records: Mapping[str, bytes]) -> None:
 def _pack(records: Mapping[str, bytes]) -> bytes:
     """Return the contents of a cache file: a header line, an index and the records.
 
-    The index has the name, the size and the checksum of each record."""
+    The index has the name, the size and the checksum of each record.
+    """
     index = "".join(f"{name} {len(data)} {zlib.crc32(data):08x}\n" for name, data in records.items()).encode("ascii")
     return b"".join([b"%s %d %08x\n" % (_MAGIC, len(index), zlib.crc32(index)), index, *records.values()])
 

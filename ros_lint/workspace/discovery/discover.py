@@ -1,7 +1,7 @@
-"""Find the packages of a workspace and their files in one walk.
+"""Find the packages of a workspace and their files in one walk over the folders.
 
-The packages are those of ``colcon list``: the crawl of colcon-recursive-crawl and the identification of
-:mod:`ros_lint.workspace.discovery.identify`. Build products without a marker are skipped, too, although colcon visits them.
+The packages are those of ``colcon list``: folders are visited as by colcon-recursive-crawl, and identified by
+:mod:`ros_lint.workspace.discovery.identify`. Unlike colcon, the walk also skips build products without a COLCON_IGNORE file.
 """
 
 from __future__ import annotations
@@ -37,79 +37,80 @@ SKIPPED_FOLDERS = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__
 """Folders that never contain sources."""
 
 _RELEVANT_NAMES = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
-"""A folder that matters to colcon contains at least one of these names."""
+"""File names of which each folder that matters to colcon contains at least one."""
 
 _BOUNDARY_NAMES = frozenset((*SIGNS, "package.xml"))
-"""A subfolder that is not part of the package contains at least one of these names."""
+"""File names of which each subfolder that is not part of the surrounding package contains at least one."""
 
 _BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
-"""The folder of a package contains at least one of these names. A manifest in any other folder is data."""
+"""File names of which each package folder contains at least one. A package.xml in any other folder is data."""
 
 _CONTEXT = {**ROS_2, "DISABLE_GROUPS_WORKAROUND": "1"}
 
 
 class Skipped(NamedTuple):
-    """A folder that was not visited."""
+    """A folder that was not visited, with the reason."""
 
     path: str
     reason: str
     link: bool = False
-    """True for a link that is not followed: its target is visited elsewhere or is outside the workspace."""
+    """True for a link that is not followed, because its target is visited elsewhere or is outside the workspace."""
 
 
 class DiscoveredPackage(NamedTuple):
-    """A package of the workspace, before files other than its manifest are read."""
+    """A package of the workspace, before any of its files except package.xml is read."""
 
     path: str
-    """Folder of the package, relative to the base; "" is the base."""
+    """Folder of the package, relative to the base folder of the run; "" is the base folder."""
     name: str
     """Name in ``package.xml``, by which other manifests, rosdep and the ament index refer to the package.
 
-    Without a name in a manifest it is the name that colcon uses.
+    Without a name in package.xml it is the name that colcon uses.
     """
     colcon_name: str
     """Name printed by ``colcon list``.
 
-    ``colcon.pkg``, ``colcon.meta`` or the script of a plain package may set a name of its own.
+    It differs from ``name`` if ``colcon.pkg``, ``colcon.meta``, or the build script of a package without package.xml sets
+    another.
     """
     type: str
     """Type as printed by ``colcon list``: ros.ament_cmake, ros.ament_python, cmake, python ..."""
     manifest: Manifest | None
-    """The package.xml, with its problems, even if colcon cannot use it."""
+    """The parsed package.xml with the errors in it, even if colcon cannot use it; None if there is none."""
     colcon_depends: tuple[ColconDepend, ...]
     files: tuple[str, ...]
-    """Files below the folder, sorted and relative to it, without nested packages and skipped folders."""
+    """Files below the folder of the package, sorted and relative to it, without nested packages and skipped folders."""
     nested: tuple[Manifest, ...]
-    """Manifests of packages in subfolders, by path.
+    """The package.xml files of packages in subfolders, sorted by path.
 
-    Left out are folders with an ignore marker, folders without a build script, and folders that the CMake build of
-    this package adds.
+    Left out are folders with an ignore marker (e.g. AMENT_IGNORE), folders without a build script, and folders that the
+    CMakeLists.txt of the outer package adds with add_subdirectory().
     """
     unvisited: tuple[Skipped, ...]
-    """Folders, relative to the package, that were not visited: their files are unknown."""
+    """Folders, relative to the package, that were not visited. Their files are unknown."""
 
 
 class Discovery(NamedTuple):
-    """The result of a walk, sorted by path."""
+    """The result of a walk over the folders of a workspace. Each tuple is sorted by path."""
 
     packages: tuple[DiscoveredPackage, ...]
     rejected: tuple[Manifest, ...]
-    """Manifests that colcon cannot use, unless it identifies the folder as a package by another file."""
+    """The package.xml files that colcon cannot use, in folders that are not a package by another file either."""
     skipped: tuple[Skipped, ...]
     not_checked: tuple[UnreadFile, ...]
     repository_lists: tuple[str, ...] = ()
-    """Files outside of packages that list repositories of the workspace."""
+    """Files outside of packages that list repositories: ``*.repos``, ``*.rosinstall``, ``.gitmodules``."""
     complete: bool = True
     """False if the walk ended early because there are too many folders."""
 
 
 def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT, most: int = sys.maxsize) -> Discovery:
-    """Return the packages below ``roots`` as ``colcon list --base-paths ROOTS`` finds them in the base of the tree.
+    """Return the packages below ``roots`` as ``colcon list --base-paths ROOTS`` finds them in the base folder of the tree.
 
-    ``roots`` are folders relative to the base; "" is the base. A ``colcon.meta`` is read in the base and in each root.
-    ``context`` has the values of variables in conditions of package.xml, which may choose a build type.
+    ``roots`` are relative to the base folder; "" is the base folder itself. A ``colcon.meta`` is read in the base folder and in
+    each root. ``context`` has the values of variables in conditions of package.xml, which may choose a build type.
     At most ``most`` folders outside packages are visited.
-    Folders and files that cannot be read are added to ``not_checked``; the contents of the tree never cause an exception.
+    Folders and files that cannot be read are added to ``not_checked``; no contents of the tree cause an exception.
     """
     return _Walk(tree, context, most).run(roots)
 
@@ -164,10 +165,10 @@ class _Walk:
                         todo.append((child, target))
 
     def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
-        """Record what colcon identifies a folder as, and return whether colcon skips its subfolders.
+        """Identify a folder as colcon does, record the result, and return whether colcon skips the subfolders.
 
-        Recorded are a package, an ignored folder, or a manifest that colcon cannot use; only the last has its subfolders
-        searched.
+        The result is a package, an ignored folder, a package.xml that colcon cannot use, or nothing. Only in the last two cases
+        the subfolders are visited.
         """
         names = {name: kind for name, kind, _ in entries}
         if _RELEVANT_NAMES.isdisjoint(names) and identity not in self._settings.by_identity:
@@ -243,7 +244,7 @@ class _Walk:
 
 
 class _PackageFiles:
-    """Collects the files of one package, and the manifests and folders that are not part of it."""
+    """Collects the files of one package, the packages nested in it, and the folders that are not visited."""
 
     def __init__(self, tree: Tree, package: str, roots: tuple[str, ...]) -> None:
         self._tree = tree
@@ -257,10 +258,10 @@ class _PackageFiles:
         self.not_checked: list[UnreadFile] = []
 
     def gather(self, entries: Sequence[Entry], identity: str) -> None:
-        """Collect the files below the package folder.
+        """Collect the files below the package folder, which has these ``entries`` and the real path ``identity``.
 
-        A link to a folder is followed if its target is below the package folder or the base of the tree. A target that
-        several links lead to is visited once.
+        A link to a folder is followed if its target is below the package folder or the base folder of the tree. If several
+        links have the same target, the target is visited once.
         """
         todo: list[tuple[str, Sequence[Entry], str, tuple[str, ...]]] = [("", entries, identity, ())]
         while todo:
@@ -304,7 +305,7 @@ class _PackageFiles:
         return None
 
     def _is_nested(self, child: str, names: Mapping[str, Kind]) -> bool:
-        """Return whether a folder is a package of its own, rather than a part of the build of this package."""
+        """Return whether a subfolder is a package of its own, rather than a part of the build of the outer package."""
         if names.get("package.xml") != "file" or _BUILD_SCRIPTS.isdisjoint(names):
             return False
         from ros_lint.collectors.colcon import cmake_lists as colcon_cmake  # noqa: PLC0415  (few packages have another one inside)
@@ -327,9 +328,9 @@ class _PackageFiles:
             self.not_checked.append(UnreadFile.of(path, error))
 
     def _not_followed(self, target: str, link_folders: tuple[str, ...]) -> str:
-        """Return why a link is not followed, or "".
+        """Return why a link to a folder is not followed, "" if it is followed.
 
-        ``link_folders`` are the folders that contain this link or a followed link on the path to it.
+        ``link_folders`` are the folders that contain the link, and the folders that contain followed links on the path to it.
         """
         if any(is_below(folder, target) for folder in link_folders):
             return "a link to a folder that contains it"

@@ -1,4 +1,4 @@
-"""Identify a folder as colcon does: a package with name and type, a folder to skip, or neither.
+"""Identify a folder as colcon does: as a package with name and type, as a folder to skip, or as neither.
 
 Source: the identification extensions of colcon-core, colcon-metadata, colcon-ros, colcon-cmake and
 colcon-python-setup-py, in the order of their priorities.
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Identity(NamedTuple):
-    """Name, type and dependencies of a package for colcon."""
+    """Name, type and dependencies that colcon determines for a package."""
 
     name: str
     type: str
@@ -31,7 +31,7 @@ class Identity(NamedTuple):
 
 
 class Ignored(NamedTuple):
-    """A folder that is skipped with its subfolders."""
+    """A folder that colcon skips with its subfolders, and the reason."""
 
     reason: str
 
@@ -53,7 +53,7 @@ _IGNORED_EVERYWHERE = ("COLCON_IGNORE", "_order_isolated_packages.py", "_setup_u
 _IGNORED_BY_ROS = ("CATKIN_IGNORE", "AMENT_IGNORE")
 _PREFIX_SCRIPTS = ("bash", "sh", "zsh", "ps1")
 _HOOKS = ("local_setup.dsv", "package.dsv")
-"""Files that ament and colcon install next to the manifest of a package."""
+"""Files that ament and colcon install next to the package.xml of a package."""
 SIGNS = frozenset(
     (
         *_IGNORED_EVERYWHERE,
@@ -67,13 +67,13 @@ SIGNS = frozenset(
         *(f"local_setup.{shell}" for shell in _PREFIX_SCRIPTS),
     )
 )
-"""An ignored folder or a build product contains at least one of these names."""
+"""File names of which each ignored folder or build product contains at least one."""
 
 
 def ignored_everywhere(names: Mapping[str, Kind]) -> str:
-    """Return the file name among ``names``, the entries of a folder, that makes colcon skip the folder and its subfolders, or "".
+    """Return the file name that makes colcon skip a folder and its subfolders even if the folder is a package, or "".
 
-    colcon does so even if the folder is a package.
+    ``names`` are the entries of the folder.
     """
     if "COLCON_IGNORE" in names:  # even a dangling link
         return "COLCON_IGNORE"
@@ -81,14 +81,17 @@ def ignored_everywhere(names: Mapping[str, Kind]) -> str:
 
 
 def ignored_by_ros(names: Mapping[str, Kind]) -> str:
-    """Return the file name that makes colcon-ros skip a folder and its subfolders, or ""."""
+    """Return the name of the marker file (CATKIN_IGNORE, AMENT_IGNORE) that makes colcon-ros skip a folder, or "".
+
+    ``names`` are the entries of the folder.
+    """
     return next((name for name in _IGNORED_BY_ROS if _exists(names, name)), "")
 
 
 def build_product(names: Collection[str]) -> str:
-    """Return why a folder is a build product, or "" for a source folder.
+    """Return why a folder is a build product, "" for a source folder. ``names`` are the entries of the folder.
 
-    colcon marks its products with COLCON_IGNORE. Copies and products of other tools have no such marker.
+    colcon marks its build products with COLCON_IGNORE. Copies and build products of other tools have no such marker.
     """
     if ".colcon_install_layout" in names:
         return "an install folder: it has .colcon_install_layout"
@@ -126,13 +129,13 @@ class Folder:
         self._texts: dict[str, Text | None] = {}
 
     def text(self, name: str) -> Text | None:
-        """Return the text of a file in the folder, or None if it is missing or unreadable."""
+        """Return the text of a file in the folder, None if it is missing or unreadable."""
         if name not in self._texts:
             self._texts[name] = self.read(join(self.path, name)) if self.names.get(name) == "file" else None
         return self._texts[name]
 
     def read(self, path: str) -> Text | None:
-        """Return the text of a file, or None if it cannot be read."""
+        """Return the text of a file, None if it cannot be read."""
         try:
             return read(path, self.tree.read(path))
         except OSError as error:
@@ -160,7 +163,7 @@ def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
 
 
 def identify(folder: Folder, manifest: Manifest | None, settings: MetaSettings, context: Mapping[str, str]) -> Verdict:
-    """Return how colcon identifies a folder: a package, a folder to skip, or None if it is neither.
+    """Return how colcon identifies a folder: as a package, as a folder to skip, or None if it is neither.
 
     ``context`` has the values of variables in conditions of package.xml.
     """
@@ -242,7 +245,7 @@ def _as_cmake(folder: Folder, name: str) -> Identity | None:
 
 
 def _cmake_files(folder: Folder) -> Iterator[Text]:
-    """Yield each CMake file below the folder, as colcon-cmake reads them: nested packages and ignored folders included."""
+    """Yield each CMake file below the folder, also in nested packages and ignored folders, as colcon-cmake does."""
     todo = [folder.path]
     while todo:
         path = todo.pop()
@@ -259,7 +262,10 @@ def _cmake_files(folder: Folder) -> Iterator[Text]:
 
 
 def _setup_cfg(folder: Folder) -> PythonProject | None:
-    """Return the project in setup.cfg, None if colcon cannot use it: without a name, or with a setup.py that must be run."""
+    """Return the project in setup.cfg, None if colcon cannot use the file.
+
+    colcon cannot use a setup.cfg without a name, or next to a setup.py that must be run to get the name.
+    """
     setup_py, setup_cfg = folder.text("setup.py"), folder.text("setup.cfg")
     if setup_py is None or setup_cfg is None:
         return None

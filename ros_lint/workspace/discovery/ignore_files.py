@@ -1,4 +1,4 @@
-"""The ``.gitignore`` files of a workspace and its packages."""
+"""Find and read the ``.gitignore`` files of a workspace and its packages."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ros_lint.workspace.target import UnreadFile
 
 
 class Ignores(NamedTuple):
-    """Patterns of the ``.gitignore`` files of a workspace, and the files that cannot be read."""
+    """The patterns of the ``.gitignore`` files of a workspace, and those of the files that cannot be read."""
 
     patterns: tuple[Pattern, ...]
-    """Patterns in order: later patterns override earlier ones."""
+    """Patterns in the order of git: a later pattern overrides an earlier one."""
     not_checked: tuple[UnreadFile, ...]
 
 
 def find_ignores(tree: Tree, packages: Iterable[tuple[str, Iterable[str]]]) -> Ignores:
-    """Return the patterns of the ``.gitignore`` files that apply to ``packages``, which are pairs of a folder and its files."""
+    """Return the patterns of the ``.gitignore`` files that apply to ``packages``, pairs of a folder and the files in it."""
     paths = {_NAME}
     for folder, files in packages:
         paths.update([join(folder, file) for file in files if file.rpartition("/")[2] == _NAME])

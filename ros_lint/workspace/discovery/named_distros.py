@@ -1,4 +1,4 @@
-"""The distributions that a repository builds for, as its CI configuration, container files or README name them."""
+"""Find the distributions that a repository builds for: their names are in CI configuration, container files or the README."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from ros_lint.workspace.target import NamedDistro
 
 _FOLDERS: Final = (".github/workflows", "", ".devcontainer", ".docker", "docker")
 _MOST_FILES: Final = 30
-"""Number of files to read of each folder."""
+"""Maximum number of files to read in each folder."""
 _MOST_BYTES: Final = 1 << 16
-"""Size limit of these files in bytes: larger ones are not written by hand."""
+"""Maximum size of the files in bytes. Larger files are generated, not written by hand."""
 
 _BUILD_FILE = re.compile(
     r"(?i)Dockerfile[^/]*|[^/]*\.Dockerfile|Containerfile|(?:docker-)?compose[^/]*\.ya?ml|devcontainer\.json|\.gitlab-ci\.yml"
@@ -23,19 +23,20 @@ _WORKFLOW = re.compile(r"[^/]*\.ya?ml")
 _README = re.compile(r"(?i)README(?:\.md|\.rst|\.txt)?")
 
 _PLACE = re.compile(r"\bros[:-]([a-z]+)\b|/opt/ros/([a-z]+)")
-"""An image, a Debian package or a folder: ``osrf/ros:humble-desktop``, ``ros-humble-rviz2``, ``/opt/ros/humble``."""
+"""Matches an image, a Debian package or a folder: ``osrf/ros:humble-desktop``, ``ros-humble-rviz2``, ``/opt/ros/humble``."""
 _KEY = re.compile(r"""(?i)\bros2?[-_]?(?:distro|distribution)s?["']?\s*[:=]?\s*(.*)""")
-"""A variable or a key of YAML or JSON: ``ROS_DISTRO=humble``, ``ros_distro: [humble, jazzy]``."""
+"""Matches a variable or a key of YAML or JSON: ``ROS_DISTRO=humble``, ``ros_distro: [humble, jazzy]``."""
 _ITEM = re.compile(r"\s*-\s+(.*)")
 _BADGE = re.compile(r"(?i)\bbadge\b|img\.shields\.io")
 _WORD = re.compile(r"[A-Za-z]+")
 
 
 def named_distros(tree: Tree, roots: Sequence[str], known: Mapping[str, bool]) -> tuple[NamedDistro, ...]:
-    """Return each distribution of ``known`` that the repository names, with the first place, in the order of the files.
+    """Return each distribution that the repository names, with the place of the first occurrence, in the order of the files.
 
-    The value of a name in ``known`` is whether the distribution has an index. Searched are a few folders of the base and of
-    the roots. A README counts only if no other file names a distribution.
+    ``known`` has the distributions to search for; the value is True if ros-lint has an index of the distribution's packages.
+    Searched are the base folder, the ``roots``, and a few subfolders of both, e.g. ``.github/workflows``. A README counts only if
+    no other file names a distribution.
     """
     tops = dict.fromkeys(("", *roots))
     files = [path for top in tops for folder in _FOLDERS for path in _files(tree, join(top, folder) if folder else top)]
@@ -63,7 +64,7 @@ def _matching(tree: Tree, folder: str, pattern: re.Pattern[str]) -> list[str]:
 
 
 def _lines(tree: Tree, path: str) -> list[str]:
-    """Return the lines of a file, [] if it is unreadable or large."""
+    """Return the lines of a file, [] if the file is unreadable or too large."""
     try:
         data = tree.read(path) if tree.stamp(path).size <= _MOST_BYTES else b""
     except OSError:
@@ -72,9 +73,9 @@ def _lines(tree: Tree, path: str) -> list[str]:
 
 
 def _in_build_file(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
-    """Yield the distributions that a build file names.
+    """Yield the distributions that a build file (CI configuration or container file) names.
 
-    They are in the names of container images, in the values of variables and keys, and in YAML lists below a key.
+    The names are in container images, in the values of variables and keys, and in YAML lists below a key.
     """
     in_list = False
     for number, line in enumerate(lines, 1):
@@ -91,7 +92,7 @@ def _in_build_file(path: str, lines: Sequence[str], known: Mapping[str, bool]) -
 
 
 def _in_readme(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
-    """Yield the distributions in lines with a badge."""
+    """Yield the distributions that are named in README lines with a badge."""
     for number, line in enumerate(lines, 1):
         if _BADGE.search(line):
             names = [word.lower() for word in _WORD.findall(line)]

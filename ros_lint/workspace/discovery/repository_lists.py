@@ -1,4 +1,4 @@
-"""Files that list repositories of a workspace. The repositories need not be cloned."""
+"""Files that list the repositories of a workspace, which need not be cloned: ``*.repos``, ``*.rosinstall``, ``.gitmodules``."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from ros_lint.facts.repositories import ExpectedRepositories, UnclonedRepositori
 from ros_lint.workspace.target import UnreadFile
 
 ENDINGS = (".repos", ".rosinstall", ".gitmodules")
-"""Ends of the names of these files."""
+"""Ends of the names of files that list repositories."""
 
 
 def find_lists(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[str, ...]:
-    """Return the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` files, sorted.
+    """Return the paths of the ``*.repos`` (vcstool), ``*.rosinstall`` (wstool) and ``.gitmodules`` files, sorted.
 
-    Searched are the base of the tree, the roots, the direct subfolders of both, and ``files``, all other files that
+    Searched are the base folder of the tree, the ``roots``, the direct subfolders of both, and ``files``, the other files that
     discovery has found. Folders that cannot be read count as empty.
     """
     result = {path for path in files if path.endswith(ENDINGS)}
@@ -37,7 +37,7 @@ def find_lists(tree: Tree, roots: Sequence[str], files: Iterable[str]) -> tuple[
 
 
 def unreadable_lists(tree: Tree, lists: Iterable[str]) -> Iterator[UnreadFile]:
-    """Yield the lists that cannot be read, such as a FIFO of that name."""
+    """Yield those ``lists`` of repositories that cannot be read, e.g. a FIFO called ``deps.repos``."""
     for path in lists:
         try:
             tree.read(path)
@@ -51,27 +51,27 @@ _SUBMODULE = re.compile(r"^[ \t]*path[ \t]*=[ \t]*(.+?)[ \t\r]*$", re.MULTILINE)
 
 
 def submodules(tree: Tree, lists: Iterable[str]) -> tuple[str, ...]:
-    """Return the folders of submodules that are not cloned: empty or missing."""
+    """Return the folders of git submodules that are not cloned, i.e. empty or missing, sorted."""
     of_git = [path for path in lists if path.rpartition("/")[2] == ".gitmodules"]
     return tuple(sorted(folder for path in of_git for folder in _submodules_of(tree, path) if not _has_entries(tree, folder)))
 
 
 def _submodules_of(tree: Tree, path: str) -> list[str]:
-    """Return the folders of all submodules that a ``.gitmodules`` lists."""
+    """Return the folders of all git submodules that the ``.gitmodules`` at ``path`` lists."""
     text = text_of(tree, path)
     return [join(parent(path), match[1].strip("/")) for match in _SUBMODULE.finditer(text.text if text else "")]
 
 
 _KEY = re.compile(r"[ \t]+['\"]?([\w./+-]+?)['\"]?[ \t]*:[ \t]*\Z")
-"""The folder of a repository in a file of vcstool."""
+"""Matches the line with the folder of a repository in a file of vcstool."""
 _NAME = re.compile(r"\b(?:local-name|ur[il]):[ \t]*['\"]?([^\s'\",}]+)")
-"""The folder or the URL of a repository in a file of wstool, or the URL in a file of vcstool."""
+"""Matches the folder or the URL of a repository in a file of wstool, or the URL in a file of vcstool."""
 
 
 def expected_repositories(
     tree: Tree, lists: Iterable[str], submodules: Iterable[str], packages: Iterable[tuple[str, str]]
 ) -> ExpectedRepositories:
-    """Return the repositories in the lists of a workspace, and those that are not cloned.
+    """Return the repositories that the ``lists`` of a workspace name, and those of them that are not cloned.
 
     ``submodules`` are the folders of submodules that are not cloned; ``packages`` are the names and paths of the packages.
     """
@@ -97,7 +97,7 @@ def expected_repositories(
 
 
 def _repositories(tree: Tree, path: str) -> Iterator[list[str]]:
-    """Yield the folder of each repository in a list, and its URL if that is given."""
+    """Yield, for each repository of a list, its folder and, if the list contains it, its URL."""
     text = text_of(tree, path)
     values: list[str] = []
     for line in text.text.splitlines() if text else ():
@@ -113,7 +113,7 @@ def _repositories(tree: Tree, path: str) -> Iterator[list[str]]:
 
 
 def _is_cloned(tree: Tree, path: str, folder: str) -> bool:
-    """Return whether the repository with the path ``folder`` in the list at ``path`` is cloned to a usual place."""
+    """Return whether a repository is cloned to a usual place. ``folder`` is its folder as written in the list at ``path``."""
     tops = dict.fromkeys((parent(path), join(parent(path), "src"), "", "src"))
     return any(_has_entries(tree, join(top, folder)) for top in tops)
 
