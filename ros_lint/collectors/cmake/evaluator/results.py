@@ -1,4 +1,4 @@
-"""The collected results of a run of a package's CMake scripts."""
+"""The results of a run of a package's CMake scripts."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.facts.visibility import Opaque, Problem
 
 
 class Results:
-    """The names, targets, files and exports that result from the commands of a package, in the order of the commands."""
+    """The targets, files, exports and mentioned names that the commands of a package produce, in the order of the commands."""
 
     def __init__(self) -> None:
         self.project = BuildProject()
@@ -19,45 +19,45 @@ class Results:
         self.opaques: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
         self.errors: dict[Problem, None] = {}
-        """Errors of CMake in commands whose effect is still known."""
+        """Errors of CMake in commands whose effect is known despite the error."""
         self.unset_references: dict[UnsetVariable, None] = {}
-        """References to variables that have no value where they are read."""
+        """References to variables that have no value where a command reads them."""
         self.components: list[Component] = []
         self.interfaces: dict[str, None] = {}
         self.python_packages: dict[str, None] = {}
         self.installed: list[InstalledFile] = []
-        """Installed files. A file whose source does not exist counts only if the source is generated."""
+        """Installed files. A file whose source does not exist counts only if the build generates the source."""
         self.installed_targets: list[InstalledTarget] = []
         self.exported_sets: dict[str, None] = {}
-        """Export sets whose targets certainly reach each package that calls find_package() for this package."""
+        """Names of export sets whose targets are certainly defined in each package that calls find_package() for this package."""
         self.targets: list[tuple[str, Properties, Span]] = []
-        """Executables and libraries in the order of their definition."""
+        """Executables and libraries, in the order of their definition: name, properties and place."""
         self.links: dict[str, dict[str, Span]] = {}
-        """Libraries of each target, with the place at which each is linked."""
+        """By target: the linked libraries, each with the place of the library in the link command."""
         self.headers: dict[str, dict[str, None]] = {}
-        """Packages and targets that may provide include directories, by target."""
+        """By target: the packages and targets that may provide include directories for it."""
         self.modified_targets: dict[tuple[str, str], Span] = {}
-        """Places of the first command of each name that certainly modifies a target, by target and command."""
+        """By target and command name: the place of the first command that certainly modifies the target."""
         self.undefined_targets: list[tuple[str, Span, bool]] = []
-        """Installed targets that are not defined, and whether this is certain where install() is called."""
+        """Installed targets without a definition: name, place, and whether it is certainly undefined when install() runs."""
         self.missing_files: list[tuple[str, Span, bool]] = []
-        """Named files that do not exist unless they are generated, and whether this may be harmless.
+        """Files that a command names and that exist only if the build generates them.
 
-        The path of a folder ends with a slash."""
+        Each entry is the path, the place, and whether a missing file may be harmless. The path of a folder ends with a slash."""
         self.config_extras: list[str] = []
         self.config_templates: dict[str, None] = {}
-        """Templates, relative to this package, of files that packages read when they call find_package() for it."""
+        """Templates of CMake files, relative to this package, that run in packages that call find_package() for this package."""
         self.subdirectories: dict[str, None] = {}
         """Folders below the package whose CMakeLists.txt certainly runs."""
         self.test_subdirectories: dict[str, None] = {}
-        """Folders below the package whose CMakeLists.txt runs only if tests are built."""
+        """Folders below the package whose CMakeLists.txt runs only if tests are enabled (BUILD_TESTING)."""
         self.bundled_projects: dict[str, None] = {}
-        """Other projects that the build of the package builds, such as those of FetchContent."""
+        """Names of other projects that the build of the package also builds, such as those of FetchContent."""
         self.includes_outside_package = False
-        """True if include directories are source folders outside of the package."""
+        """True if some include directory is a source folder outside of the package."""
         self.interpreted_tests: dict[str, None] = {}
-        """Files and folders that an interpreter runs as tests."""
+        """Files and folders with tests that are run by an interpreter, for example by pytest."""
         self.insertion: Span | None = None
-        """The place before ament_package(), where fixes insert install rules."""
+        """The place before ament_package() where fixes insert install rules; None if there is none."""
         self.insertion_after: Span | None = None
-        """The end of the command before ``insertion``, if only blank lines separate the two."""
+        """The end of the command before ``insertion`` if only blank lines separate it from ``insertion``, else None."""

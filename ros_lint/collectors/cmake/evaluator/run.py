@@ -1,4 +1,4 @@
-"""The state of a run of CMake scripts: evaluation of arguments, places of values, and recording of results."""
+"""The state of a run of CMake scripts, with functions that evaluate arguments, locate values and record results."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ from ros_lint.facts.sources import Mention, Purpose, Via
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 DEEPEST: Final = 60
-"""Greatest depth of nested calls. CMake allows 1,000; real packages need less than 20."""
+"""Maximum depth of nested calls. CMake allows 1,000; real packages need less than 20."""
 _MANY_ARGUMENTS: Final = 16
-"""Number of arguments of a command from which an index is faster than a search."""
+"""Number of arguments from which the arguments of a command are indexed, because an index is then faster than a search."""
 _SHORT: Final = 1024
-"""Characters of the longest value that is read without a charge."""
+"""Maximum length of a value, in characters, that is read without a charge to the budget of the run."""
 _OF_ROS: Final = frozenset({"ROS_DISTRO", *ROS_2})
 
 
 def _inside(path: str, command: Command, argument: Argument) -> Span:
-    """Return the span of an argument without its quotes."""
+    """Return the span of an argument in its file, without the quotes of the argument."""
     _, kind, start, end = argument
     quotes = kind in (QUOTED, LITERAL)
     return command.span(path, start + quotes, end - quotes)
 
 
 class Run(State):
-    """The state of an evaluation of CMake scripts: variables, the code that runs, and whether the code certainly runs."""
+    """A run of the CMake scripts of a package: variables, the call stack, and whether the current command certainly runs."""
 
     def __init__(
         self,
@@ -52,54 +52,56 @@ class Run(State):
         self.packages = FoundPackages(sources.scripts)
         self.results = Results()
         self.run_external_command = run_external_command
-        """Runs a command that neither CMake nor the package defines, given its name and arguments."""
+        """A function that runs a command that neither CMake nor the package defines, given the run, the name and arguments."""
         self.distro = distro
         self.same_distros: frozenset[str] | None = None
-        """The distributions with the same result, as far as commands have depended on it; None if none has."""
+        """The ROS distributions for which the results are equal; None if no command has depended on the distribution so far."""
         self.helpers = helpers
         self.frames: list[CallFrame] = []
-        """The files, functions and macros that are being run, outermost first."""
+        """The active files, functions and macros, outermost first: the call stack."""
         self.uncertain_conditions = 0
-        """Number of enclosing conditions that may be false."""
+        """Number of conditions around the current command that may be false."""
         self.non_default_conditions = 0
-        """Number of enclosing conditions that are false with default options."""
+        """Number of conditions around the current command that are false with default options."""
         self.testing = False
-        """True if the current command runs only if tests are enabled."""
+        """True if the current command runs only if tests are enabled (BUILD_TESTING)."""
         self.muted = 0
-        """Number of enclosing first rounds of loops, which record no results because a second round follows."""
+        """Number of loops around the current command that are in their first round.
+
+        A loop with an unknown number of rounds is run twice. Its first round records no results."""
         self.open_world = False
-        """True if code that cannot be read has run."""
+        """True if code that cannot be read has run, such as the config file of a package that is not in the workspace."""
         self.any_variable_may_be_set = False
-        """True if that code may have set any variable."""
+        """True if code that cannot be read has run and may have set any variable."""
         self.skipped_include = False
         """True if a file of include() or of a found package was not read."""
         self.may_define_targets = False
-        """True if that code may have defined targets."""
+        """True if code that cannot be read has run and may have defined targets."""
         self.settable: set[str] = set()
-        """Variables that the user may set on the command line: options and cache entries."""
+        """Names of the variables that the user may set on the command line: options and cache entries."""
         self.tested_variables: set[str] = set()
-        """Variables of the form X_FOUND or ENV{X} that a condition tests."""
+        """Names of the form X_FOUND or ENV{X} that some condition tests."""
         self.index_variables: set[str] = set()
-        """Variables whose value was read from the ament index, where any package may register it."""
+        """Names of the variables with a value from the ament index, where any package may register the value."""
         self.literal_places: dict[str, tuple[str, Command, Argument]] = {}
-        """The first place of each list element in the scripts."""
+        """The first place in the scripts of each text that is a list element, by the text."""
         self.policy_version: tuple[int, int] = (3, 0)
-        """The CMake version up to which policies have their NEW behaviour."""
+        """The version of CMake up to which policies behave as NEW."""
         self.fetched_projects: dict[str, list[str]] = {}
-        """Names of the projects of FetchContent_Declare(), taken from their addresses (such as owner/name)."""
+        """By project name in FetchContent_Declare(): the names in its download address, such as the owner and the repository."""
         self.command_names: set[str] = set()
-        """Names of the commands that have run, in lower case."""
+        """Names, in lower case, of the commands that have run."""
         self.outside_scripts: list[ParsedScript] = []
-        """Scripts outside of the package that have run."""
+        """Scripts that have run and are not in the package."""
         self.export_scopes: list[tuple[Variables, CommandPlace]] = []
-        """The certain calls of ament_export_...() in the package, each with its scope."""
+        """The calls of ament_export_...() in the package that certainly run, each with the scope of variables around it."""
         self.package_scopes: list[Variables] = []
-        """The scopes that ament_package() sees."""
+        """The scopes of variables that are visible where ament_package() runs."""
         self.component_scopes: list[Variables] = []
-        """The scope in which each of the components is registered."""
+        """By component (rclcpp_components): the scope of variables where it is registered."""
 
         self._indexed: tuple[Command, Mapping[str, Sequence[Argument]]] | None = None
-        """The long command whose arguments were indexed last, and its arguments by their text."""
+        """The command with many arguments that was indexed last, and its arguments by their text."""
 
     # --- variables
 
@@ -118,9 +120,9 @@ class Run(State):
         return self._read(result) if result else result
 
     def _read(self, value: str) -> str | None:
-        """Return the value of a variable as a script reads it, and subtract its length from the budget.
+        """Return the value of a variable as a script reads it, and charge its length to the budget of the run.
 
-        Each HOLE becomes an UNPAIRED_HOLE if values may have unpaired square brackets.
+        Each HOLE (an unknown text) becomes an UNPAIRED_HOLE if values may have unpaired square brackets.
         """
         self.budget.charge(len(value))
         if not self.has_unpaired_brackets:
@@ -129,9 +131,9 @@ class Run(State):
         return with_unpaired_holes(value)
 
     def implicit_value(self, name: str) -> str | None:
-        """Return the value of a variable that no script has set: a built-in value, HOLE if it may have any value.
+        """Return the value of a variable that no script has set: a built-in value, or HOLE if the variable may have any value.
 
-        None if it is certainly not set.
+        The result is None if the variable is certainly not set.
         """
         value = self.builtin_value(name)
         if value is not None:
@@ -173,7 +175,7 @@ class Run(State):
         return self.distro or HOLE
 
     def depend_on_distro(self, distros: frozenset[str]) -> None:
-        """Record that the effects of a command hold only in ``distros``, which contains the distribution of the run."""
+        """Record that the results of a command hold only for ``distros``, a set with the ROS distribution of the run."""
         self.same_distros = distros if self.same_distros is None else self.same_distros & distros
 
     def _use_of_ros(self, name: str) -> None:
@@ -191,7 +193,10 @@ class Run(State):
             )
 
     def _place_of(self, reference: str) -> Span:
-        """Return the place of a variable reference in the current command, that of the command if no argument contains it."""
+        """Return the place of a variable reference in the current command.
+
+        If no argument has the reference, it is the place of the command.
+        """
         frame = self.frames[-1]
         command = frame.command
         if command is None or not frame.own:
@@ -208,7 +213,7 @@ class Run(State):
         return name in self.settable or (name in CONFIGURABLE_VARIABLES and self.value_or_missing(name) is MISSING)
 
     def may_be_set(self, name: str) -> bool:
-        """Return whether a variable that is not set in the read scripts may be set by the user, or by unreadable code."""
+        """Return whether the user, or code that cannot be read, may set a variable that no script of the run has set."""
         if self.is_configurable(name):
             return True
         return self.open_world and self.value_or_missing(name) is MISSING and name not in self.path_variables
@@ -216,7 +221,7 @@ class Run(State):
     # --- arguments
 
     def arguments(self, command: Command) -> list[str]:
-        """Return the arguments of a command, evaluated and split."""
+        """Return the arguments of a command after references are replaced and unquoted arguments are split at semicolons."""
         values: list[str] = []
         for text, kind, _, _ in command.args:
             if kind == UNQUOTED:
@@ -232,7 +237,7 @@ class Run(State):
         return values
 
     def first_uncertain_argument(self, command: Command) -> int | None:
-        """Return the index of the first argument whose position is uncertain, None if there is none.
+        """Return the index of the first evaluated argument whose position is uncertain, None if all positions are certain.
 
         An unquoted unknown text may be any number of arguments. A list element that may be missing shifts later arguments.
         """
@@ -274,17 +279,17 @@ class Run(State):
     # --- files
 
     def runs_own_code(self) -> bool:
-        """Return whether the current command is in a file of the package, or in a script outside of it (OUTSIDE)."""
+        """Return whether the current command is in a file of the package, or in a workspace script outside of the package."""
         frame = self.frames[-1]
         return frame.own or (frame.procedure.provider if frame.procedure else frame.provider) == OUTSIDE
 
     def enter_file(self, frame: CallFrame) -> None:
-        """Begin to run a file: ``frame`` becomes the innermost frame."""
+        """Begin to run a file: ``frame``, the entry of the file, becomes the top of the call stack."""
         self.frames.append(frame)
         self.place_file()
 
     def place_file(self) -> None:
-        """Set CMAKE_CURRENT_LIST_FILE and the related variables for the file that is being run."""
+        """Set CMAKE_CURRENT_LIST_FILE and CMAKE_CURRENT_LIST_DIR for the innermost file of the call stack."""
         for frame in reversed(self.frames):
             if frame.procedure is None:
                 self.path_variables["CMAKE_CURRENT_LIST_FILE"] = frame.file
@@ -294,12 +299,12 @@ class Run(State):
     # --- places
 
     def place_of(self, value: str) -> Span:
-        """Return the best place for a value of the current command in the package's own files: the first of
+        """Return the best place in the package's own files for a value of the current command: the first of
 
         1. an argument whose text is the value, from the innermost call outwards
-        2. a list element whose text is the value
-        3. an argument that evaluates to the value
-        4. the name of the command
+        2. a list element, in any command, whose text is the value
+        3. an argument of the current command that evaluates to the value
+        4. the name of the current command
         """
         innermost: CallFrame | None = None
         for frame in reversed(self.frames):
@@ -322,7 +327,7 @@ class Run(State):
         return command.place(frame.path)
 
     def _arguments_with(self, text: str, command: Command) -> Iterable[Argument]:
-        """Return the arguments of a command that may have a text. Those of a long command are indexed."""
+        """Return the arguments of a command that may have the text ``text``. A long command is indexed for this."""
         if len(command.args) < _MANY_ARGUMENTS:
             return command.args
         if self._indexed is None or self._indexed[0] is not command:
@@ -341,7 +346,7 @@ class Run(State):
                     self.literal_places.setdefault(argument[0], (frame.path, frame.command, argument))
 
     def current_place(self) -> Span:
-        """Return the place of the current command in the package's own files."""
+        """Return the place of the innermost active command that is in a file of the package."""
         for frame in reversed(self.frames):
             if frame.own and frame.command is not None:
                 return frame.command.place(frame.path)
@@ -350,7 +355,7 @@ class Run(State):
     # --- findings
 
     def is_bundled(self, name: str) -> bool:
-        """Return whether the build of the package also builds the project ``name``."""
+        """Return whether the build of the package also builds the project ``name``, for example with FetchContent."""
         if not self.results.bundled_projects:
             return False
         name = folded(name)
@@ -364,7 +369,10 @@ class Run(State):
     def add_mention(
         self, name: str, via: Via, span: Span, quotation: str = "", *, optional: bool = False, purpose: Purpose = ""
     ) -> None:
-        """Record a mention of a package, or of a target or macro of a package, at a place."""
+        """Record that the package mentions another package, or a target or macro of another package, at a place.
+
+        ``via`` is the kind of the mention, such as "target". ``quotation`` is the text at the place, "" if it is ``name``.
+        """
         if not purpose and self.runs_helper_code() and (via == "cmake" or (via == "target" and span == self.current_place())):
             purpose = "helper"
         if not self.muted:
@@ -375,7 +383,7 @@ class Run(State):
     def note_test_elements(self, name: str, elements: Iterable[str]) -> None:
         """Record ``elements`` that a command adds to the list ``name`` only if tests are enabled.
 
-        Nothing is recorded if the list does not exist outside of the branch for tests.
+        Nothing is recorded if the list is empty or not set before the branch for tests.
         """
         if not self.testing:
             self.test_elements.pop(name, None)
@@ -383,13 +391,13 @@ class Run(State):
             self.test_elements[name] = self.test_elements.get(name, frozenset()).union(set(elements).difference(split(value)))
 
     def _is_test_element(self, name: str) -> bool:
-        """Return whether ``name`` is an argument of the current command only because a list was extended for tests."""
+        """Return whether ``name`` is an argument of the current command only because the branch for tests extended a list."""
         command = self.frames[-1].command
         lists = [variable for variable, elements in self.test_elements.items() if name in elements]
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def runs_helper_code(self) -> bool:
-        """Return whether the running code is in another package of the workspace, or in a script outside of the package."""
+        """Return whether the current code is in another package of the workspace, or in a workspace script outside of it."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False
@@ -399,10 +407,11 @@ class Run(State):
         return False
 
     def hide(self, facet: Facet, reason: str, span: Span | None = None, below: str = "", inside: str = "") -> None:
-        """Record that code cannot be evaluated and which facet of the package it hides.
+        """Record that some code cannot be evaluated, and which facts about the package are incomplete for this reason.
 
-        ``below`` limits what is hidden to a folder of the install prefix, ``inside`` to the build of a source folder. Code that
-        does not run with default options hides only possible uses and exports of packages.
+        ``facet`` has the kinds of these facts, such as its executables. ``reason`` is a clause for messages. ``below`` limits
+        the incomplete facts to a folder of the install prefix, ``inside`` to the build of a source folder. If the code does
+        not run with default options, only the uses and exports of packages count as incomplete.
         """
         if self.non_default_conditions:
             facet &= Facet.USES | Facet.EXPORTS
@@ -416,4 +425,4 @@ class Run(State):
 
 
 Handler = Callable[[Run, list[str]], "int | None"]
-"""A function that runs a command: it takes the evaluated arguments and returns the exit; None is NEXT."""
+"""A function that runs a CMake command. It takes the run and the evaluated arguments, and returns an Exit or None for NEXT."""

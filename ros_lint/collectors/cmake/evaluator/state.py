@@ -1,4 +1,4 @@
-"""State of a CMake run: variables in scopes, definitions and targets, with an undo log for branches."""
+"""The state of a run of CMake scripts: scopes of variables, functions and targets. Changes of a branch can be undone."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from ros_lint.collectors.cmake.released_macros import VARIABLES
 from ros_lint.collectors.cmake.syntax import Command
 
 Exit = int
-"""The exits of a piece of a script: a set of the bits below."""
+"""A set of bits: the ways in which a part of a script may end, such as NEXT | RETURN."""
 NEXT: Final = 1
-"""The next command follows."""
+"""Bit of an Exit: the part ends normally, and the next command runs."""
 BREAK: Final = 2
 CONTINUE: Final = 4
 RETURN: Final = 8
 STOP: Final = 16
-"""CMake stops with an error, such as message(FATAL_ERROR)."""
+"""Bit of an Exit: CMake stops with an error, such as message(FATAL_ERROR)."""
 BY_DEFAULT: Final = 32
-"""Together with NEXT: with default options, the next command follows."""
+"""Bit of an Exit that is set together with NEXT: with default options, the next command runs."""
 IF_TESTING: Final = 64
-"""Together with NEXT: the next command follows only if tests are enabled."""
+"""Bit of an Exit that is set together with NEXT: the next command runs only if tests are enabled (BUILD_TESTING)."""
 
 
 class Variables(dict[str, "str | None"]):
-    """The variables of one scope, by name. ``None`` is an unset variable; it hides a variable of an outer scope."""
+    """The variables of one scope, by name. The value None is an unset variable, which hides the variable of an outer scope."""
 
     __slots__ = ()
 
@@ -40,42 +40,45 @@ class BlockVariables(Variables):
 
 
 class Properties(dict[str, str]):
-    """The known properties of a target, a directory or the whole run, by name."""
+    """The known properties of a target, a directory or the whole run, by the name of the property."""
 
     __slots__ = ()
 
 
 class Procedure(NamedTuple):
-    """A defined function or macro."""
+    """A function or macro that a script defines."""
 
     name: str
     macro: bool
     parameters: tuple[str, ...]
     body: Body
     own: bool
-    """True if a file of the evaluated package defines it."""
+    """True if a file of the evaluated package has the definition."""
     path: str
-    """The path of the file that defines it, relative to the base of the run."""
+    """The path of the file with the definition, relative to the base of the run."""
     folder: str
-    """The folder of that file, as CMake names it."""
+    """The folder of the file with the definition, as the value of CMAKE_CURRENT_LIST_DIR."""
     provider: str = ""
-    """The package that defines it, "" for the evaluated package."""
+    """The name of the package that defines the function or macro, "" for the evaluated package."""
     counts: bool = True
-    """True if its body may read ARGV, ARGC, ARGV0 and so on."""
+    """True if the body may read the arguments by number: ARGV, ARGC, ARGV0 and so on."""
 
 
 class Choice(NamedTuple):
-    """Functions or macros of one name that different branches define. ``None`` among them: possibly none is defined."""
+    """Several definitions of one function or macro name, each in another branch of the script.
+
+    An entry None in ``procedures`` means that the name may be undefined.
+    """
 
     procedures: tuple[Procedure | None, ...]
     by_default: int | None
-    """The index of the procedure that is defined with default options."""
+    """The index in ``procedures`` of the definition that exists with default options, None if there is no such definition."""
 
 
 class Change(NamedTuple):
-    """A change of one entry of a mapping by a branch.
+    """A change of one entry of a mapping by a branch of a script.
 
-    ``value`` is MISSING if the branch removed the entry.
+    ``value`` is the new value, MISSING if the branch removed the entry.
     """
 
     mapping: dict[str, Any]
@@ -87,25 +90,27 @@ Changes = dict[tuple[int, str], Change]
 
 MISSING: Final = object()
 _MOST_NESTED: Final = 100
-"""Greatest depth of nested branches.
+"""Maximum depth of nested branches. Real packages need less than 20.
 
-The commands after a possible return() or break() also form a branch.
-
-Real packages need less than 20."""
+The commands after a command that may return or break count as a branch, too."""
 
 
 MOST_STEPS: Final = 100_000
-"""Commands that one package may run. Most real packages run less than 3,000, the largest about 93,000."""
-MOST_CHARACTERS: Final = 1 << 26
-"""Characters of values that the scripts of one package may write and read.
+"""Maximum number of commands that one package may run.
 
-Other work that costs memory or time is converted into characters. Real packages need less than a million for 1,000 commands."""
+Most real packages run less than 3,000, the largest about 93,000."""
+MOST_CHARACTERS: Final = 1 << 26
+"""Maximum number of characters of values that the scripts of one package may write and read.
+
+Other work that costs memory or time is converted into characters. Real packages need less than a million characters for 1,000
+commands."""
 
 
 class State:
-    """All data that commands write, with an undo log.
+    """All data that CMake commands write, with a log that can undo the changes of a branch.
 
-    The branches of an unknown condition run one after the other, each from the same initial state, and are then joined.
+    The branches of an if() with an unknown condition run one after the other, each from the state before the if(). Then the
+    states after the branches are merged into one state.
     """
 
     def __init__(self) -> None:
@@ -116,23 +121,23 @@ class State:
         self.targets: dict[str, Properties] = {}
         self.globals: Properties = Properties()
         self.path_variables: dict[str, str] = {}
-        """Variables for places: the source folder, the current directory and file, CMAKE_INSTALL_DOCDIR."""
+        """Values of the variables with paths: the source folder, the current directory and file, and CMAKE_INSTALL_DOCDIR."""
         self.test_switches: dict[str, str] = {}
-        """Variables that are true only if tests are enabled, with the value that they then have."""
+        """Names of variables that are true only if tests are enabled, each with the value of the variable in that case."""
         self.test_elements: dict[str, frozenset[str]] = {}
-        """Elements that a list has only if tests are enabled, by the variable of the list."""
+        """By the variable of a list: the elements that the list has only if tests are enabled."""
         self.log: list[tuple[dict[str, Any], str, Any]] | None = None
         self._nested = 0
         self.budget = Budget(MOST_STEPS, MOST_CHARACTERS)
         self.has_unpaired_brackets = False
-        """True if some value has an unpaired square bracket, because unknown texts may then have one too."""
+        """True if some value has an unpaired square bracket. In this case, an unknown text may have an unpaired bracket, too."""
 
     # --- writing
 
     def put(self, mapping: dict[str, Any], key: str, value: Any) -> None:
-        """Set ``mapping[key]`` to ``value``, and record the old value, so that the effects of a branch can be undone.
+        """Set ``mapping[key]`` to ``value``, and log the old value, so that the changes of a branch can be undone.
 
-        A branch writes only with this method. A text that is too long becomes HOLE.
+        Code that runs in a branch must write with this method. A text of more than 2^20 characters becomes unknown (HOLE).
         """
         if self.log is not None:
             self.log.append((mapping, key, mapping.get(key, MISSING)))
@@ -144,7 +149,7 @@ class State:
         mapping[key] = value
 
     def note_brackets(self, value: str) -> None:
-        """Set ``has_unpaired_brackets`` if a value that was written to a variable may have an unpaired square bracket."""
+        """Set ``has_unpaired_brackets`` if ``value``, which was written to a variable, may have an unpaired square bracket."""
         if ("[" in value or "]" in value or "\3" in value) and not self.has_unpaired_brackets:
             self.budget.charge(SLOW * len(value))
             self.has_unpaired_brackets = is_unpaired(value)
@@ -156,7 +161,7 @@ class State:
             del mapping[key]
 
     def set(self, name: str, value: str | None) -> None:
-        """Set a variable of the innermost scope, or unset it."""
+        """Set a variable of the innermost scope to a value; None unsets the variable."""
         self.put(self.scopes[-1], name, value)
 
     def set_all(self, values: Mapping[str, str | None]) -> None:
@@ -171,7 +176,7 @@ class State:
                 self.note_brackets(value)
 
     def set_parent(self, name: str, value: str | None) -> None:
-        """Set a variable of the scope that encloses the innermost one (PARENT_SCOPE)."""
+        """Set a variable of the scope that encloses the innermost one, as set(PARENT_SCOPE) does; None unsets the variable."""
         if len(self.scopes) > 1:
             if name not in self.scopes[-1]:  # the inner scope keeps the value that it had
                 value_before = self.value_or_missing(name)
@@ -179,7 +184,10 @@ class State:
             self.put(self.scopes[-2], name, value)
 
     def return_to_caller(self, name: str, value: str | None) -> None:
-        """Set a variable of the caller's scope, even from a block() in the function (return(PROPAGATE))."""
+        """Set a variable in the scope of the caller of the current function, as return(PROPAGATE) does.
+
+        The current command may be in a block() of the function.
+        """
         scope_index = next((index for index in range(len(self.scopes) - 1, 0, -1) if type(self.scopes[index]) is Variables), 0)
         if scope_index == len(self.scopes) - 1:
             self.set_parent(name, value)
@@ -189,20 +197,20 @@ class State:
     # --- reading
 
     def builtin_value(self, name: str) -> str | None:
-        """Return the value that CMake itself gives a variable, None if it sets none or the value is unknown."""
+        """Return the value that CMake sets for a variable before any script runs, None if there is none or it is unknown."""
         return self.path_variables.get(name) or VARIABLES.get(name)
 
     def normal(self, name: str) -> str | None:
-        """Return the value of a variable in the scopes, ignoring the cache."""
+        """Return the value of a variable in the scopes, ignoring the cache; None if the variable is not set."""
         for scope in reversed(self.scopes):
             if name in scope:
                 return scope[name]
         return None
 
     def value_or_missing(self, name: str, depth: int | None = None) -> Any:
-        """Return the value of a variable in the scopes and the cache, or MISSING.
+        """Return the value of a variable in the scopes or the cache, MISSING if the variable is not set.
 
-        Only the outermost ``depth`` scopes are searched, by default all.
+        ``depth`` is the number of scopes to search, from the outermost one; None searches all scopes.
         """
         scopes = self.scopes if depth is None else self.scopes[:depth]
         for scope in reversed(scopes):
@@ -218,7 +226,7 @@ class State:
     # --- branching
 
     def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
-        """Call ``run``, which runs a branch, undo the changes that it made, and return its possible exits and its changes.
+        """Call ``run``, which runs a branch, and undo its changes. Return the possible exits of the branch and its changes.
 
         Raises BudgetExceeded if branches are nested too deeply.
         """
@@ -244,9 +252,9 @@ class State:
         return exits, changes
 
     def join(self, alternatives: Sequence[Changes], default: int | None = None) -> None:
-        """Write the state after one of several branches ran, given the changes of each branch.
+        """Write the merged state after one of several branches ran, given the changes of each branch.
 
-        ``default`` is the index of the branch that runs with default options.
+        ``default`` is the index of the branch that runs with default options, None if there is no such branch.
         """
         if len(alternatives) == 1:
             for change in alternatives[0].values():
@@ -270,7 +278,7 @@ class State:
                 self.put(mapping, key, merged)
 
     def forget(self, changes: Changes) -> None:
-        """Set every entry that ``changes`` contain to an unknown value."""
+        """Set each entry that ``changes`` has, such as a variable, to an unknown value (HOLE)."""
         for mapping, key, value in changes.values():
             if isinstance(value, str) or value is None or isinstance(mapping, Variables):
                 self.put(mapping, key, HOLE)
@@ -278,7 +286,8 @@ class State:
     def _visible_value(self, mapping: dict[str, Any], key: str) -> Any:
         """Return an entry of a mapping, MISSING if there is none.
 
-        If the mapping is a scope that does not set the variable ``key``, the outer scopes and CMake's defaults are searched.
+        If the mapping is a scope without the variable ``key``, the outer scopes, the cache and the built-in values are
+        searched.
         """
         value = mapping.get(key, MISSING)
         if value is MISSING and isinstance(mapping, Variables):
@@ -312,25 +321,25 @@ def _merged(mapping: Mapping[str, Any], values: Sequence[Any], default: int | No
 
 
 class InstalledTarget(NamedTuple):
-    """A target of install(TARGETS). Its file name is known only after the whole script has run."""
+    """A target of install(TARGETS). The name of its file is known only after the whole script has run."""
 
     target: str
     executables: str | None
-    """The destination if the target is an executable, None if executables are not installed."""
+    """The install destination of the target if the target is an executable, None if executables are not installed."""
     libraries: str | None
     archives: str | None
     conditional: bool
     span: Span
     exported_in: str = ""
-    """The export set of the target."""
+    """The name of the export set of the target (EXPORT), "" if there is none."""
     headers: tuple[tuple[str, str | None], ...] = ()
-    """Destinations of the headers of the target, by artifact."""
+    """Pairs of an artifact keyword of install(), such as "PUBLIC_HEADER", and its destination."""
     undefined: bool = False
-    """True if the target is certainly not defined where install() is called, which is when CMake looks for it."""
+    """True if the target is certainly not defined when install() runs. CMake looks for the target at this time."""
 
 
 class CallFrame:
-    """A file, function or macro that is being run."""
+    """An active file, function or macro: one entry of the call stack of a run."""
 
     __slots__ = ("command", "file", "folder", "macro_arguments", "own", "path", "procedure", "provider")
 
@@ -342,5 +351,5 @@ class CallFrame:
         self.procedure = procedure
         self.provider = provider
         self.macro_arguments: dict[str, str] | None = None
-        """Texts that replace references to the parameters of a macro."""
+        """Values of the parameters of a macro, by the name of the parameter; None outside of macros."""
         self.command: Command | None = None

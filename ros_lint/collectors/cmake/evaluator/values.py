@@ -1,12 +1,13 @@
-"""Values of CMake variables: strings in which some pieces may be unknown.
+"""Values of CMake variables, as Python strings in which some pieces may be unknown.
 
-A value is a ``str``. Four control characters, which occur in no parsed CMake file, mark the unknown pieces:
+Four markers, made of control characters that occur in no parsed CMake file, stand for unknown pieces:
 
-- :data:`HOLE` is any text, such as none or several list elements. Its square brackets come in pairs.
-- :data:`UNPAIRED_HOLE` is a HOLE whose square brackets may be unpaired, so it is unknown which later elements are joined to it.
-- :data:`ATOM` with the letters after it is one fixed, non-empty text that is unknown, such as the folder of the package
-  on the disk. It has no semicolon, and two equal atoms are the same text.
-- :data:`MAYBE` at the start of a list element marks an element that may be missing.
+- :data:`HOLE`: any text, which may be empty or have several list elements. Its square brackets come in pairs.
+- :data:`UNPAIRED_HOLE`: like HOLE, but its square brackets may be unpaired. An unpaired bracket joins the list elements
+  after it, so the later elements are unknown as well.
+- :data:`ATOM` with the letters after it: one fixed, non-empty text that is unknown, such as the folder of the package on
+  the disk. It has no semicolon, and two equal atoms are equal texts.
+- :data:`MAYBE` at the start of a list element: the element may be missing from the list.
 """
 
 from __future__ import annotations
@@ -24,33 +25,33 @@ MAYBE: Final = "\2"
 UNPAIRED_HOLE: Final = f"{HOLE}\3{HOLE}"  # a search for a HOLE also finds a UNPAIRED_HOLE, even at the ends of a text
 
 TREE: Final = f"/{ATOM}source"
-"""The root of the analysed tree, which contains the folder of the package."""
+"""The root folder of the analysed workspace, whose place on the disk is unknown."""
 BINARY: Final = f"/{ATOM}build"
-"""The build folder of the package."""
+"""The build folder of the package, whose place on the disk is unknown."""
 PREFIX: Final = f"/{ATOM}prefix"
-"""The install prefix of the package."""
+"""The install prefix of the package, whose place on the disk is unknown."""
 OTHER_PACKAGE: Final = f"/{ATOM}package-"
-"""The install prefix of another package of the workspace, whose name follows."""
+"""The install prefix of another package of the workspace. The name of this package is appended."""
 
 LONGEST: Final = 1 << 20
-"""Characters of the longest value.
+"""Maximum length of a value, in characters.
 
-A longer one becomes unknown, so that no script can exhaust the memory."""
+A longer value becomes unknown (HOLE), so that no script can exhaust the memory."""
 ELEMENT: Final = 64
-"""Cost of a list element in characters, because of the memory of a Python string."""
+"""Cost that the budget of a run charges for a list element, in characters. A short Python string takes this much memory."""
 FILE: Final = 256
-"""Cost of an installed file in characters."""
+"""Cost that the budget of a run charges for an installed file, in characters."""
 SLOW: Final = 16
-"""Cost of a character where a text is read letter by letter."""
+"""Cost that the budget of a run charges for a character, in characters, if a text is read character by character."""
 
 
 def is_known(value: str) -> bool:
-    """Return whether every character of the value is known."""
+    """Return whether every character of a value is known: the value has no HOLE, ATOM or MAYBE."""
     return HOLE not in value and ATOM not in value and MAYBE not in value
 
 
 def is_fixed(value: str) -> bool:
-    """Return whether the value is one fixed text: it contains neither HOLE nor MAYBE. An ATOM is a fixed text as well."""
+    """Return whether a value is one fixed text: it has no HOLE and no MAYBE. An ATOM, an unknown text, is fixed as well."""
     return HOLE not in value and MAYBE not in value
 
 
@@ -63,9 +64,9 @@ _NATURAL: Final = re.compile("[0-9]{1,9}")
 
 
 def cached_short(most: int) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
-    """Return a decorator that caches the results of a function for up to ``most`` texts.
+    """Return a decorator that caches up to ``most`` results of a function with a text as its only argument.
 
-    Results for long texts are not cached, because they would fill the memory.
+    Results for texts of more than 1,024 characters are not cached, because they would fill the memory.
     """
 
     def decorate(function: Callable[[str], T]) -> Callable[[str], T]:
@@ -79,12 +80,12 @@ _LONGEST_KEPT: Final = 1024
 
 
 def embeddable(value: str) -> str:
-    """Return a value for use within a longer text: HOLE if it has elements that may be missing."""
+    """Return the text that a value contributes to a longer text: the value, HOLE if it has list elements that may be missing."""
     return HOLE if MAYBE in value else value
 
 
 def split(value: str) -> list[str]:
-    """Return the non-empty elements of a list, as CMake splits an unquoted argument (cmake-language(7))."""
+    """Return the non-empty elements of a CMake list, split like an unquoted argument (cmake-language(7))."""
     if ";" not in value:
         return [value] if value else []
     if "\\" not in value and "[" not in value and "]" not in value and "\3" not in value:
@@ -93,7 +94,7 @@ def split(value: str) -> list[str]:
 
 
 def elements(value: str) -> list[str]:
-    """Return the elements of a list, including empty ones. The empty text is a list without elements."""
+    """Return the elements of a CMake list, including empty ones. The empty text is a list without elements."""
     if not value:
         return []
     if ";" not in value:
@@ -136,12 +137,12 @@ def _split(value: str) -> list[str]:
 
 
 def split_cost(value: str) -> int:
-    """Return the cost of splitting a list, in characters of the budget of a run."""
+    """Return the cost of splitting a list, in characters, for the budget that limits the work of a run."""
     return SLOW * len(value) if "[" in value or "\\" in value else ELEMENT * value.count(";")
 
 
 def is_unpaired(value: str) -> bool:
-    """Return whether a text has an unpaired square bracket, or may have one."""
+    """Return whether a text has an unpaired square bracket, or an unknown piece that may have one."""
     if "\3" in value:
         return True
     depth = lowest = 0
@@ -152,7 +153,10 @@ def is_unpaired(value: str) -> bool:
 
 
 def with_unpaired_holes(value: str | None) -> str | None:
-    """Return a value as a script reads it if unknown texts may have unpaired brackets: with UNPAIRED_HOLE for HOLE."""
+    """Return a value in which UNPAIRED_HOLE replaces HOLE: unknown pieces of the value may have unpaired square brackets.
+
+    The result for None is None.
+    """
     if not value:
         return value
     if MAYBE in value and is_unpaired(value):
@@ -161,7 +165,7 @@ def with_unpaired_holes(value: str | None) -> str | None:
 
 
 def join(values: Iterable[str]) -> str:
-    """Return a list as CMake stores it, HOLE if it is too long."""
+    """Return list elements joined by semicolons, as CMake stores a list; HOLE if the text would be too long."""
     if isinstance(values, (list, tuple)):
         return ";".join(values) if sum(map(len, values)) <= LONGEST else HOLE
     texts = []
@@ -177,7 +181,7 @@ def join(values: Iterable[str]) -> str:
 def join_with(glue: str, texts: Sequence[str]) -> str:
     """Return texts joined by ``glue``.
 
-    The result is HOLE, the mark of an unknown value, if it would be too long: a loop can double a text in each round.
+    The result is HOLE, which means an unknown value, if it would be too long: a loop can double a text in each round.
     """
     if len(glue) * len(texts) + sum(map(len, texts)) > LONGEST:
         return HOLE
@@ -185,28 +189,29 @@ def join_with(glue: str, texts: Sequence[str]) -> str:
 
 
 def strip_mark(element: str) -> tuple[str, bool]:
-    """Return a list element without its MAYBE mark, and whether it certainly exists."""
+    """Return a list element without its MAYBE marker (the element may be missing), and whether it had no such marker."""
     return (element[1:], False) if element[:1] == MAYBE else (element, True)
 
 
 def mark_maybe(element: str) -> str:
-    """Return a list element with the mark of elements that may be missing."""
+    """Return a list element with MAYBE, the marker of elements that may be missing, before it. HOLE is returned unchanged."""
     return element if element.startswith(MAYBE) or element in (HOLE, UNPAIRED_HOLE) else MAYBE + element
 
 
 def certainly_set(value: str) -> bool:
-    """Return whether a variable with this value is certainly set: an element of the value certainly exists.
+    """Return whether a variable with this value is certainly set: at least one list element of the value certainly exists.
 
-    The empty value is not certain, because it also stands for a variable that only one branch sets, to the empty text.
+    The empty value is not certain: a variable that only one branch of an if() sets, to the empty text, also has it.
     """
     return any(element and element not in (HOLE, UNPAIRED_HOLE) and not element.startswith(MAYBE) for element in elements(value))
 
 
 def merge(values: Sequence[str | None], default: int | None = None) -> str | None:
-    """Return the value of a variable after one of several branches ran, given its value after each branch.
+    """Return the value of a variable after one of several branches of an if() ran, given its value after each branch.
 
-    ``None`` is an unset variable. ``default`` is the index of the branch that runs with default options. If it is given,
-    the result keeps every element of the value of this branch, and elements of further values get the MAYBE mark.
+    A value of None is an unset variable. ``default`` is the index of the branch that runs with default options, None if there
+    is no such branch. If ``default`` is given, the result has every element of the value of the default branch; elements that
+    only other branches have get the MAYBE marker, because they may be missing.
     """
     first = values[0]
     if all(value == first for value in values):
