@@ -1,4 +1,4 @@
-"""Parsing of arguments with keywords, as in cmake_parse_arguments() and most commands."""
+"""Parsing of command arguments with keywords, as cmake_parse_arguments() and most commands parse them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _FLAG, _SINGLE, _LIST, _MAYBE = 1, 2, 3, 4
 
 @lru_cache(maxsize=512)
 def _keywords(prefix: str, options: str, single_names: str, multis: str) -> tuple[dict[str, int], dict[str, str | None]]:
-    """Return the kind of each keyword (_FLAG, _SINGLE or _LIST), and the variables that a call without arguments sets.
+    """Return the kind of each keyword (_FLAG, _SINGLE or _LIST), and the variables that result from a call without arguments.
 
     The parameters are the first arguments of cmake_parse_arguments().
     """
@@ -25,7 +25,7 @@ def _keywords(prefix: str, options: str, single_names: str, multis: str) -> tupl
 
 
 def parse_keywords(prefix: str, options: str, singles: str, multis: str, args: Sequence[str]) -> dict[str, str | None]:
-    """Return the variables that cmake_parse_arguments() sets; the value None unsets a variable."""
+    """Return the variables that cmake_parse_arguments() sets, with their values; the value None unsets a variable."""
     kinds, initial = _keywords(prefix, options, singles, multis)
     values = initial.copy()
     arguments: dict[str, list[str]] = {}
@@ -68,9 +68,9 @@ def parse_keywords(prefix: str, options: str, singles: str, multis: str, args: S
 
 
 def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list[str]]:
-    """Return the arguments grouped by the keyword before them. Arguments without a keyword are under "".
+    """Return arguments grouped by the keyword before them. The key "" has the arguments without a keyword.
 
-    ``keywords`` has the number of arguments of each keyword, -1 for any number. Excess arguments are under "".
+    ``keywords`` has the number of arguments of each keyword, -1 for any number. Surplus arguments are under "", too.
     """
     arguments: dict[str, list[str]] = {"": []}
     current, remaining = arguments[""], -1
@@ -89,7 +89,7 @@ def sections(args: Iterable[str], keywords: Mapping[str, int]) -> dict[str, list
 
 
 def with_one_destination(args: list[str]) -> list[str]:
-    """Return the arguments of install(); a DESTINATION with different values in the branches of an if() becomes a HOLE."""
+    """Return the arguments of install(); a DESTINATION whose value depends on an if() becomes unknown (HOLE)."""
     result: list[str] = []
     for arg in args:
         if arg[:1] == MAYBE and result[-2:-1] == ["DESTINATION"] and result[-1][:1] in (MAYBE, HOLE):

@@ -1,4 +1,4 @@
-"""The block structure of a CMake file: commands nested in if(), loops, function() and macro()."""
+"""The block structure of a CMake file: commands nested in if(), foreach(), while(), function(), macro() and block()."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from ros_lint.collectors.cmake.syntax import Argument, Command
 
 
 class If(NamedTuple):
-    """``if()`` with its branches. The branch of ``else()`` has no condition."""
+    """An ``if()`` with its branches. Each branch is its condition, None for ``else()``, and its commands."""
 
     command: Command
     branches: tuple[tuple[Command | None, Body], ...]
 
 
 class Loop(NamedTuple):
-    """A loop by ``foreach()`` or ``while()``: its first command, and the commands up to its end."""
+    """A ``foreach()`` or ``while()``: its first command, and the commands before its end command."""
 
     command: Command
     body: Body
 
 
 class Definition(NamedTuple):
-    """A definition by ``function()`` or ``macro()``: its first command, and the commands up to its end."""
+    """A ``function()`` or ``macro()``: its first command, and the commands before its end command."""
 
     command: Command
     body: Body
 
 
 class ScopeBlock(NamedTuple):
-    """A ``block()``, which has its own scope of variables: its first command, and the commands up to its end."""
+    """A ``block()``, which has its own scope of variables: its first command, and the commands before its ``endblock()``."""
 
     command: Command
     body: Body
@@ -40,7 +40,7 @@ Node = Command | If | Loop | Definition | ScopeBlock
 Body = tuple[Node, ...]
 
 Rewrite = Callable[[tuple[Argument, ...]], tuple[Argument, ...]]
-"""A function that replaces the arguments of a command."""
+"""A function that returns new arguments for the arguments of a command."""
 
 _ENDS = {
     "endif": "if",
@@ -55,9 +55,9 @@ _BRANCHES = frozenset({"else", "elseif"})
 
 
 class UnbalancedError(Exception):
-    """A command opens a block that is not closed, or closes no block.
+    """A command opens a block that is never closed, or ends a block that is not open.
 
-    ``command`` is the wrong command, ``body`` has the nodes before it.
+    ``command`` is the wrong command. ``body`` has the commands and blocks before the outermost open block.
     """
 
     def __init__(self, message: str, command: Command, body: Body) -> None:
@@ -67,7 +67,7 @@ class UnbalancedError(Exception):
 
 
 class _Open:
-    """A block whose end has not been read yet."""
+    """A block whose end command has not been read yet."""
 
     __slots__ = ("branches", "command", "condition", "nodes")
 
@@ -96,7 +96,7 @@ class _Open:
 
 
 def blocks(commands: Sequence[Command]) -> Body:
-    """Return commands nested in their blocks. Raises UnbalancedError."""
+    """Return the commands of a file as a tree of blocks. Raises UnbalancedError."""
     nodes: list[Node] = []
     stack: list[_Open] = []
     outer_nodes: list[list[Node]] = []
@@ -127,9 +127,9 @@ def blocks(commands: Sequence[Command]) -> Body:
 
 
 def rewritten(body: Body, arguments: Rewrite) -> Body:
-    """Return a body in which ``arguments`` has replaced the arguments of every command.
+    """Return commands and blocks with new arguments: ``arguments`` is applied to the arguments of every command.
 
-    It serves functions defined in a macro: references to the parameters of the macro are replaced in their bodies.
+    This is for functions that are defined in a macro: references to the parameters of the macro are replaced in their bodies.
     """
     return tuple(_rewritten(node, arguments) for node in body)
 

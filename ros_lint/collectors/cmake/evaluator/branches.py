@@ -1,4 +1,4 @@
-"""if(): each possible branch runs from the same initial state, and the final states are joined."""
+"""Evaluation of if(): each branch that may run starts from the state before the if(), and the final states are merged."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIK
 
 
 class _Branch(NamedTuple):
-    """A branch of an if() that may run."""
+    """A branch of an if(). The branch may run."""
 
     body: Body
     by_default: bool
     """True if the branch runs with default options."""
     testing: bool
     number: int = 0
-    """Its index among the branches of the if()."""
+    """The index of the branch among all branches of the if()."""
 
 
 def _run_if(run: Run, node: If) -> Exit:
@@ -62,7 +62,7 @@ def _run_if(run: Run, node: If) -> Exit:
 
 
 def _run_single(run: Run, node: If) -> Exit:
-    """Run an if() without elseif() and else(), which is the most frequent form."""
+    """Run an if() without elseif() and else(), the most frequent form, and return the possible exits."""
     ((command, body),) = node.branches
     assert command is not None
     run.frames[-1].command = command

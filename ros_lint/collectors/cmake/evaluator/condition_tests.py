@@ -1,4 +1,4 @@
-"""Tests in conditions, such as EXISTS, STREQUAL and VERSION_LESS (if() in cmake-commands(7))."""
+"""Tests in CMake conditions, such as EXISTS, STREQUAL and VERSION_LESS (if() in cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -105,9 +105,9 @@ UNARY: Final[dict[str, Callable[[Run, ConditionToken], Truth]]] = {
 
 
 def _operands(run: Run, token: ConditionToken) -> tuple[str, ...]:
-    """Return the possible values of an operand: the value of the variable with its name, or the text if it is not set.
+    """Return the possible values of an operand: the value of the variable with this name, or the text if no such variable is set.
 
-    An empty variable has both as possible values, because it may be unset.
+    An empty variable may be unset, so for an empty variable the result has the text and the empty value.
     """
     if token.quoted:
         # Before policy CMP0054, quoted arguments were also looked up as variables.
@@ -119,7 +119,7 @@ def _operands(run: Run, token: ConditionToken) -> tuple[str, ...]:
 
 
 def _agreed(answers: Iterable[int]) -> int:
-    """Return the answer of a test if it is equal for all possible values of the operands, else UNKNOWN."""
+    """Return the truth value of a test if it is equal for all possible values of the operands, else UNKNOWN."""
     different = set(answers)
     return different.pop() if len(different) == 1 else UNKNOWN
 
@@ -154,7 +154,7 @@ def _same(first: str, second: str) -> int:
 
 
 def _root(path: str) -> str:
-    """Return the folder of unknown place (an ATOM) with which a path starts, "" if the path starts with no such folder."""
+    """Return the placeholder (an ATOM) of the root folder with which a path starts, "" if it starts with no placeholder."""
     return path.split("/")[1] if path.startswith("/\1") else ""
 
 
@@ -172,7 +172,7 @@ _COMPONENT = re.compile(r"\s*([-+]?)(\d+)", re.ASCII)
 
 
 def compare_versions(left: str, right: str) -> int:
-    """Return -1, 0 or 1 for versions as VERSION_LESS compares them.
+    """Return -1, 0 or 1 for two versions, in the order of VERSION_LESS: -1 if ``left`` is older, 0 if both are equal.
 
     Components are compared in order, each parsed like strtoul() in C.
     """
@@ -190,7 +190,7 @@ def compare_versions(left: str, right: str) -> int:
 def _component(text: str, at: int) -> tuple[str, int]:
     """Return the digits of the version component at an offset, and the offset of its end: ``1.020``, 2 -> ``("20", 5)``.
 
-    Leading zeros are left out. A negative number wraps around, as in strtoul().
+    Leading zeros are omitted. A negative number wraps around, as in strtoul().
     """
     match = _COMPONENT.match(text, at)
     if match is None:
@@ -202,7 +202,7 @@ def _component(text: str, at: int) -> tuple[str, int]:
 
 
 _MOST_DIGITS: Final = 20
-"""Digits of a number of 64 bits."""
+"""Maximum number of digits of a 64-bit number."""
 
 
 def _versions(compare: Callable[[int, int], bool]) -> Callable[[str, str], bool]:

@@ -1,7 +1,7 @@
-"""Conditions of if(), elseif() and while() (cmake-commands(7)), with answers that may be unknown.
+"""Evaluation of the conditions of if(), elseif() and while() (cmake-commands(7)).
 
-An answer is true, false, unknown, *likely* or *unlikely*. *Likely* is true, and *unlikely* is false, unless the user sets
-an option or a variable.
+The truth value of a condition is true, false, unknown, *likely* or *unlikely*. Likely is true, and unlikely is false, unless
+the user sets an option or a variable.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ _FOUND_VARIABLE = re.compile(r"\$\{(\w+_FOUND)\}")
 
 
 def condition(run: Run, command: Command) -> Truth:
-    """Return the value of the condition of a command."""
+    """Return the truth value of the condition in the arguments of if(), elseif() or while()."""
     if len(command.args) == 1:
         text, kind, _, _ = command.args[0]
         if kind == PLAIN:  # by far the most frequent conditions
@@ -81,9 +81,9 @@ def _is_configurable(run: Run, text: str) -> bool:
 
 
 class _Parser:
-    """Parser of conditions with the precedence of CMake.
+    """A parser of conditions with the operator precedence of CMake.
 
-    That is parentheses, unary tests, binary tests, NOT, then AND and OR from left to right.
+    The order is: parentheses, unary tests, binary tests, NOT, then AND and OR from left to right.
     """
 
     def __init__(self, run: Run, tokens: list[ConditionToken]) -> None:
@@ -96,7 +96,7 @@ class _Parser:
         return truth if self.at == len(self.tokens) else Truth(UNKNOWN)
 
     def keyword(self, ahead: int = 0) -> str:
-        """Return the current token if it can be a keyword, else ""."""
+        """Return the token ``ahead`` tokens after the current one if it can be a keyword (it is not quoted), else ""."""
         at = self.at + ahead
         if at >= len(self.tokens) or self.tokens[at].quoted:
             return ""
@@ -152,7 +152,7 @@ class _Parser:
         return _word(self.run, left)
 
     def binary_after(self, truth: Truth) -> Truth:
-        """Return ``truth``, the value of a condition in parentheses; UNKNOWN if a binary test follows, which is rare."""
+        """Return ``truth``, the value of a condition in parentheses; UNKNOWN in the rare case that a binary test follows."""
         if self.keyword() in BINARY:
             self.at = len(self.tokens) + 1
             return Truth(UNKNOWN)
@@ -189,7 +189,7 @@ def _in_pairs(truths: Sequence[Truth], signs: Sequence[str]) -> Truth:
 
 
 def _word(run: Run, token: ConditionToken) -> Truth:
-    """Return the truth of a single word: a constant, a variable or a string."""
+    """Return the truth value of a single word: a constant, a variable or a string."""
     text = token.text
     if text == "BUILD_TESTING" and not token.quoted:
         return _build_testing(run)
@@ -223,16 +223,16 @@ def _is_test_option(name: str) -> bool:
 
 
 def _build_testing(run: Run) -> Truth:
-    """Return the truth of BUILD_TESTING: likely, unless the script itself sets it to false.
+    """Return the truth value of BUILD_TESTING: LIKELY, or UNLIKELY if the script itself sets it to false.
 
-    An option(BUILD_TESTING) after the set() keeps the value false.
+    An option(BUILD_TESTING) after set(BUILD_TESTING OFF) keeps the value false.
     """
     value = run.get("BUILD_TESTING")
     return _TESTS_DISABLED if value and is_fixed(value) and is_off(value) else _TESTS_ENABLED
 
 
 def _tests_enabled(run: Run, name: str) -> Truth:
-    """Return the truth of a variable that enables tests, such as BUILD_TESTS, from its default value."""
+    """Return the truth value of a variable that enables tests, such as BUILD_TESTS: LIKELY or UNLIKELY by its default value."""
     value = run.get(name)
     if value is None or not is_fixed(value):
         return Truth(UNLIKELY, test_if_true=True)

@@ -43,7 +43,7 @@ def _define(run: Run, node: Definition) -> Exit:
 
 
 def reads_argument_variables(body: Body) -> bool:
-    """Return whether a body may read the arguments of its function by number (ARGV, ARGC, ARGV0 ...)."""
+    """Return whether a command in the body of a function may read the arguments by number (ARGV, ARGC, ARGV0 and so on)."""
     for node in body:
         commands: list[Command | None]
         bodies: list[Body]
@@ -73,7 +73,7 @@ def _substituted(macro_arguments: dict[str, str], args: tuple[Argument, ...]) ->
 
 
 def _run_scope(run: Run, node: ScopeBlock) -> Exit:
-    """Run a block(). Its variables are removed at its end, except for the variables after PROPAGATE."""
+    """Run a block() and return its possible exits. Its variables, except those after PROPAGATE, are removed at its end."""
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
     if "SCOPE_FOR" in args and "VARIABLES" not in args:

@@ -1,4 +1,4 @@
-"""Expansion of arguments: references to variables and escapes (cmake-language(7), policy CMP0053)."""
+"""Expansion of CMake arguments: variable references and escape sequences are replaced (cmake-language(7), policy CMP0053)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import Final
 from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, MAYBE, certainly_set, embeddable
 
 Part = str | tuple[str, "Template"]
-"""A text, or a reference: its name space ("", "ENV" or "CACHE") and the template of the name."""
+"""A part of an argument: a text, or a variable reference.
+
+A reference is its name space ("", "ENV" or "CACHE") and the template of the variable's name."""
 Template = tuple[Part, ...]
 Compiled = str | Template
-"""The template of an argument, or the name of a variable if the argument is just ``${name}``."""
+"""A parsed argument: its parts, or only the name of a variable if the argument is just ``${name}``."""
 Lookup = Callable[[str, str], str]
-"""A function from a name and its name space to the value."""
+"""A function that returns the value of a variable, given the name and the name space ("", "ENV" or "CACHE")."""
 
 _PIECE = re.compile(r"([^\\$}]+)|\\(?:([tnr])|(\n)|(;)|([^A-Za-z0-9;])|(.?))|\$(ENV|CACHE|)\{|(\})|(\$)", re.DOTALL)
 _LETTERS: Final = {"t": "\t", "n": "\n", "r": "\r"}
@@ -25,7 +27,7 @@ _LONGEST_KEPT: Final = 4096
 
 
 class ExpansionError(Exception):
-    """CMake rejects the argument: an unclosed reference, an invalid escape or an invalid name."""
+    """CMake rejects an argument: it has an unclosed reference, an invalid escape sequence or an invalid variable name."""
 
 
 templates: Final[dict[str, Compiled]] = {}
@@ -33,7 +35,10 @@ templates: Final[dict[str, Compiled]] = {}
 
 
 def template(text: str) -> Compiled:
-    """Return the compiled form of an argument. Raises ExpansionError if CMake rejects it."""
+    """Return the parts of an argument, or the variable's name if it is just ``${name}``.
+
+    Raises ExpansionError if CMake rejects the argument.
+    """
     compiled = templates.get(text)
     if compiled is None:
         if len(templates) > _MOST_TEMPLATES:
@@ -97,9 +102,9 @@ _SIMPLE = re.compile(r"\$\{(\w+)\}")
 
 
 def substituted(text: str, values: Mapping[str, str]) -> str:
-    """Return an argument in a macro with the references to parameters replaced by their values.
+    """Return an argument in a macro body with the references to parameters of the macro replaced by the values.
 
-    The result is HOLE, the mark of an unknown value, if it would be too long.
+    The result is HOLE, which means an unknown value, if it would be too long.
     """
     match = _SIMPLE.fullmatch(text)
     if match is not None:
@@ -123,8 +128,8 @@ def substituted(text: str, values: Mapping[str, str]) -> str:
 def expand(parts: Template, lookup: Lookup) -> str:
     """Return the value of an argument, given its parts and a function that returns the values of variables.
 
-    HOLE if the value is too long. If the argument is a single reference such as ``${NAMES}``, the MAYBE marks of list
-    elements that may be missing are kept.
+    The result is HOLE, which means an unknown value, if it would be too long. List elements keep their MAYBE markers (they
+    may be missing) only if the argument is a single reference such as ``${NAMES}``.
     """
     if len(parts) == 1:
         part = parts[0]
@@ -149,7 +154,11 @@ def expand(parts: Template, lookup: Lookup) -> str:
 
 
 def _marked(pieces: list[str]) -> str:
-    """Return the pieces of a value as one text. Only pieces that are whole list elements keep their MAYBE marks."""
+    """Return the pieces of a value as one text.
+
+    Only pieces that are whole list elements keep the marker of elements that may be missing (MAYBE). Other pieces with the
+    marker become unknown.
+    """
     pieces = [piece for piece in pieces if piece]
     texts = []
     for previous, piece, following in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):

@@ -1,4 +1,4 @@
-"""Running of CMake code: sequences of commands, calls of functions and macros, and files."""
+"""Execution of CMake code: sequences of commands, calls of functions and macros, and files."""
 
 from __future__ import annotations
 
@@ -28,13 +28,15 @@ from ros_lint.collectors.cmake.syntax import QUOTED, Command
 from ros_lint.facts.visibility import ALL_FACETS
 
 HANDLERS: Final[dict[str, Handler]] = {}
-"""The handler of each CMake command. :mod:`ros_lint.collectors.cmake.evaluate` fills it and BLOCKS."""
+"""The handler of each CMake command, by command name. :mod:`ros_lint.collectors.cmake.evaluate` fills this dictionary."""
 BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {}
-"""The function that runs each type of block."""
+"""By block type, such as Loop: the function that runs blocks of this type.
+
+:mod:`ros_lint.collectors.cmake.evaluate` fills this dictionary."""
 
 
 def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
-    """Run commands in order from index ``start``, and return the possible exits."""
+    """Run commands and blocks in order from index ``start``, and return the possible exits."""
     run.budget.step(len(body) - start + 1)
     frame = run.frames[-1]
     procedures = run.procedures
@@ -68,7 +70,11 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
 
 
 def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -> tuple[Exit, Changes]:
-    """Run ``piece`` as code that may not run. The bits BY_DEFAULT and IF_TESTING of ``exits`` give the condition."""
+    """Run ``piece``, code that may not run, and undo its changes. Return its possible exits and its changes.
+
+    ``exits`` describes the condition of the code: BY_DEFAULT if it runs with default options, IF_TESTING if it runs only if
+    tests are enabled.
+    """
     uncertain, testing = run.uncertain_conditions, run.testing
     run.uncertain_conditions += not exits & BY_DEFAULT
     run.testing = testing or bool(exits & IF_TESTING)
@@ -91,13 +97,13 @@ def run_named(run: Run, name: str, args: list[str]) -> Exit:
 
 
 def _without(run: Run, name: str, args: list[str]) -> Exit:
-    """Run the command of CMake ``name``, not a function or macro of the package with this name."""
+    """Run the built-in CMake command ``name``, even if the package defines a function or macro with this name."""
     handler = HANDLERS.get(name)
     return (handler(run, args) or NEXT) if handler is not None else NEXT
 
 
 def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
-    """Run a function or macro with evaluated arguments, and return the possible exits."""
+    """Run a function or macro with evaluated arguments, and return its possible exits."""
     if type(procedure) is Choice:
         return _call_one_of(run, procedure, args)
     assert type(procedure) is Procedure
@@ -157,8 +163,8 @@ def _call_one_of(run: Run, choice: Choice, args: list[str]) -> Exit:
 def _call_values(procedure: Procedure, args: list[str], first_uncertain: int, possibly_empty: Container[str]) -> dict[str, str]:
     """Return the values of the parameters and of ARGC, ARGV, ARGN, ARGV0 and so on.
 
-    ``first_uncertain`` is the index of the first argument that may be missing or be several arguments; the positions of all
-    arguments after it are unknown. ``possibly_empty`` are quoted arguments that may be empty.
+    ``first_uncertain`` is the index of the first argument that may be missing or be several arguments. The positions of the
+    later arguments are unknown. ``possibly_empty`` has the quoted arguments that may be empty.
     """
     parameters = procedure.parameters
     if first_uncertain == len(args):
@@ -183,7 +189,7 @@ def _call_values(procedure: Procedure, args: list[str], first_uncertain: int, po
 
 
 def _possibly_empty(run: Run, command: Command) -> set[str]:
-    """Return the values of the quoted arguments of a command that may be empty, because all their elements may be missing."""
+    """Return the values of the quoted arguments of a command that may be empty because all their elements may be missing."""
     values = {run.evaluate(text) for text, kind, _, _ in command.args if kind == QUOTED}
     return {value for value in values if MAYBE in value and not certainly_set(value)}
 
@@ -191,14 +197,14 @@ def _possibly_empty(run: Run, command: Command) -> set[str]:
 def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
     """Return arguments as one value, a CMake list.
 
-    If an argument is in ``possibly_empty``, the list ends with an element that may be missing.
+    If an argument is in ``possibly_empty``, the list ends with an element that may be missing (MAYBE).
     """
     value = join(args)
     return f"{value};{MAYBE}" if possibly_empty and len(args) > 1 and any(arg in possibly_empty for arg in args) else value
 
 
 def run_file(run: Run, commands: Sequence[Command], frame: CallFrame) -> Exit:
-    """Run the commands of a file. A return() ends only the file."""
+    """Run the commands of a file and return the possible exits. A return() in the file ends only the file."""
     if len(run.frames) > DEEPEST:
         raise BudgetExceeded
     run.enter_file(frame)

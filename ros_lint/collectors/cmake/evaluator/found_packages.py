@@ -1,4 +1,4 @@
-"""Packages that the scripts have found."""
+"""The packages that the CMake scripts of a run have found."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ros_lint.collectors.cmake.evaluator.values import cached_short
 
 @cached_short(4096)
 def folded(name: str) -> str:
-    """Return the name of a package in lower case, without ``_`` and ``-``, to compare spellings: ``Foo-Bar`` -> ``foobar``."""
+    """Return the name of a package in lower case, without ``_`` and ``-``, to compare names: ``Foo-Bar`` -> ``foobar``."""
     return name.replace("_", "").replace("-", "").lower()
 
 
@@ -27,32 +27,32 @@ class FoundPackages:
         }
         """Paths of the package's own find modules (FindX.cmake), by the name X."""
         self.certain: Properties = Properties()
-        """Packages that are certainly found."""
+        """Packages that are certainly found, by name."""
         self.prefixes: dict[str, bool] = {}
-        """Prefixes of variables that found packages may have set, each with whether it is a package name.
+        """Prefixes of the variables that found packages may have set, each with whether the prefix is the name of a package.
 
-        It is not for pkg_check_modules(), whose first argument is the prefix."""
+        The first argument of pkg_check_modules() is a prefix but not the name of a package."""
         self.included: Properties = Properties()
-        """Packages of the workspace whose CMake code has run."""
+        """Packages of the workspace whose CMake code has run, by name."""
         self.optional_finds: dict[str, list[Span]] = {}
-        """Places of find_package() calls without REQUIRED, by package."""
+        """By package: the places of find_package() calls without REQUIRED."""
         self.quiet_finds: set[Span] = set()
-        """Places of these calls that certainly run with QUIET."""
+        """Places of find_package() calls without REQUIRED that certainly run and have QUIET."""
         self.required_by_check: set[str] = set()
-        """Names X for which the script stops with an error unless X_FOUND is true."""
+        """Names X for which the script stops with an error if X_FOUND is false."""
         self._spellings: dict[str, list[str]] = {}
         self._spelling_lengths: set[int] = set()
         self._indexed = 0
 
     def may_set(self, variable: str) -> bool:
-        """Return whether a found package may have set a variable, which then has the prefix of the package."""
+        """Return whether a found package may have set a variable, because the variable begins with the name of the package."""
         letters, spellings = folded(variable), self._folded_prefixes()
         return any(letters[:length] in spellings for length in self._spelling_lengths)
 
     def with_prefix(self, prefix: str) -> str:
-        """Return the found package whose variables have a prefix in any spelling (:func:`folded`); "" if there is none.
+        """Return the found package whose variables begin with ``prefix``, "" if there is none: ``OPENCV`` -> ``OpenCV``.
 
-        ``OpenCV`` -> ``OpenCV``, because find_package(OpenCV) sets ``OpenCV_LIBS``.
+        Case, ``_`` and ``-`` are ignored, as in :func:`folded`.
         """
         if self.prefixes.get(prefix):
             return prefix
@@ -60,7 +60,7 @@ class FoundPackages:
         return next((name for name in names if self.prefixes[name]), names[0] if names else "")
 
     def _folded_prefixes(self) -> Mapping[str, Sequence[str]]:
-        """Return the prefixes by their folded spelling. Prefixes are only added, so the index is extended by the new ones."""
+        """Return the prefixes of variables by their name without case, ``_`` and ``-``. New prefixes are added to the index."""
         if len(self.prefixes) != self._indexed:
             for name in islice(self.prefixes, self._indexed, None):
                 letters = folded(name)

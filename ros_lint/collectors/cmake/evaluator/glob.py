@@ -1,4 +1,4 @@
-"""Glob patterns of CMake (KWSys Glob.cxx) as regular expressions; ``*`` and ``?`` match no slash."""
+"""Translation of CMake's glob patterns (KWSys Glob.cxx) to regular expressions. ``*`` and ``?`` match no slash."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ros_lint.base.wildcards import LONGEST, letters, spaced
 
 
 def path_pattern(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
-    """Return the regular expression for a whole path, from a glob pattern for each component: ``["src", "*.cpp"]``.
+    """Return the regular expression of a whole path, given a glob pattern for each path component: ``["src", "*.cpp"]``.
 
-    The expression matches the :func:`~ros_lint.base.text.octets` of the path. With ``recurse``, any
-    folders may precede the last component. An invalid pattern matches nothing.
+    The expression matches the path converted with :func:`~ros_lint.base.text.octets`. With ``recurse``, the last component
+    may be in any subfolder. An invalid glob pattern gives an expression that matches nothing.
     """
     numbers = count()
     *heads, last = (_expression(part, numbers) or "(?!)" for part in parts)
@@ -23,9 +23,10 @@ def path_pattern(parts: Sequence[str], *, recurse: bool) -> re.Pattern[str]:
 
 
 def end_pattern(pattern: str) -> re.Pattern[str] | None:
-    """Return the regular expression for the last components of a path, from a glob pattern such as ``*.h``.
+    """Return the regular expression of the end of a path, given a glob pattern such as ``*.h`` or ``include/*.h``.
 
-    The expression searches the :func:`~ros_lint.base.text.octets` of the path. None if CMake rejects the pattern.
+    The expression is to be searched in the path converted with :func:`~ros_lint.base.text.octets`. The result is None if
+    CMake rejects the glob pattern.
     """
     expression = _expression(pattern, count())
     return None if expression is None else re.compile(rf"/{expression}\Z")
@@ -40,9 +41,9 @@ def _expression(pattern: str, numbers: Iterator[int]) -> str | None:
 
 @lru_cache(maxsize=256)
 def _pieces(pattern: str) -> tuple[str, ...] | None:
-    """Return regular expressions for the parts of a glob pattern, split at ``*``: ``a*b`` -> ``("a", "b")``.
+    """Return regular expressions of the parts of a glob pattern between its ``*``: ``a*b`` -> ``("a", "b")``.
 
-    None if a range in brackets is invalid.
+    The result is None if a range in brackets is invalid or the pattern is too long.
     """
     if len(pattern) > LONGEST:
         return None
@@ -68,18 +69,18 @@ def _pieces(pattern: str) -> tuple[str, ...] | None:
 
 
 def _end(pattern: str, at: int) -> int:
-    """Return the offset of the closing bracket, given the offset after the opening one.
+    """Return the offset of the bracket ``]`` that closes a set of characters, given the offset after its opening bracket.
 
-    -1 if there is no closing bracket.
+    The result is -1 if there is no closing bracket.
     """
     at += pattern[at : at + 1] in ("!", "^")
     return pattern.find("]", at + 1)
 
 
 def _letter(inside: str) -> str | None:
-    """Return a regular expression for one of the characters in brackets; None for an inverted range such as ``z-a``.
+    """Return a regular expression for a set of characters, given the text between its brackets in a glob pattern.
 
-    ``inside`` is the text between the brackets of a glob pattern.
+    The result is None if the set has an inverted range such as ``z-a``.
     """
     negated = inside[:1] in ("!", "^")
     body = inside[negated:].replace("\\", "\\\\")  # KWSys escapes it so, which adds a second backslash to the set

@@ -66,7 +66,7 @@ def _loop_names(args: list[str]) -> list[str]:
 def _rounds(run: Run, command: Command, args: list[str]) -> list[tuple[str, ...]]:
     """Return the values of the loop variables of a foreach(), one tuple for each round.
 
-    A value that is just a HOLE means any number of rounds.
+    A tuple with the single value HOLE (an unknown text) means an unknown number of rounds.
     """
     if any(HOLE in arg for arg in args):
         # A quoted argument is one round even if its value is unknown; an unquoted unknown argument may be several rounds.
@@ -101,12 +101,12 @@ def _elements(run: Run, name: str) -> list[str]:
 
 
 def _unknown_whole(items: list[str]) -> list[str]:
-    """Return list elements in which each element with an unknown piece is a HOLE, because it may be several elements."""
+    """Return list elements in which HOLE replaces each element with an unknown piece, because it may be several elements."""
     return [UNPAIRED_HOLE if UNPAIRED_HOLE in item else HOLE if HOLE in item else item for item in items]
 
 
 def _quoted(run: Run, command: Command) -> list[bool]:
-    """Return for each evaluated argument whether it was quoted."""
+    """Return, for each evaluated argument of a command, whether it was quoted."""
     flags: list[bool] = []
     for text, kind, _, _ in command.args:
         flags += [False] * len(split(run.evaluate(text))) if kind == UNQUOTED else [True]
@@ -163,10 +163,10 @@ def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> 
 
 
 def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
-    """Run the body of a loop whose number of rounds is unknown.
+    """Run the body of a loop whose number of rounds is unknown, and return the possible exits.
 
-    A first round records no results and determines which variables change. The second round runs after these variables
-    became unknown.
+    The body runs twice. The first round records no results; it shows which variables change. Before the second round, these
+    variables become unknown.
     """
     run.muted += 1
     try:

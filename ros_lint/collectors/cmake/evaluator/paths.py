@@ -1,4 +1,4 @@
-"""The current directory of a CMake run, and the meaning of paths in it."""
+"""The current directory of a CMake run, and the conversion of path arguments to paths relative to the package."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _OF_BUILD = "$<BUILD_INTERFACE:"
 
 
 class Paths:
-    """The files of the package, the current directory, and the meaning of paths in it."""
+    """The files of the package, the current directory, and the conversion of path arguments to paths relative to the package."""
 
     def __init__(self, sources: Sources, places: dict[str, str]) -> None:
         self.sources = sources
         self.files = frozenset(sources.files)
         self.generated: set[str] = set()
-        """Files that the build generates in the package; folders with unknown files end with a slash."""
+        """Files in the package that the build generates. A slash at the end marks a folder with unknown files."""
         self.configured: dict[str, bool] = {}
-        """Files that configure_file() writes below the build folder, and whether this is certain."""
+        """Files below the build folder that configure_file() writes, each with whether this is certain."""
         self.directories: list[tuple[str, str]] = [("", BINARY)]
-        """The current directories, outermost first: each relative to the package, with its build folder."""
+        """The current source directories, outermost first: each relative to the package, with its build folder."""
         self._places = places
         self._places.update(dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), self.absolute("")))
         self._place_directory()
@@ -40,50 +40,53 @@ class Paths:
         return self.directories[-1][0]
 
     def absolute(self, path: str) -> str:
-        """Return the absolute path, as CMake names it, of a path relative to the package."""
+        """Return the absolute path of a file or folder, given its path relative to the package.
+
+        The absolute path starts with the placeholder of the workspace folder (``TREE``).
+        """
         place = self.tree_path(path)
         return f"{TREE}/{place}" if place else TREE
 
     def tree_path(self, path: str) -> str:
-        """Return the path in the tree of a path relative to the package."""
+        """Return the path of a file or folder relative to the root of the workspace, given its path relative to the package."""
         if is_outside(path):
             path = resolve(self.sources.path, path)
             return "" if path == "." else path
         return join_path(self.sources.path, path) if path else self.sources.path
 
     def relative(self, value: str) -> str | None:
-        """Return the path that an argument denotes, relative to the package: ``../other/a.txt`` if it is outside of it.
+        """Return the path of a path argument relative to the package, e.g. ``../other/a.txt`` if it is outside of the package.
 
-        None if the path is outside of the tree or unknown.
+        The result is None if the path is outside of the workspace or unknown.
         """
         return _relative_to(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
-        """Return the path that an argument denotes, relative to the package; None if it is outside of it or unknown."""
+        """Return the path of a path argument relative to the package; None if it is outside of the package or unknown."""
         path = self.relative(value)
         return None if path is None or is_outside(path) else path
 
     def outside(self, value: str) -> str | None:
-        """Return the path that an argument denotes if it is an existing file or folder outside of the package, else None.
+        """Return the path of a path argument if it is an existing file or folder outside of the package, else None.
 
-        The path is relative to the package. Files outside of the tree do not count as existing.
+        The path is relative to the package. Files outside of the workspace count as missing.
         """
         path = self.relative(value)
         return path if path is not None and is_outside(path) and self.sources.outside.kind(self.tree_path(path)) else None
 
     def source_or_outside(self, value: str) -> str | None:
-        """Return the result of :meth:`source`, or of :meth:`outside` if that is None."""
+        """Return the result of :meth:`source`, or of :meth:`outside` if the result of :meth:`source` is None."""
         path = self.source(value)
         return self.outside(value) if path is None else path
 
     def script(self, path: str) -> ParsedScript | None:
-        """Return the commands of the CMake file at a path relative to the package; None if the tree has no such file."""
+        """Return the parsed CMake file at a path relative to the package; None if the workspace has no such file."""
         return self.sources.outside.script(self.tree_path(path)) if is_outside(path) else self.sources.scripts.get(path)
 
     def is_outside_source(self, value: str) -> bool:
-        """Return whether a path is a source folder outside of the package.
+        """Return whether a path argument is a source folder outside of the package.
 
-        ``$<BUILD_INTERFACE:`` before it is ignored.
+        A prefix ``$<BUILD_INTERFACE:`` of the argument is ignored.
         """
         plain = value.lstrip(MAYBE).removeprefix(_OF_BUILD)
         if HOLE in plain or plain.startswith("$<") or (plain[:1] == "/" and not plain.startswith(TREE)):
@@ -94,14 +97,14 @@ class Paths:
     def destination(self, value: str) -> str | None:
         """Return an install destination relative to the install prefix: ``${CMAKE_INSTALL_PREFIX}/lib`` -> ``lib``.
 
-        None if the destination is unknown or outside of the prefix.
+        The result is None if the destination is unknown or outside of the install prefix.
         """
         return _destination(value) if len(value) <= LONGEST else None
 
     def build_path(self, value: str) -> str | None:
-        """Return the path that an argument denotes, relative to the build folder of the package.
+        """Return the path of a path argument relative to the build folder of the package.
 
-        None if the path is outside of the build folder or unknown.
+        The result is None if the path is outside of the build folder or unknown.
         """
         if HOLE in value or len(value) > LONGEST or not (value.startswith(f"{BINARY}/") or value == BINARY):
             return None
@@ -109,15 +112,15 @@ class Paths:
         return None if path.startswith("..") or ATOM in path else path.removeprefix(".")
 
     def normalized(self, path: str) -> str:
-        """Return the normalized path of a file, relative to the package.
+        """Return the normalized path of a file, relative to the package: ``../package/file`` -> ``file``.
 
-        "" if the path is in the package but no such file exists. A path such as ``../package/file`` leads back into the package.
+        The result is "" if the path is in the package but no such file exists.
         """
         path = relative(self.sources.path, self.tree_path(path)) if is_outside(path) else path
         return path if path in self.files or is_outside(path) else ""
 
     def is_folder(self, path: str) -> bool:
-        """Return whether a folder exists. A folder in the package must contain a file."""
+        """Return whether a folder exists. A folder in the package exists only if it contains a file."""
         if is_outside(path):
             return self.sources.outside.kind(self.tree_path(path)) == "directory"
         return not path or bool(self.files_below(path)) or self.is_unlisted(path)
@@ -127,13 +130,13 @@ class Paths:
         return self.sources.outside.kind(self.tree_path(path)) == "file" if is_outside(path) else path in self.files
 
     def is_unlisted(self, path: str) -> bool:
-        """Return whether a path is in a nested package or a folder with a COLCON_IGNORE, whose files are not listed."""
+        """Return whether a path is in a nested package or in a folder with a COLCON_IGNORE. Their files are not listed."""
         return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unlisted_folders)
 
     def files_below(self, path: str) -> Sequence[str]:
         """Return the files below a folder, sorted. ``path`` and the results are relative to the package.
 
-        The result is empty for a folder outside of the package if only a part of its files is known.
+        The result is empty for a folder outside of the package if only some of its files are known.
         """
         if is_outside(path):
             place = self.tree_path(path)
@@ -161,10 +164,10 @@ class Paths:
 
 @lru_cache(maxsize=4096)
 def _relative_to(package: str, directory: str, value: str) -> str | None:
-    """Return the path that the argument ``value`` denotes, relative to ``package``.
+    """Return the path of the path argument ``value``, relative to ``package``.
 
-    ``directory`` is the folder of the script with the argument, relative to the package. None if the path is outside of
-    the tree or unknown.
+    ``directory`` is the folder of the script with the argument, relative to the package. The result is None if the path is
+    outside of the workspace or unknown.
     """
     if HOLE in value:
         return None
@@ -190,7 +193,7 @@ def _relative_to(package: str, directory: str, value: str) -> str | None:
 def _destination(value: str) -> str | None:
     """Return an install destination relative to the install prefix: ``${CMAKE_INSTALL_PREFIX}/lib`` -> ``lib``.
 
-    None if the destination is unknown or outside of the prefix.
+    The result is None if the destination is unknown or outside of the install prefix.
     """
     if value.startswith(PREFIX):
         value = value[len(PREFIX) :].lstrip("/")
@@ -202,4 +205,4 @@ def _destination(value: str) -> str | None:
 
 
 _MODULES = re.compile(rf"\Alib/python(?=[^/]*[{HOLE}{ATOM}])[^/]*/(?:site|dist)-packages(?=/|\Z)")
-"""A folder of Python modules whose Python version is unknown."""
+"""The start of an install path: a folder of Python modules whose Python version is unknown."""

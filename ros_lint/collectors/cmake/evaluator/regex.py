@@ -1,4 +1,4 @@
-"""Regular expressions of CMake (KWSys RegularExpression.cxx), translated to Python's.
+"""CMake's regular expressions (KWSys RegularExpression.cxx), translated to those of Python.
 
 CMake's expressions have fewer constructs than Python's, and match bytes.
 """
@@ -20,9 +20,10 @@ if TYPE_CHECKING:
 
 
 class RegexError(Exception):
-    """The expression cannot be evaluated.
+    """A regular expression cannot be evaluated.
 
-    CMake rejects it, its versions treat it differently, or matching could take exponential time.
+    The reason is one of: CMake rejects the expression, its meaning depends on the version of CMake, or matching could take
+    exponential time.
     """
 
 
@@ -35,23 +36,23 @@ def _compiled(text: str) -> Expression:
 
 
 class Searcher(NamedTuple):
-    """An expression, and the budget from which its searches take their steps."""
+    """A compiled regular expression, and the budget that its searches charge for their steps."""
 
     expression: Expression
     budget: Budget
 
     def search(self, text: str, at: int = 0) -> Match | None:
-        """Return the first match in the octets of a text (see :func:`is_in`) from ``at`` on, None if there is none.
+        """Return the first match at or after the offset ``at``, None if there is none. Raises BudgetExceeded.
 
-        Raises BudgetExceeded.
+        ``text`` has one character for each byte (see :func:`~ros_lint.base.text.octets`).
         """
         return self.expression.search(text, self.budget, at)
 
 
 def translated(text: str, budget: Budget) -> Searcher | None:
-    """Return the expression that CMake writes as ``text``.
+    """Return the compiled form of a regular expression of CMake, given as ``text``.
 
-    None if the expression cannot be evaluated (see :class:`RegexError`) or is too long.
+    The result is None if the expression cannot be evaluated (see :class:`RegexError`) or is too long.
     """
     try:
         return Searcher(_compiled(text), budget) if len(text) <= _LONGEST else None
@@ -60,13 +61,13 @@ def translated(text: str, budget: Budget) -> Searcher | None:
 
 
 _MOST_CHOICES: Final = 12
-"""Alternatives and optional pieces of an expression that Python's re matches, because each may double its time."""
+"""Maximum number of alternatives and optional parts of an expression for Python's re, because each may double its time."""
 _LONGEST: Final = 4096
-"""Characters of the longest expression that is evaluated, because a longer one takes long to compile."""
+"""Maximum length of an expression in characters, because a longer one takes long to compile."""
 
 
 def is_in(searcher: Searcher, text: str) -> bool:
-    """Return whether an expression matches anywhere in a text."""
+    """Return whether a compiled regular expression matches anywhere in a text."""
     return searcher.search(octets(text)) is not None
 
 
@@ -75,18 +76,18 @@ def _text(text: str) -> str:
 
 
 _MOST_MATCHES: Final = 10_000
-"""Matches of one expression in a text. If there are more, the result is unknown."""
+"""Maximum number of matches of one expression in a text. If there are more, the result is unknown."""
 
 
 class _Piece(NamedTuple):
-    """A part of an expression, translated."""
+    """A translated part of a regular expression."""
 
     pattern: str
-    """The part as an expression of Python."""
+    """The part as a Python regular expression."""
     program: list[Instruction]
-    """The part as instructions. Their targets are relative to the first of them."""
+    """The part as instructions for the matcher. Their jump targets are relative to the first instruction."""
     empty: bool
-    """True if it can match the empty text."""
+    """True if the part can match the empty text."""
 
 
 class _Translator:
@@ -95,11 +96,11 @@ class _Translator:
         self.at = 0
         self.groups = 0
         self.repeats = 0
-        """Number of pieces so far with an unlimited repetition (``*`` or ``+``)."""
+        """Number of parts so far with an unlimited repetition (``*`` or ``+``)."""
         self.choices = 0
-        """Number of alternatives and optional pieces so far."""
+        """Number of alternatives and optional parts so far."""
         self.ambiguous = False
-        """True if a repeated piece has alternatives or optional pieces."""
+        """True if some repeated part has alternatives or optional parts."""
 
     def whole(self) -> tuple[str, list[Instruction]]:
         piece = self.branches()
@@ -213,7 +214,7 @@ _OCTETS: Final = frozenset(map(chr, range(256)))
 
 
 def _moved(program: Iterable[Instruction], by: int) -> list[Instruction]:
-    """Return instructions that begin ``by`` instructions later."""
+    """Return instructions for a program where they begin ``by`` instructions later: their targets are increased by ``by``."""
     moved: list[Instruction] = []
     for instruction in program:
         if isinstance(instruction, Split):
@@ -227,7 +228,7 @@ def _moved(program: Iterable[Instruction], by: int) -> list[Instruction]:
 
 
 def clear(run: Run) -> None:
-    """Empty the CMAKE_MATCH variables, as CMake does before it applies an expression."""
+    """Empty the variables CMAKE_MATCH_0 and so on, as CMake does before it applies a regular expression."""
     last = run.get("CMAKE_MATCH_COUNT")
     if last is None:
         return
@@ -240,7 +241,7 @@ def clear(run: Run) -> None:
 
 
 def store(run: Run, groups: tuple[str, ...]) -> None:
-    """Set CMAKE_MATCH_0 and so on; the first group is the whole match."""
+    """Set CMAKE_MATCH_0 and so on to ``groups``, the groups of a match. The first group is the whole match."""
     highest = ""
     for index, group in enumerate(groups[:10]):
         if group:
@@ -250,16 +251,16 @@ def store(run: Run, groups: tuple[str, ...]) -> None:
 
 
 def forget(run: Run) -> None:
-    """Make the CMAKE_MATCH variables unknown."""
+    """Set the variables CMAKE_MATCH_0 and so on to unknown values."""
     for index in range(10):
         run.set(f"CMAKE_MATCH_{index}", HOLE)
     run.set("CMAKE_MATCH_COUNT", HOLE)
 
 
 def find(run: Run, regex: str, text: str) -> bool | None:
-    """Return whether an expression matches anywhere in a text, and set the CMAKE_MATCH variables.
+    """Return whether a regular expression matches anywhere in a text, and set CMAKE_MATCH_0 and so on.
 
-    None if the expression cannot be evaluated.
+    The result is None if the expression cannot be evaluated.
     """
     pattern = translated(regex, run.budget)
     if pattern is None:
@@ -278,10 +279,10 @@ def _groups(match: Match) -> tuple[str, ...]:
 
 
 def all_matches(regex: str, text: str, budget: Budget) -> list[tuple[str, str, tuple[str, ...]]]:
-    """Return all matches from left to right, each as the text before it, the match and its groups.
+    """Return all matches from left to right, each as the text before the match, the match and its groups.
 
-    The last entry is the text after the last match, without groups. Raises RegexError for empty matches, where CMake has an
-    error, and for ``^`` with more than one match, where the versions of CMake differ (policy CMP0186).
+    The last entry is the text after the last match, without groups. Raises RegexError for an empty match, where CMake has an
+    error, and for ``^`` with more than one match, where the result depends on the CMake version (policy CMP0186).
     """
     pattern = translated(regex, budget)
     if pattern is None:
@@ -302,16 +303,16 @@ def all_matches(regex: str, text: str, budget: Budget) -> list[tuple[str, str, t
 
 
 _EXAMPLE_FOLDERS: Final = ("/zq7x/wk", "/vj9/pq-5yz/hb_w")
-"""Two example folders of a workspace.
+"""Two examples of a workspace folder.
 
-A result that is the same for both does not depend on the folder."""
+A result that is equal for both examples does not depend on the folder."""
 
 
 def independent_of_folder(compute: Callable[..., str], *values: str) -> str:
-    """Return ``compute(*values)``, where values may contain the unknown folder of the workspace.
+    """Return ``compute(*values)``, where ``values`` may contain the unknown folder of the workspace.
 
-    HOLE if the result depends on this folder: it is computed for two example folders and compared. Raises the exceptions
-    of ``compute``.
+    The result is HOLE (unknown) if it depends on this folder: it is computed for two example folders and compared. Raises the
+    exceptions of ``compute``.
     """
     if not any("\1" in value for value in values):
         return compute(*values)

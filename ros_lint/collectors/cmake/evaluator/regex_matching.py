@@ -1,8 +1,8 @@
 """Matching of regular expressions in bounded time.
 
-Python's re tries all ways in which repetitions can divide a text, which may take polynomial or exponential time. An
-expression that may take long is matched by trying each of its instructions at each position of the text at most once.
-Both ways find the same match.
+Python's re tries all ways to divide a text among repetitions, which may take polynomial or exponential time. An expression
+that may take long is therefore matched by a program of instructions. Each instruction is tried at most once at each position
+of the text. Python's re and the program find the same match.
 """
 
 from __future__ import annotations
@@ -15,40 +15,43 @@ from ros_lint.base.budget import Budget, BudgetExceeded
 from ros_lint.collectors.cmake.evaluator.values import SLOW
 
 _QUICK: Final = 1 << 18
-"""Steps that Python's re may need for a match."""
+"""Maximum number of steps that Python's re may need for a match. For more steps, the instructions are run."""
 _LARGEST: Final = 1 << 25
-"""Bytes of the marks of one match."""
+"""Maximum memory for one match, in bytes: one byte for each instruction and position of the text."""
 _AT_ONCE: Final = 256
-"""Steps that are charged together."""
+"""Number of steps that are charged to the budget at once."""
 
 
 class Letter(NamedTuple):
-    """Matches one of the letters."""
+    """An instruction that matches one of the characters ``letters``."""
 
     letters: frozenset[str]
 
 
 class Split(NamedTuple):
-    """Continues at ``first``, and if that does not match, at ``second``."""
+    """An instruction that continues at the instruction ``first``, and if this does not match, at ``second``."""
 
     first: int
     second: int
 
 
 class Jump(NamedTuple):
-    """Continues at another instruction."""
+    """An instruction that continues at the instruction ``to``."""
 
     to: int
 
 
 class Save(NamedTuple):
-    """Records the position as the beginning or the end of a group: 0 and 1 for the whole match, 2 and 3 for the first group."""
+    """An instruction that records the position in the text as the beginning or the end of a group.
+
+    Slots 0 and 1 are for the whole match, 2 and 3 for the first group, and so on.
+    """
 
     slot: int
 
 
 class Anchor(NamedTuple):
-    """Matches at the end of the text, or at its beginning."""
+    """An instruction that matches only at the end of the text if ``end`` is true, else only at its beginning."""
 
     end: bool
 
@@ -57,7 +60,7 @@ Instruction = Letter | Split | Jump | Save | Anchor
 
 
 class Match(Protocol):
-    """What the matches of Python's re and those of this module have in common."""
+    """The methods of a match that Python's re and the matcher of this module both provide."""
 
     def __getitem__(self, group: int, /) -> str: ...
     def groups(self) -> Sequence[str | None]: ...
@@ -85,18 +88,18 @@ class _Found:
 
 
 class Expression(NamedTuple):
-    """A compiled expression."""
+    """A compiled regular expression, for Python's re and for the matcher of this module."""
 
     pattern: re.Pattern[str]
     program: tuple[Instruction, ...]
-    """The instructions of the same expression. The expression matches where they end."""
+    """The instructions of the expression. The expression has matched when the last instruction is done."""
     repeats: int
-    """The number of unlimited repetitions."""
+    """The number of unlimited repetitions (``*`` or ``+``) in the expression."""
     ambiguous: bool
-    """True if Python's re may take exponential time, because a repetition has alternatives or because there are many of them."""
+    """True if Python's re may take exponential time: a repetition has alternatives, or the expression has many alternatives."""
 
     def search(self, text: str, budget: Budget, at: int = 0) -> Match | None:
-        """Return the first match in a text from position ``at`` on, None if there is none. Raises BudgetExceeded."""
+        """Return the first match at or after the offset ``at``, None if there is none. Raises BudgetExceeded."""
         length = len(text) - at + 1
         steps: int = length if not self.repeats else length ** (self.repeats + 1)
         if steps <= _QUICK and not self.ambiguous:

@@ -1,4 +1,4 @@
-"""Input of an evaluation: the scripts and files of a package, files outside of it, and helper packages."""
+"""Input of the evaluation of CMake scripts: the files of a package, files outside of it, and helper packages."""
 
 from __future__ import annotations
 
@@ -10,54 +10,56 @@ from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.facts.build import BuildScript
 
 OUTSIDE: Final = ".."
-"""The provider of scripts outside of the package, but in the same tree: they run like scripts of the package."""
+"""The provider (name of the defining package) of scripts of the workspace outside of the package.
+
+Such scripts run like scripts of the package."""
 
 
 class OutsideTree(NamedTuple):
-    """Access to the files of the tree outside of a package.
+    """Access to the files of the workspace outside of a package.
 
-    Paths are relative to the base of the tree; nothing outside of it is visible.
+    Paths are relative to the root of the workspace. Files outside of the workspace do not exist here.
     """
 
     kind: Callable[[str], str] = lambda path: ""
-    """Returns "file" or "directory", or "" if the path does not exist or is not visible."""
+    """A function that returns "file" or "directory" for a path, "" if the path does not exist or is outside of the workspace."""
     below: Callable[[str], Sequence[str]] = lambda folder: ()
-    """Lists every file below a folder; empty if some of them are not visible."""
+    """A function that lists every file below a folder; the list is empty if some of the files are not accessible."""
     script: Callable[[str], ParsedScript | None] = lambda path: None
-    """Parses a CMake file; None if it does not exist or is not visible."""
+    """A function that parses a CMake file; None if the file does not exist or is not accessible."""
 
 
 class Sources(NamedTuple):
-    """The files of a package that its CMake scripts can read, and its metadata."""
+    """The files of a package that CMake scripts of the package can read, and the metadata in its package.xml."""
 
     name: str
-    """The name in package.xml, or ""."""
+    """The name in package.xml, "" if there is none."""
     path: str
-    """The folder of the package, relative to the base of the run; "" is the base."""
+    """The folder of the package, relative to the root of the workspace; "" is the root."""
     files: Sequence[str]
-    """Every file below the folder, relative to it, sorted."""
+    """Every file below the folder of the package, relative to this folder, sorted."""
     scripts: Mapping[str, ParsedScript]
-    """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder."""
+    """CMakeLists.txt and all ``*.cmake`` and ``*.cmake.in`` files, by path relative to the folder of the package."""
     executables: AbstractSet[str] = frozenset()
-    """Files with the executable bit in the whole tree, relative to the folder."""
+    """Files of the workspace with the executable bit, relative to the folder of the package."""
     version: str = ""
-    """The version in package.xml."""
+    """The version in package.xml, "" if there is none."""
     build_depends: tuple[str, ...] = ()
-    """Packages that package.xml declares for the build. ament_auto_find_build_dependencies() finds them."""
+    """Packages that package.xml declares as dependencies of the build. ament_auto_find_build_dependencies() finds them."""
     test_depends: tuple[str, ...] = ()
     unlisted_folders: tuple[str, ...] = ()
-    """Existing folders below the package, relative to it, whose files are not in ``files``."""
+    """Existing folders below the package whose files are not in ``files``, relative to the folder of the package."""
     texts: Mapping[str, str] = {}
-    """Contents of files that are read while CMake runs, such as setup.cfg, by path relative to the folder."""
+    """Contents of the files that CMake reads when it runs, such as setup.cfg, by path relative to the folder of the package."""
     list_unlisted: Callable[[str], Sequence[str]] = lambda folder: ()
-    """Lists the files below one of the ``unlisted_folders``, relative to the package.
+    """A function that lists the files below one of the ``unlisted_folders``, relative to the package.
 
-    Empty if that is not possible."""
+    The list is empty if the files cannot be listed."""
     outside: OutsideTree = OutsideTree()
 
 
 class Helper(NamedTuple):
-    """Another package of the workspace whose CMake code runs in its dependents (CONFIG_EXTRAS)."""
+    """Another package of the workspace whose CMake code (CONFIG_EXTRAS) runs in the packages that find it."""
 
     sources: Sources
     script: BuildScript

@@ -197,7 +197,7 @@ class State:
     # --- reading
 
     def builtin_value(self, name: str) -> str | None:
-        """Return the value that CMake sets for a variable before any script runs, None if there is none or it is unknown."""
+        """Return the value of a variable that CMake itself sets, None if CMake sets none or the value is unknown."""
         return self.path_variables.get(name) or VARIABLES.get(name)
 
     def normal(self, name: str) -> str | None:

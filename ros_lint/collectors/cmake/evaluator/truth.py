@@ -1,6 +1,7 @@
-"""Values of conditions: true, false, unknown, *likely* or *unlikely*.
+"""Truth values of CMake conditions: true, false, unknown, *likely* or *unlikely*.
 
-A likely or unlikely condition is true or false by default, but an option of the user can reverse it.
+A likely condition is true with default options, an unlikely condition is false with default options. In both cases an option
+of the user can reverse the value.
 """
 
 from __future__ import annotations
@@ -26,13 +27,17 @@ NUMBER = re.compile(
     r"|(?!0[xX])(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)",
     re.ASCII,
 )
-"""The part of a text that scanf() in C parses as a number, without infinities."""
+"""The start of a text that scanf() in C parses as a number, without infinities."""
 TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
 
 class Truth(NamedTuple):
-    """The value of a condition, and whether it is true only if tests are enabled, or false only if tests are enabled."""
+    """The truth value of a condition, and its relation to tests.
+
+    ``test_if_true``: the condition can be true only if tests are enabled. ``test_if_false``: it can be false only if tests
+    are enabled.
+    """
 
     value: int
     test_if_true: bool = False
@@ -40,21 +45,21 @@ class Truth(NamedTuple):
 
 
 class ConditionToken(NamedTuple):
-    """An evaluated word of a condition."""
+    """A word of a CMake condition, evaluated."""
 
     text: str
     quoted: bool
     configurable: bool
-    """True if a user may change its value."""
+    """True if the user may change the value of the word, for example with an option."""
 
 
 def negated(truth: Truth) -> Truth:
-    """Return the value of ``NOT truth``."""
+    """Return the truth value of ``NOT truth``."""
     return Truth(TRUE - truth.value, truth.test_if_false, truth.test_if_true)
 
 
 def both(left: Truth, right: Truth) -> Truth:
-    """Return the value of ``left AND right``."""
+    """Return the truth value of ``left AND right``."""
     # min() is Kleene's AND. With LIKELY and UNLIKELY ordered between the others, it also gives the default answer.
     return Truth(
         min(left.value, right.value), left.test_if_true or right.test_if_true, left.test_if_false and right.test_if_false
@@ -62,31 +67,31 @@ def both(left: Truth, right: Truth) -> Truth:
 
 
 def either(left: Truth, right: Truth) -> Truth:
-    """Return the value of ``left OR right``."""
+    """Return the truth value of ``left OR right``."""
     return Truth(
         max(left.value, right.value), left.test_if_true and right.test_if_true, left.test_if_false or right.test_if_false
     )
 
 
 def reversible(value: int) -> int:
-    """Return the value of a condition that an option of the user can reverse: LIKELY for TRUE, UNLIKELY for FALSE."""
+    """Return LIKELY for TRUE and UNLIKELY for FALSE, because an option of the user can reverse the condition; else ``value``."""
     return {TRUE: LIKELY, FALSE: UNLIKELY}.get(value, value)
 
 
 def reversible_if_configurable(value: int, run: Run, *tokens: ConditionToken) -> Truth:
-    """Return ``value`` as a Truth; LIKELY or UNLIKELY if the value of a token can be changed by the user."""
+    """Return ``value`` as a Truth. TRUE becomes LIKELY, and FALSE UNLIKELY, if the user can change the value of a token."""
     configurable = any(token.configurable or (not token.quoted and run.is_configurable(token.text)) for token in tokens)
     return Truth(reversible(value) if configurable else value)
 
 
 def is_off(text: str) -> bool:
-    """Return whether CMake treats a value as false."""
+    """Return whether CMake treats a value as false: "", 0, OFF, NO, FALSE, N, IGNORE, NOTFOUND or X-NOTFOUND, in any case."""
     return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
 
 
 @cached_short(1024)
 def constant(text: str) -> bool | None:
-    """Return whether a constant such as ``ON`` or ``NO``, or a number, is true for if(); None for any other word."""
+    """Return whether a constant such as ``ON`` or ``NO``, or a number, is true in if(); None for any other word."""
     if text.upper() in TRUE_WORDS:
         return True
     if is_off(text):

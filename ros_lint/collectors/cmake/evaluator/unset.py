@@ -1,4 +1,4 @@
-"""References to variables that nothing sets, in the commands that build, link, install and export."""
+"""References to variables that are never set, in the commands that build, link, install and export."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ READERS: Final = frozenset({
     "ament_target_dependencies", "install", "rclcpp_components_register_nodes", "rosidl_generate_interfaces",
     "target_link_libraries", "target_sources",
 })  # fmt: skip
-"""Commands whose arguments decide what is built, linked, installed or exported."""
+"""Names of the commands with arguments that determine what is built, linked, installed or exported."""
 
 _REFERENCE: Final = re.compile(r"\$\{([A-Za-z]\w*)\}")
 _OF_OTHERS: Final = re.compile(
@@ -24,11 +24,11 @@ _OF_OTHERS: Final = re.compile(
     r"|\w+_(?:BINARY_DIR|CFLAGS|DEFINITIONS|DIR|DIRS|EXECUTABLE|FOUND|INCLUDE|INCLUDES|LDFLAGS|LIB|LIBRARIES|LIBRARY|LIBS|PACKAGES"
     r"|PATH|PREFIX|ROOT|SOURCE_DIR|TARGET|TARGETS|VERSION\w*)"
 )
-"""Variables of CMake, of build tools and of packages that find_package() may find."""
+"""Pattern of variables of CMake, of build tools, and of packages that find_package() may find. They are not reported."""
 
 
 def note_unset_references(run: Run, command: Command) -> None:
-    """Record each unquoted argument of a command that is just ``${name}`` of a variable without a value.
+    """Record each unquoted argument of a command that is only a reference ``${name}`` to a variable without a value.
 
     Nothing is recorded if the command may not run.
     """
@@ -45,9 +45,9 @@ def note_unset_references(run: Run, command: Command) -> None:
 
 
 def unset_variables(run: Run) -> Iterator[UnsetVariable]:
-    """Yield the references to variables that no code can have set.
+    """Yield the recorded references to variables that no code can have set.
 
-    A variable counts as set if a command of the package has its name as an argument, or an argument that may evaluate to it.
+    A variable may be set if a command of the package has an argument that is its name, or that may evaluate to its name.
     """
     if not run.results.unset_references or run.any_variable_may_be_set or run.skipped_include:
         return
@@ -66,7 +66,7 @@ def unset_variables(run: Run) -> Iterator[UnsetVariable]:
 
 
 def _pattern(word: str) -> re.Pattern[str]:
-    """Return a pattern of the names to which an argument may evaluate: ``${x}_DIR`` matches ``ROBOT_DIR``."""
+    """Return a pattern of the texts to which an argument may evaluate: ``${x}_DIR`` matches ``ROBOT_DIR``."""
     pieces = re.split(r"\$\w*\{[^{}]*\}", word)
     return re.compile(r"\w+".join(map(re.escape, pieces)) if any(pieces) else r"(?!)")
 
