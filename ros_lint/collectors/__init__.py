@@ -1,1 +1,1 @@
-"""Collectors: one package for each language or format, from texts to facts."""
+"""Collectors: they read the texts of files and return facts. There is one package for each language or file format."""

@@ -1,7 +1,7 @@
-"""Comments of a file, in the languages of a workspace.
+"""Finds the comments of a file, for all languages that a ROS workspace may contain.
 
-The search is exact rather than fast, because only files with the marker of a suppression are searched. Strings that look
-like comments are left out. In a file with syntax errors, text that may be a comment or a string is left out.
+The search is exact rather than fast, because only files that contain the marker of a suppression are searched. Strings that
+look like comments are left out. In a file with syntax errors, text that may be a comment or a string is left out.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 Ranges = Iterator[tuple[int, int]]
-"""Offsets of comments, from the start of the opening mark to the end of the closing one."""
+"""Offset ranges of comments, from the start of the opening mark (such as ``/*``) to the end of the closing mark (``*/``)."""
 
 _XML = {"xml", "launch", "urdf", "xacro", "sdf", "world", "srdf", "rdf", "model", "config"}
 _CXX = {*(suffix[1:] for suffix in (*HEADERS, *SOURCES)), "idl", "java", "rs"}
@@ -28,7 +28,7 @@ _TEMPLATE = (".in", ".em", ".template")
 
 
 def comments(text: Text) -> tuple[tuple[int, int], ...]:
-    """Return the offset ranges of the comments of a file, in order. Empty for an unknown language."""
+    """Return the offset ranges of the comments of a file, in order; () for an unknown language."""
     find = _finder(text)
     return tuple(find(text.text)) if find else ()
 
@@ -63,7 +63,7 @@ def _matched(pattern: re.Pattern[str], text: str) -> Ranges:
 
 @cache
 def _pattern(*parts: str) -> re.Pattern[str]:
-    """Return a pattern that matches any of ``parts``: the comments of a language, and strings that may contain ``#``, ``//``."""
+    """Return a pattern for any of ``parts``: the comments of a language, and strings, which may contain comment marks."""
     return re.compile("|".join(parts), re.DOTALL | re.MULTILINE)
 
 

@@ -26,7 +26,7 @@ _SUFFIXES: dict[str, Kind] = {"py": "python", "cmake": "cmake", "java": "java", 
 
 
 def kind_of(path: str) -> Kind | None:
-    """Return which collector reads a file: ``src/a.cpp`` -> "cpp", ``a/package.xml`` -> "manifest"; None for no collector."""
+    """Return the kind of collector that reads a file: ``src/a.cpp`` -> "cpp", ``a/package.xml`` -> "manifest"; else None."""
     name = path.rpartition("/")[2]
     if name == "CMakeLists.txt":
         return "cmake"

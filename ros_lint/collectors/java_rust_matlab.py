@@ -1,8 +1,8 @@
-"""Sources in other languages with ROS 2 bindings: Java, Rust and MATLAB.
+"""Collectors of sources in other languages with ROS 2 bindings: Java, Rust and MATLAB.
 
-Their generators put the interfaces of each package into a namespace of that package, as in C++: ``std_msgs.msg.String`` in
-Java (rosidl_generator_java), ``std_msgs::msg::String`` in Rust (rosidl_generator_rs). All mentions are
-``via="symbol"``.
+As in C++, generators put the interfaces of each package into a namespace of that package: ``std_msgs.msg.String`` in Java
+(rosidl_generator_java), ``std_msgs::msg::String`` in Rust (rosidl_generator_rs). The mentions (names that may belong to
+another package) have ``via="symbol"``.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ _STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 _JAVA_TYPE = re.compile(r"(?<![\w.])([a-z]\w*)\.(?:msg|srv|action)\.[A-Z*]\w*")
 _RCLJAVA = re.compile(r"^[ \t]*import[ \t]+(?:static[ \t]+)?(org\.ros2\.rcljava(?:\.(\w+))?)\b", re.MULTILINE)
 _JAVA_MARKS = (".msg.", ".srv.", ".action.", "org.ros2.rcljava")
-"""A relevant Java source contains at least one of these texts: a fast test before comments are removed."""
+"""Texts of which every relevant Java source contains at least one, for a fast test before comments are removed."""
 _RCLJAVA_COMMON = frozenset({"common", "exceptions", "interfaces"})
-"""Parts of org.ros2.rcljava that are in the package rcljava_common."""
+"""Parts of org.ros2.rcljava that belong to the package rcljava_common."""
 
 _CRATE = re.compile(r"(?<![\w:])(?:use\s+|extern\s+crate\s+)(rclrs|rosidl_runtime_rs)\b")
 _RUST_TYPE = re.compile(r"(?<![\w:])(?:::)?(?P<type>(?P<package>[a-z]\w*)::(?:msg|srv|action)::\w*)")
 _RUST_MARKS = ("::msg::", "::srv::", "::action::", "rclrs", "rosidl_runtime_rs")
-"""A relevant Rust source contains at least one of these texts."""
+"""Texts of which every relevant Rust source contains at least one."""
 _CRATE_PREFIX = re.compile(r"\buse\s[^;]*::\s*\{[^;]*\Z")
-"""Matches the text before a name of another crate: ``use ros_env::{std_msgs::msg::String}``."""
+"""Matches the text before a name inside of another crate: ``use ros_env::{std_msgs::msg::String}``."""
 _SECTION = re.compile(r"^[ \t]*\[+([^\]\n]+)\]+", re.MULTILINE)
 _ENTRY = re.compile(r"^[ \t]*([\w-]+)(?:\.\w+)?[ \t]*=[ \t]*([^\n#]*)", re.MULTILINE)
 _FROM_WORKSPACE = re.compile(r'"\*"|\bpath[ \t]*=')
@@ -41,7 +41,7 @@ _CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
 
 
 def java(source: Text) -> FileFacts:
-    """Return mentions of the packages whose interfaces a Java source names, and of the packages of the client library."""
+    """Return mentions of the packages whose interfaces a Java source names, and of the packages of rcljava that it imports."""
     if not any(word in source.text for word in _JAVA_MARKS):
         return FileFacts()
     text = _STRING.sub(_spaces, blank_comments(source.text))
@@ -53,7 +53,7 @@ def java(source: Text) -> FileFacts:
 
 
 def rust(source: Text) -> FileFacts:
-    """Return the packages of the interfaces that a Rust source names, and the packages of the client library.
+    """Return mentions of the packages whose interfaces a Rust source names, and of rclrs and rosidl_runtime_rs.
 
     Names in the unit tests of the source count for tests only.
     """
@@ -75,10 +75,10 @@ def rust(source: Text) -> FileFacts:
 
 
 def cargo(source: Text) -> FileFacts:
-    """Return the dependencies in a Cargo.toml.
+    """Return mentions of the dependencies in a Cargo.toml.
 
     Crates of the workspace have the version ``*`` or a path, which colcon-ros-cargo replaces by the installed package.
-    Crates with another version may come from elsewhere and are optional.
+    Crates with another version may not be in the workspace, and their mentions are optional.
     """
     return FileFacts(tuple(_crates(source)))
 
@@ -119,7 +119,7 @@ def matlab(source: Text) -> FileFacts:
 
 
 COLLECTORS: Mapping[str, Callable[[Text], FileFacts]] = {"java": java, "rust": rust, "cargo": cargo, "matlab": matlab}
-"""The collectors by kind of file, see :mod:`ros_lint.workspace.collect`."""
+"""The collectors of the sources in this module, by kind of file, see :mod:`ros_lint.workspace.collect`."""
 
 
 def _spaces(match: re.Match[str]) -> str:
@@ -127,7 +127,7 @@ def _spaces(match: re.Match[str]) -> str:
 
 
 def _facts(source: Text, places: list[tuple[tuple[int, int], str]], *, optional: bool = False) -> FileFacts:
-    """Return facts with one mention for each package, at its first place. ``places`` are offset ranges with packages."""
+    """Return facts with one mention of each package, at its first place. ``places`` are offset ranges, each with its package."""
     first: dict[str, tuple[int, int]] = {}
     for place, package in sorted(places):
         first.setdefault(package, place)

@@ -1,4 +1,4 @@
-"""``pyproject.toml`` as tables."""
+"""Reads the tables of a ``pyproject.toml``."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def tables(source: Text) -> Mapping[str, Any]:
-    """Return the tables of a file; empty if it is not valid TOML or is nested too deeply."""
+    """Return the tables of a TOML file, {} if the file is not valid TOML or is nested too deeply."""
     if sys.version_info >= (3, 11):
         import tomllib  # noqa: PLC0415  (few packages have such a file)
     else:
@@ -23,7 +23,7 @@ def tables(source: Text) -> Mapping[str, Any]:
 
 
 def table(content: Any, *keys: str) -> Mapping[str, Any]:
-    """Return the table below nested keys: ``"tool", "black"`` -> the table ``[tool.black]``; empty if it is missing."""
+    """Return the table below nested keys, such as ``[tool.black]`` for the keys "tool", "black"; {} if there is no such table."""
     for key in keys:
         content = content.get(key) if isinstance(content, dict) else None
     return content if isinstance(content, dict) else {}

@@ -1,4 +1,4 @@
-"""Suppression comments: their places, the lines to which they apply, and the edits that remove them."""
+"""Suppression comments of ros-lint: their places, the lines to which they apply, and the edits that remove them."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def _is_standalone(content: str, start: int, end: int) -> bool:
 
 
 def _is_prolog(between: str) -> bool:
-    """Return whether the text between two comments contains only white space and XML declarations."""
+    """Return whether the text between two comments contains only white space, XML declarations and document types."""
     return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
 
 
@@ -136,5 +136,5 @@ def _cut_mark(content: str, comment: int, start: int, stop: int, end: int) -> tu
 
 
 def _separator(content: str, start: int, end: int) -> str:
-    """Return the text that replaces a deleted range: a space if the words around the range would be joined, else ""."""
+    """Return the text that replaces a deleted range: a space if the words before and after it would be joined, else ""."""
     return " " if start and end < len(content) and not (content[start - 1].isspace() or content[end].isspace()) else ""

@@ -1,10 +1,10 @@
-"""Texts of launch files with parts that are unknown until launch.
+"""Symbolic texts: texts of launch files with parts that are unknown until launch.
 
 The value of a launch configuration, the install place of a package and the output of a command are known only when
-the launch file runs. Characters of the private use area represent them, so that such texts can be joined, split and
-formatted like other texts, and the marks can be replaced later:
+the launch file runs. Marks, which are characters of the private use area, represent them, so that symbolic texts can be
+joined, split and formatted like other texts. Later, known values can replace the marks:
 
-- ``UNKNOWN`` for any text at all;
+- ``UNKNOWN`` for a text of which nothing is known;
 - ``OWN_FOLDER`` for the folder of the launch file;
 - an absolute path that no file system has, for the install prefix of a package;
 - marks around the name of a launch configuration, a Python expression or a command.
@@ -33,12 +33,12 @@ _DEFAULT = "\ue016"
 _PRESENT = "\ue017"
 
 MOST = 24
-"""The maximum number of alternatives of a text."""
+"""The maximum number of possible values of a text."""
 
 _MAX_DEPTH = 30
 _MAX_CHOICES = 3_000
 _MAX_FILLED = 400
-"""The maximum number of configurations filled into one text, nested ones included.
+"""The maximum number of launch configurations that are replaced by their values in one text, nested ones included.
 
 Real texts need up to 34.
 """
@@ -53,7 +53,7 @@ _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
 # A computed name begins with the mark of another configuration.
 _NAME_OF_CONFIGURATION = re.compile("\ue010([^\ue010\ue011\ue016]*)([\ue010\ue011\ue016])")
 BRACKETS = re.compile("([\ue010\ue012\ue014])|[\ue011\ue013\ue015]")
-"""Begins (in group 1) or ends a part of a text that is known only at launch."""
+"""Matches the mark that begins (group 1) or ends a part of a text that is known only at launch."""
 _EXPRESSION_MARKS = re.compile("([\ue012\ue013])")
 _NEGATION = re.compile("\ue012(?:not (\ue010[^\ue010-\ue013]*\ue011)|_not(_equals\\(.*\\)))\ue013")
 _INNER_EXPRESSION = re.compile("\ue012([^\ue012\ue013]*)\ue013")
@@ -74,12 +74,12 @@ class InstallPlace(NamedTuple):
 
     @property
     def known(self) -> bool:
-        """True if the name of the package is known."""
+        """True if the name of the package is known, and not computed at launch."""
         return bool(self.package) and is_plain(self.package)
 
     @property
     def share(self) -> str | None:
-        """The path below share/<package>, "" for the folder itself; None if elsewhere or not fully known."""
+        """The path below share/<package>, "" for the folder itself; None if the path is elsewhere or not fully known."""
         folder = f"share/{self.package}"
         if not is_plain(self.path) or not (self.path == folder or self.path.startswith(folder + "/")):
             return None
@@ -87,36 +87,36 @@ class InstallPlace(NamedTuple):
 
     @property
     def executable(self) -> str:
-        """The name of an executable in lib/<package>, "" if the path is elsewhere."""
+        """The name of the executable if the path is in lib/<package>, "" if the path is elsewhere."""
         folder, _, name = self.path.rpartition("/")
         return name if folder == f"lib/{self.package}" and is_plain(name) else ""
 
 
 def prefix(package: str) -> str:
-    """Return the symbolic path of the install prefix of a package."""
+    """Return the path that represents the install prefix of a package, which is unknown until launch."""
     return f"/{_ROOT}{package}"
 
 
 def share(package: str) -> str:
-    """Return the symbolic path of the share folder of a package."""
+    """Return the path that represents the share folder of a package, which is unknown until launch."""
     return f"/{_ROOT}{package}/share/{package}"
 
 
 def configuration(name: str, default: str | None = None) -> str:
-    """Return a text that stands for the value of a launch configuration; ``default`` is the value if nothing sets it."""
+    """Return the mark for the value of a launch configuration. ``default`` is the value if nothing sets the configuration."""
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
 
 
 @lru_cache(maxsize=8_192)
 def named_in(text: str) -> tuple[str, ...] | None:
-    """Return the names of the launch configurations in a text, in order; None if the name of a configuration is computed."""
+    """Return the names of the launch configurations in a text, in order; None if a name is computed."""
     names = _NAME_OF_CONFIGURATION.findall(text)
     return None if any(mark == _CONFIGURATION[0] for _, mark in names) else tuple([name for name, _ in names])
 
 
 def expression(text: str) -> str:
-    """Return a text that stands for the value of the Python expression ``text``, as ``$(eval ...)`` does."""
+    """Return the mark for the value of the Python expression ``text``, as ``$(eval ...)`` computes it."""
     return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
 
 
@@ -126,9 +126,9 @@ def has_expression(text: str) -> bool:
 
 
 def quoted(text: str) -> str:
-    """Return a text as a Python literal.
+    """Return a text as a Python string literal.
 
-    Marks and expressions are kept, because their values replace them inside the literal.
+    Marks and expressions are not escaped, because their values replace them inside of the literal.
     """
     if not has_expression(text):
         return f"'{_escaped(text)}'"
@@ -144,22 +144,22 @@ def _escaped(text: str) -> str:
 
 
 def command(text: str) -> str:
-    """Return a text that stands for the output of the command line ``text``, as ``$(command ...)`` does."""
+    """Return the mark for the output of the command line ``text``, as ``$(command ...)`` computes it."""
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
 
 
 def presence(package: str) -> str:
-    """Return a text that stands for the answer to "is this package installed?", for use as a launch condition."""
+    """Return the text of the launch condition that a package is installed, which is unknown until launch."""
     return f"{_PRESENT}{package}"
 
 
 def package_of_presence(text: str) -> str:
-    """Return the package of a text made by :func:`presence`, "" for any other text."""
+    """Return the package in a text that :func:`presence` returned, "" for any other text."""
     return text[1:] if text.startswith(_PRESENT) else ""
 
 
 def certain_part(text: str) -> str:
-    """Return a text without its marks and the texts inside marks, so that only its literal characters remain."""
+    """Return the literal characters of a text, that is, without its marks and without the names and expressions in marks."""
     while match := _INNERMOST.search(text) or _INNER_EXPRESSION.search(text):
         text = text[: match.start()] + text[match.end() :]
     return _ANY_MARK.sub("", text)
@@ -171,12 +171,12 @@ def is_plain(text: str) -> bool:
 
 
 def is_settled(text: str) -> bool:
-    """Return whether a text contains no marks other than the install places of packages."""
+    """Return whether a text has no marks except for install places of packages and for the folder of the launch file."""
     return text.isascii() or not _UNSETTLED.search(text)
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Yield the launch configurations in a text, innermost only: name, whether it has a default, and its symbolic text."""
+    """Yield the launch configurations in a text that contain no other one: name, whether it has a default, and its mark."""
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark), match[0]
@@ -188,7 +188,7 @@ def runs_xacro(text: str) -> bool:
 
 
 def is_node_renaming(word: str) -> bool:
-    """Return whether an argument of a node may change its name or namespace (``-r __ns:=/front``)."""
+    """Return whether an argument of a node may change the name or namespace of the node (``-r __ns:=/front``)."""
     return any(mark in word for mark in _RENAMES)
 
 
@@ -247,7 +247,7 @@ def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
 def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Return the names of the launch configurations whose values may contain an install place or a command of xacro.
 
-    ``values`` has the values of each configuration. A value may do so by referring to another configuration.
+    ``values`` has the values of each configuration. A value may refer to another configuration whose value contains it.
     """
     result: set[str] = set()
     candidates: dict[str, tuple[str, ...]] = {}
@@ -284,7 +284,7 @@ def installed_place(text: str) -> InstallPlace | None:
 
 
 class Conditional(str):
-    """A possible value of a text, such as the executable of a node, that applies only if all ``conditions`` hold."""
+    """A possible value of a text, such as the executable of a node, that applies only if all its ``conditions`` hold."""
 
     __slots__ = ("conditions",)
 
@@ -301,20 +301,20 @@ def conditional(text: str, conditions: tuple[LaunchCondition, ...]) -> str:
 
 
 def conditions_of(text: str) -> tuple[LaunchCondition, ...]:
-    """Return the conditions of a text made by :func:`conditional`; () for any other text."""
+    """Return the conditions of a text that :func:`conditional` returned, () for any other text."""
     return text.conditions if isinstance(text, Conditional) else ()
 
 
 def negated(text: str) -> str:
-    """Return the launch configuration or comparison that an expression negates, "" for other texts."""
+    """Return the launch configuration or comparison that the expression ``text`` negates, "" if it is not a negation."""
     match = _NEGATION.fullmatch(text)
     return "" if match is None else match[1] or expression(match[2])
 
 
 def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether conditions can hold together.
+    """Return whether conditions can hold at the same time.
 
-    False for a condition and its negation, and for two conditions that require different values of one text.
+    The result is False if one condition is the negation of another, or if two conditions require different values of one text.
     """
     truths: dict[tuple[tuple[str, ...], str | None], bool] = {}
     values: dict[tuple[str, ...], str] = {}
@@ -330,10 +330,10 @@ def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
 
 
 def distinct(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return texts without duplicates; equal texts with different conditions are distinct.
+    """Return texts without duplicates. Equal texts with different conditions are distinct.
 
     A text with conditions is dropped if the same text occurs without conditions. If there are more than ``MOST`` pairs of
-    text and conditions, each text occurs once, without conditions if it had several.
+    text and conditions, each text is returned once, without conditions if it occurs with several.
     """
     by_conditions = {(text, conditions_of(text)): text for text in texts}
     if len(by_conditions) <= MOST:
@@ -370,8 +370,8 @@ def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]]
 def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
     """Return the possible values of a text after its launch configurations and expressions are replaced by their values.
 
-    ``values`` returns the possible values of the configuration with a name, None if it is not set. ``evaluate`` returns
-    the value of an expression without unknown parts, or UNKNOWN.
+    ``values(name)`` returns the possible values of a configuration, None if the configuration is not set. ``evaluate`` returns
+    the value of an expression without unknown parts, UNKNOWN if it cannot be computed.
     """
     filled = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
     if len(filled) == 1:

@@ -1,1 +1,1 @@
-"""Files that colcon reads besides manifests: CMakeLists.txt, setup.py, colcon.pkg, colcon.meta."""
+"""Readers of the files that colcon reads besides manifests: CMakeLists.txt, setup.py, colcon.pkg, colcon.meta."""

@@ -39,13 +39,13 @@ class Project(NamedTuple):
     """The data that colcon reads from a ``CMakeLists.txt``."""
 
     name: str
-    """The name in the first literal project(), or ""."""
+    """The name in the first project() with a literal name, "" if there is none."""
     toplevel: bool
-    """True for the file that catkin_make puts into src/, which defines no package."""
+    """True for the CMakeLists.txt that catkin_make puts into src/, which does not define a package."""
 
 
 def project(text: Text) -> Project:
-    """Return the data that colcon reads from a ``CMakeLists.txt``: the project name, which names the package."""
+    """Return the data that colcon reads from a ``CMakeLists.txt``. The project name is the name of the package."""
     match = _PROJECT.search(_PlainText(text).closed())
     name = match[2] if match else ""
     toplevel = name == "Project" and "catkin_workspace()" in text.text.splitlines()
@@ -53,9 +53,9 @@ def project(text: Text) -> Project:
 
 
 def depends(text: Text) -> tuple[ColconDepend, ...]:
-    """Return the dependencies by which colcon orders a plain CMake package, from one of its CMake files.
+    """Return the dependencies by which colcon orders a plain CMake package, read from one CMake file of the package.
 
-    The files are ``CMakeLists.txt`` and ``*.cmake``. Names of the package itself are included.
+    Such a file is ``CMakeLists.txt`` or ``*.cmake``. Dependencies of a package on itself are included.
     """
     if "find_package" not in (lower := text.text.lower()) and "pkg_" not in lower:
         return ()
@@ -69,7 +69,7 @@ def depends(text: Text) -> tuple[ColconDepend, ...]:
 def subdirectories(text: Text) -> frozenset[str]:
     """Return the folders that a ``CMakeLists.txt`` adds by add_subdirectory() with a literal path, relative to its folder.
 
-    Calls of functions that wrap add_subdirectory() count if their name is add_subdirectory with a word inserted.
+    Functions that wrap add_subdirectory() count if a word is inserted into their name: ``add_optional_subdirectory``.
     """
     return frozenset(match[1] for match in _SUBDIRECTORY.finditer(_PlainText(text).content))
 
@@ -81,7 +81,7 @@ def _modules(content: str) -> Iterator[tuple[str, int, int]]:
 
 
 class _PlainText:
-    """The content of a CMake file without comments and unclosed quotes; converts offsets in it to spans of the file."""
+    """The content of a CMake file without comments and unclosed quotes; converts its offsets to spans of the file."""
 
     def __init__(self, text: Text) -> None:
         self._text = text
@@ -105,7 +105,7 @@ class _PlainText:
     def closed(self) -> str:
         """Return the content up to its last closing parenthesis.
 
-        The rest has no complete command, and each unclosed parenthesis in it would cost a search to the end.
+        The rest has no complete command, and each unclosed parenthesis in the rest would cost a search to its end.
         """
         return self.content[: self.content.rfind(")") + 1]
 

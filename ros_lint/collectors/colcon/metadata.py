@@ -26,7 +26,7 @@ _CATEGORIES = {
 
 
 class ColconYamlError(ValueError):
-    """A ``colcon.pkg`` or ``colcon.meta`` is not a YAML mapping, so colcon ignores it. ``span`` is the place of the error."""
+    """A ``colcon.pkg`` or ``colcon.meta`` is not a YAML mapping, so colcon ignores it. ``span`` is the span of the error."""
 
     def __init__(self, reason: str, span: Span) -> None:
         super().__init__(reason)

@@ -1,7 +1,7 @@
-"""Name and dependencies of a Python package without a usable package.xml, from its setup scripts, as for colcon.
+"""Name and dependencies of a Python package without a usable package.xml, from its setup scripts, as colcon determines them.
 
-colcon runs setup.py to get the name and the dependencies. Here setup.py is only read, so a name that is not a literal is
-unknown. Source: package identification and augmentation of colcon-core and colcon-python-setup-py.
+colcon runs setup.py to get the name and the dependencies. This module only reads setup.py, so a name that is not a literal
+is unknown. Source: package identification and augmentation of colcon-core and colcon-python-setup-py.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ class PythonProject(NamedTuple):
     """The name and the dependencies that colcon gets from setup.py, setup.cfg and pyproject.toml of a Python package."""
 
     name: str
-    """The name of the package, or "" if there is none or it is unknown."""
+    """The name of the package, "" if it has no name or the name is unknown."""
     unknown: str
-    """The reason why the name is unknown, as a clause; "" if it is known, or known to be missing."""
+    """The reason why the name is unknown, as a clause such as "setup.py computes its name"; "" if the name is not unknown."""
     depends: tuple[ColconDepend, ...]
 
 
@@ -46,7 +46,7 @@ def needs_no_run(setup_py: Text) -> bool:
 
 
 def from_setup_cfg(setup_cfg: Text) -> PythonProject:
-    """Return the project that a ``setup.cfg`` alone defines."""
+    """Return the name and dependencies that a ``setup.cfg`` defines, without setup.py."""
     parser = RawConfigParser(strict=False)
     try:
         parser.read_string(setup_cfg.text)
@@ -71,7 +71,7 @@ def _cfg_depends(text: Text, options: Mapping[str, str], roles: Mapping[str, Rol
 
 
 def from_setup_py(setup_py: Text, setup_cfg: Text | None, pyproject: Text | None) -> PythonProject:
-    """Return the project that running a ``setup.py`` would define, as far as it can be read."""
+    """Return the name and dependencies that colcon would get by running a ``setup.py``. The name may be unknown."""
     try:
         module = parse(setup_py)
     except TooDeepError as error:
@@ -130,7 +130,7 @@ class _Script:
                     self._values[target.id] = statement.value
 
     def arguments(self, call: ast.Call) -> tuple[dict[str, ast.expr], bool]:
-        """Return the keyword arguments of a call, and True if all are known: each ``**mapping`` could be read."""
+        """Return the keyword arguments of a call, and True if these are all, that is, if each ``**mapping`` could be read."""
         result: dict[str, ast.expr] = {}
         complete = True
         for keyword in call.keywords:
@@ -160,7 +160,7 @@ class _Script:
         return node
 
     def value(self, node: ast.expr) -> object:
-        """Return the value of an expression if it is constant, also through variables, ``+`` and f-strings; else None."""
+        """Return the value of an expression that consists of constants, variables, ``+`` and f-strings, None if unknown."""
         node = self._resolved(node)
         if isinstance(node, ast.Constant):
             return node.value

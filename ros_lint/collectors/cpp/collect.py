@@ -25,9 +25,11 @@ _place = operator.itemgetter(Mention._fields.index("span"))
 def collect(source: Text) -> FileFacts:
     """Return the includes, lookups and registered classes of a C or C++ file, without standard headers.
 
-    - An include is a mention ``via="include"``; its ``what`` distinguishes ``#include "a"`` from ``#include <a>``.
-    - Interface types whose package is not included are ``via="symbol"``.
-    - Lookups by ament_index_cpp and pluginlib with a literal are ``via="package"``.
+    Names that may belong to another package become Mentions:
+
+    - An include has ``via="include"``. Its ``what`` distinguishes ``#include "a"`` from ``#include <a>``.
+    - An interface type has ``via="symbol"`` if no header of its package is included.
+    - A lookup by ament_index_cpp or pluginlib with a literal has ``via="package"``.
     """
     scan = scan_includes(source)
     included, code = scan.mentions, scan.code
@@ -50,7 +52,7 @@ def collect(source: Text) -> FileFacts:
 
 
 def _implements(path: str, included: Iterable[Mention]) -> bool:
-    """Return whether a source includes the header of the same name, such as ``a.hpp`` in ``a.cpp``.
+    """Return whether a source includes a header with its own name, such as ``a.hpp`` in ``a.cpp``.
 
     Such a header may declare the plugin loaders of the source.
     """

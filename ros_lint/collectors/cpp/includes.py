@@ -91,24 +91,24 @@ class IncludeScan(NamedTuple):
     mentions: list[Mention]
     """The includes in order."""
     code: list[int]
-    """Their offsets, which are known to be code: neither in a comment nor in a string."""
+    """The offsets of the includes, which are certainly code: neither in a comment nor in a string."""
     computed: list[Include]
     """Includes whose name is a macro."""
     directives: list[re.Match[str]]
-    """The directives for :func:`branches`; empty if only an include guard is conditional."""
+    """The directives for :func:`branches`. Empty if no directive is conditional, or only an include guard is."""
 
 
 def scan_includes(source: Text) -> IncludeScan:
     """Return the includes of a C or C++ source, without standard headers and without includes in ``#if 0``.
 
-    An include in a conditional is optional, unless each branch includes the same folder. Conditions that hold in every
-    build, such as include guards, do not count.
+    An include in a conditional is optional, unless each branch includes a header from the same folder. A condition that holds
+    in every build, such as an include guard, does not make an include optional.
     """
     return _scan_fast(source) or scan_exactly(source)
 
 
 def scan_exactly(source: Text) -> IncludeScan:
-    """Return the result of :func:`scan_includes` by the slower method that is exact for every text."""
+    """Return the includes as :func:`scan_includes` does, by the slower method that is exact for every text."""
     text = blank_comments(source.text)
     directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
     guarded = _is_guarded(text, directives)
@@ -129,9 +129,9 @@ def _mention(name: str, span: Span, quote: str, optional: bool) -> Mention:
 
 
 def _scan_fast(source: Text) -> IncludeScan | None:
-    """Return the result of one scan without removing comments; None if this is not exact, so that scan_exactly() is needed.
+    """Return the includes by one scan that does not remove comments, None if the result may be wrong.
 
-    It is not exact if a directive may be in a comment or a raw string, or if the name of an include is a macro.
+    It may be wrong if a directive may be in a comment or a raw string, or if the name of an include is a macro.
     """
     text, path = source.text, source.path
     if "\r" in text and text.count("\r") != text.count("\r\n"):
@@ -177,8 +177,8 @@ def _scan_fast(source: Text) -> IncludeScan | None:
 def _parse_include(directive: str) -> tuple[str, str, int, int]:
     """Return the header in an include directive: its name, the directive, and the column and the length of the name.
 
-    ``#include  <a.h>`` -> ``("a.h", "#include <a.h>", 12, 3)``; ``("", "", 0, 0)`` for a standard header. Results are
-    cached, because packages include the same headers repeatedly.
+    ``#include  <a.h>`` -> ``("a.h", "#include <a.h>", 12, 3)``. The result for a standard header is ``("", "", 0, 0)``.
+    Results are cached, because packages include the same headers repeatedly.
     """
     match = _DIRECTIVE.match(directive)
     assert match is not None
@@ -219,7 +219,7 @@ def _includes(text: str, directives: list[re.Match[str]], guarded: bool) -> list
 
 
 def blank_comments(text: str) -> str:
-    """Return the text with blanks for comments and raw strings, and continued lines joined.
+    """Return the text with blanks for comments, quotes for raw strings, and continued lines joined.
 
     Offsets are unchanged.
     """
@@ -229,7 +229,7 @@ def blank_comments(text: str) -> str:
 def may_be_comment(text: str, at: int, code: Sequence[int] = ()) -> bool:
     """Return whether an offset may be in a comment or a raw string.
 
-    ``code`` are sorted offsets known to be code.
+    ``code`` has sorted offsets that are certainly outside of comments and strings.
     """
     before = bisect_left(code, at)
     clear = code[before - 1] if before else 0
@@ -335,7 +335,7 @@ class _Conditional:
 
 
 def _conditional(text: str, directives: list[re.Match[str]]) -> tuple[Set[int], Set[int]]:
-    """Return the offsets of include directives in two sets: directives for no build, and directives for only some builds."""
+    """Return the offsets of include directives in two sets: directives that no build reads, and that only some builds read."""
     skipped: set[int] = set()
     optional: set[int] = set()
     stack: list[_Conditional] = []

@@ -29,7 +29,7 @@ _MAX_DISTANCE = 200
 def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tuple[LookUp, ...]]:
     """Return the packages that a source looks up by name in the ament index, and the files in their share folders.
 
-    ``code`` are sorted offsets known to be code.
+    ``code`` has sorted offsets that are certainly outside of comments and strings.
     """
     text = source.text
     if "get_package_" not in text:
@@ -49,7 +49,7 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
 
 
 def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
-    """Return the plugin loaders in a source (pluginlib). The caller checks that the source may include their header."""
+    """Return the plugin loaders (pluginlib) in a source. The caller must check that the source may include ``pluginlib``."""
     if "oader" not in source.text:
         return ()
     matches = list(_LOADER.finditer(source.text))
@@ -97,9 +97,9 @@ def _try_start(text: str, end: int) -> int:
 
 
 def _files(text: str, calls: list[re.Match[str]]) -> Iterator[tuple[tuple[int, int], str, str]]:
-    """Yield each file that the code looks up: the offset range of its first literal, its package and its path.
+    """Yield each file that the code looks up: the offset range of the first literal of its path, its package and its path.
 
-    ``get_package_share_directory("robot") + "/maps/a.yaml"`` -> ``maps/a.yaml`` of ``robot``; the result of the call may
+    ``get_package_share_directory("robot") + "/maps/a.yaml"`` -> ``maps/a.yaml`` of ``robot``. The result of the call may
     be stored in a variable first.
     """
     variables: dict[str, set[str]] = {}

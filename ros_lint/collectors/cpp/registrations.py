@@ -22,7 +22,7 @@ _CONTINUED = re.compile(r"\\\r?\n")
 def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration, ...]:
     """Return the classes that a C++ file registers, in order.
 
-    ``code`` are sorted offsets known to be code.
+    ``code`` has sorted offsets that are certainly outside of comments and strings.
     """
     text = source.text
     if not ("_REGISTER_" in text or "PLUGINLIB_EXPORT_CLASS" in text):
@@ -44,10 +44,10 @@ _DEFINITION = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)((?:[^\\\n]|\\\r?\n|\\
 
 
 def wrapper_macros(source: Text) -> tuple[Opaque, ...]:
-    """Return the definitions of macros that register components. The components are unknown, because calls name them.
+    """Return each definition of a macro that registers components, as a place that could not be evaluated.
 
-    Plugins are searched by the names in their descriptions, see
-    :func:`ros_lint.workspace.usage.textual_mentions.find_unwritten_classes`.
+    The components are unknown, because the calls of the macro name them. Plugins of such macros are searched by the names in
+    the plugin descriptions, see :func:`ros_lint.workspace.usage.textual_mentions.find_unwritten_classes`.
     """
     text = source.text
     if "define" not in text or _COMPONENT_MACRO not in text:

@@ -34,11 +34,11 @@ _WORD = string.ascii_letters + string.digits + "_"
 _WORD_CHARACTERS = frozenset(_WORD)
 _make = tuple.__new__
 _MAX_NAME = 64
-"""Number of characters of a name that are considered."""
+"""Number of characters before ``::`` in which the name of a package is searched."""
 
 
 def symbols(source: Text, excluded: Collection[str], directives: IncludeScan) -> list[Mention]:
-    """Return mentions of the packages whose interfaces or namespaces a C++ file names, each at its first place.
+    """Return mentions of the packages whose interfaces or namespaces a C++ file names, each at its first place in the file.
 
     Packages in ``excluded`` are left out. A mention is optional if all uses of its package depend on the build. All
     mentions have ``via="symbol"`` and the name of the package.
@@ -61,8 +61,8 @@ def symbols(source: Text, excluded: Collection[str], directives: IncludeScan) ->
 def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[range]) -> tuple[int, int, bool, str] | None:
     """Return the first qualified name such as ``package::msg::Type`` in code: start, end, whether optional, ``package``.
 
-    Lines that may be comments, strings or directives are skipped, because a source usually has more such names. None if
-    there is no name.
+    Lines that may be comments, strings or directives are skipped, because a source usually has further names. The result is
+    None if there is no name.
     """
     optional = None
     qualifier = f"{package}::"

@@ -26,7 +26,7 @@ _USING = re.compile(rb"\busing\s+" + _MESSAGE + rb"(\w+)\s*;")
 _ALIAS = re.compile(rb"\busing\s+(\w+)\s*=\s*(?:typename\s+)?" + _MESSAGE + rb"\w+")
 _CHAIN = re.compile(rb"(?:\w+\s*::\s*)+\Z")
 _MAX_CONTEXT = 120
-"""Number of bytes before a name that are considered."""
+"""Number of bytes before a name that are examined, to recognize its definition and its namespace."""
 _COMMENTS_AND_STRINGS = re.compile(rb'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 _MIN_LENGTH = 4
 """Length of the shortest name considered, because shorter names are too often ambiguous."""
@@ -65,8 +65,8 @@ def _blank(match: re.Match[bytes]) -> bytes:
 def first_use(texts: Iterable[tuple[str, bytes]], name: bytes, namespaces: Container[bytes]) -> Span | None:
     """Return the first place where C++ code uses ``name`` alone, or qualified by one of ``namespaces``.
 
-    ``texts`` are pairs of path and code. None if the code does not use the name, defines it itself, or also uses it from
-    a namespace that is not in ``namespaces``. If ``name`` is a namespace, only ``name::`` counts as a use.
+    ``texts`` are pairs of path and code. The result is None if the code does not use the name, defines it itself, or also uses
+    it from a namespace that is not in ``namespaces``. If ``name`` is a namespace, only ``name::`` counts as a use.
     """
     result: Span | None = None
     for path, text in texts:

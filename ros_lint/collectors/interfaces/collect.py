@@ -24,8 +24,8 @@ _IDL_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 def collect(source: Text) -> FileFacts:
     """Return the types of other packages that an interface file uses, as ``package/Type``.
 
-    A .msg field names a type ``package/Type``. Names with more slashes count, too, although rosidl rejects them. An .idl file
-    includes ``package/msg/Type.idl`` and names ``package::msg::Type``, also for its own package.
+    A .msg field has a type ``package/Type``. A type with more slashes is returned, too, although rosidl rejects it. An .idl
+    file includes ``package/msg/Type.idl`` and uses ``package::msg::Type``, also for its own package.
     """
     if source.path.endswith(".idl"):
         return FileFacts(tuple(_idl(source)))

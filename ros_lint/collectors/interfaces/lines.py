@@ -1,4 +1,4 @@
-"""Read the lines of a .msg, .srv or .action file as rosidl_adapter does, with the errors for which it stops.
+"""Read the lines of a .msg, .srv or .action file as rosidl_adapter does, and find the errors for which it rejects the file.
 
 The rules are those of rosidl_adapter/parser.py, which are the same from Humble to Rolling.
 """
@@ -27,7 +27,7 @@ _INTEGERS: Final = {
 }
 _STRINGS: Final = ("string", "wstring")
 _PLAIN: Final = frozenset({"bool", "float32", "float64", *_INTEGERS, *_STRINGS})
-"""Types that are not messages."""
+"""The primitive types of interface definitions, which are not messages."""
 _ROS_1_TYPES: Final = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 _SUGGESTED_TYPES: Final = {
     "float": "float32 or float64",
@@ -51,7 +51,7 @@ _KEYWORDS: Final = frozenset({
     "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while",
     "xor", "xor_eq",
 })  # fmt: skip
-"""Keywords of C and C++. Generated code uses field names as names of members."""
+"""Keywords of C and C++, which cannot be field names, because generated code uses field names as names of members."""
 _SEPARATORS: Final = {"msg": 0, "srv": 1, "action": 2}
 """The number of lines ``---`` in a definition, by suffix."""
 _SEPARATOR = re.compile(r"^---(?=\r?$)", re.MULTILINE)
@@ -62,7 +62,10 @@ _SCOPED = re.compile(r"([a-z]\w*)(?:/|::|\.)msg(?:/|::|\.)([A-Z]\w*)")
 
 
 class _LineError(Exception):
-    """An error of a line that rosidl rejects: the message, and the offsets of the wrong part in the line."""
+    """An error for which rosidl rejects a line.
+
+    It has the message, the start and end offset of the wrong part in the line, and a replacement for that part or None.
+    """
 
     def __init__(self, message: str, start: int, part: str, instead: str | None = None) -> None:
         super().__init__(message)
@@ -83,7 +86,7 @@ class _Element(NamedTuple):
 
 
 def collect(source: Text) -> InterfaceFile:
-    """Return the message types in a definition, and the errors for which rosidl rejects it."""
+    """Return the message types in an interface definition, and the errors for which rosidl rejects the definition."""
     path, text = source.path, source.text
     if source.codec == "utf-8-sig" or not _is_utf_8(source):
         return InterfaceFile(path, (), (_encoding(source, 0, 0),))
@@ -127,7 +130,7 @@ def collect(source: Text) -> InterfaceFile:
 
 
 def _is_utf_8(source: Text) -> bool:
-    """Return whether a file is valid UTF-8, whatever encoding its first lines declare."""
+    """Return whether a file is valid UTF-8, even if its first lines declare another encoding."""
     if source.codec == "utf-8":
         return True
     try:

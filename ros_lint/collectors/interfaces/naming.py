@@ -1,11 +1,11 @@
-"""Names of interfaces: valid names, and names that rosidl derives (rosidl_adapter, rosidl_cmake)."""
+"""Valid names of interfaces, and the names that rosidl derives from them (rosidl_adapter, rosidl_cmake)."""
 
 from __future__ import annotations
 
 import re
 
 GROUP = "rosidl_interface_packages"
-"""The group of all packages with interfaces."""
+"""The package group of all packages with interfaces, for ``<member_of_group>``."""
 UNDERLYING = frozenset({"action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs"})
 """Packages that all services and actions use.
 
@@ -15,7 +15,7 @@ _MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
 _LOWER = re.compile(r"(?!\w*__)[a-z](?:[a-z0-9_]*[a-z0-9])?")
 _CONSTANT = re.compile(r"[A-Z](?:_?[A-Z0-9])*")
 _GENERATED_SUFFIXES = ("_Request", "_Response", "_Goal", "_Result", "_Feedback")
-"""Endings of the messages that rosidl generates for services and actions."""
+"""Endings of the names of messages that rosidl generates for services and actions."""
 _BETWEEN_WORDS = re.compile("[^A-Za-z0-9]+")
 _BEFORE_WORD = re.compile("(.)([A-Z][a-z]+)")
 _BEFORE_CAPITAL = re.compile("([a-z0-9])([A-Z])")
@@ -50,7 +50,7 @@ def camel(name: str) -> str:
 
 
 def defined_in(file: str) -> str:
-    """Return the interface that a file defines: ``robot/msg/State.msg`` -> ``msg/State``; "" if it defines none."""
+    """Return the interface that a file defines: ``robot/msg/State.msg`` -> ``msg/State``; "" if the file defines no interface."""
     folder, _, name = file.rpartition("/")
     stem, _, suffix = name.rpartition(".")
     kind = folder.rpartition("/")[2]
@@ -58,4 +58,4 @@ def defined_in(file: str) -> str:
 
 
 KINDS = ("msg", "srv", "action")
-"""Kinds of interfaces, which are also the names of their folders and the suffixes of their files."""
+"""Kinds of interfaces. Each is also the name of the folder and the suffix of the files with such interfaces."""

@@ -33,8 +33,8 @@ def collect(source: Text) -> Manifest:
     """Return the contents of a ``package.xml``. Never raises.
 
     ``problems`` lists everything for which ``catkin_pkg.package.parse_package`` rejects the file, and is empty if it
-    accepts the file. The readable facts of a rejected file are returned, too. For safety, two things are rejected that
-    catkin_pkg accepts: entity declarations, and elements nested more than 200 levels deep.
+    accepts the file. The readable facts of a rejected file are returned, too. Exceptions, which are rejected for safety although
+    catkin_pkg accepts them: entity declarations, and elements nested more than 200 levels deep.
     """
     document = read(source)
     text = Text(source.path, document.text)  # as the tools read it, if the declared encoding is wrong
@@ -77,7 +77,7 @@ def collect(source: Text) -> Manifest:
 
 
 class _PackageContent:
-    """The children of ``<package>`` while they are read.
+    """The children of ``<package>`` that have been read so far.
 
     ``doubtful`` is True if any element may have invalid attributes or children, so that :mod:`problems` has to check them.
     """
@@ -206,7 +206,7 @@ def _placer(source: Text) -> _Place:
 
 
 def _without_package(text: Text, document: Document) -> Manifest:
-    """Return the manifest of a file that has no root ``<package>``. It contains the problem, and nothing else."""
+    """Return the manifest of a file that has no root ``<package>``. It has the problems of the file, and no other contents."""
     faults = list(document.faults)
     root = document.root
     start = root.start + 1 if root else 0

@@ -17,7 +17,7 @@ from ros_lint.facts.manifest import Element, Manifest
 from ros_lint.facts.visibility import Problem
 
 MOST_DEPTH = 20
-"""Largest depth of parentheses, because catkin_pkg needs exponential time for deeper ones."""
+"""Maximum nesting of parentheses, because catkin_pkg needs exponential time for deeper nesting."""
 
 
 class ConditionError(ValueError):
@@ -26,18 +26,18 @@ class ConditionError(ValueError):
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
         self.message: Final = message
-        """Reason, without the condition."""
+        """The reason, without the text of the condition."""
         self.offset: Final = offset
-        """Place in the condition: 0 to its length, in code points."""
+        """The offset of the error in the condition, in code points: 0 to the length of the condition."""
 
 
 class Operand(NamedTuple):
     """An operand of a comparison: the value of an environment variable, or a text."""
 
     text: str
-    """Name of the variable, or the text."""
+    """The name of the variable, or the text."""
     variable: bool
-    """True for the value of a variable."""
+    """True if the operand is the value of a variable."""
 
 
 class Comparison(NamedTuple):
@@ -77,13 +77,13 @@ _OPERAND = re.compile(
     r"""\$(?P<variable>[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+)|"(?P<double>[^"\n\r]*)"|'(?P<single>[^'\n\r]*)'"""
 )
 _ESCAPES = re.compile(r"\\(?:([tnfr])|([0-7]3|0|x[0-9a-fA-F]2|u[0-9a-fA-F]4))")
-"""Escapes of pyparsing; since version 3.1 also numeric ones."""
+"""Matches the escapes that pyparsing replaces in quoted strings, including the numeric escapes since version 3.1."""
 _BLANKS = {"t": "\t", "n": "\n", "f": "\f", "r": "\r"}
 
 
 @lru_cache(maxsize=1024)
 def parse(text: str) -> Condition:
-    """Return the parsed condition. Raises ConditionError if catkin_pkg.condition cannot parse it either."""
+    """Return the parsed condition. Raises ConditionError if catkin_pkg cannot parse the condition."""
     expanded = text.expandtabs()  # pyparsing expands tabs first
     try:
         condition, at = _junction(expanded, 0, 0)
@@ -99,7 +99,7 @@ def parse(text: str) -> Condition:
 
 
 def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
-    """Return whether a condition holds, or None if it depends on a variable that is not in the context."""
+    """Return whether a condition holds, None if it depends on a variable that is not in ``context``."""
     if isinstance(condition, Junction):
         truths = [evaluate(part, context) for part in condition.parts]
         if condition.every:
@@ -112,12 +112,12 @@ def evaluate(condition: Condition, context: Mapping[str, str]) -> bool | None:
 
 
 def always(text: str) -> bool:
-    """Return whether an element with the condition ``text`` ("" for none) counts in every ROS 2 environment."""
+    """Return whether the condition ``text`` of an element ("" for no condition) holds in every ROS 2 environment."""
     return truth(text, ROS_2) is True
 
 
 def truth(text: str, context: Mapping[str, str]) -> bool | None:
-    """Return whether an element with the condition ``text`` ("" for none) counts, None if that is unknown.
+    """Return whether the condition ``text`` of an element ("" for no condition) holds, None if that is unknown.
 
     The result is also None for a condition that cannot be parsed. :func:`problems` reports such a condition.
     """

@@ -2,7 +2,7 @@
 
 The edits are computed from the spans in a :class:`Manifest` alone, because rules do not have the text of the file.
 ``Manifest.other_contents`` lists the comments and texts between elements, so all lines without element, comment or
-text are blank. Every edit applies to the text that the manifest was read from. If the text is not well-formed, the
+text are blank. Every edit applies to the text from which the manifest was read. If the text is not well-formed, the
 edits are based on the part that could be read.
 """
 
@@ -21,12 +21,12 @@ _USUAL_ORDER: Final = (
     *("buildtool_depend", "buildtool_export_depend", "depend", "build_depend", "build_export_depend", "exec_depend"),
     *("run_depend", "test_depend", "doc_depend", "conflict", "replace", "group_depend", "member_of_group"),
 )
-"""The order of dependency tags in most manifests. The schemas only require the last two to be last."""
+"""The order of dependency tags in most manifests. The schemas require only that the last two tags are last."""
 
 _GROUPS = ("group_depend", "member_of_group")
 
 SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license", "url", "author", "", *_GROUPS, "export")
-"""The order of tags in the schemas of REP 127, 140 and 149; "" is the place of all dependency tags."""
+"""The order of tags in the schemas of REP 127, 140 and 149. The entry "" represents all dependency tags."""
 
 
 def schema_rank(tag: str) -> int:
@@ -37,14 +37,14 @@ def schema_rank(tag: str) -> int:
 def add(manifest: Manifest, tag: str, name: str) -> Edit:
     """Return the edit that adds the dependency ``<tag>name</tag>`` to a manifest.
 
-    It is added to the dependencies with the same tag, in alphabetical order if these are sorted. If there are none, it is
-    placed by the usual order of tags, separated by a blank line if the file separates tags by blank lines.
+    The dependency is added to the dependencies with the same tag, in alphabetical order if these are sorted. If the manifest has
+    no such dependency, the usual order of tags decides, and a blank line is added if blank lines separate the tags of the file.
     """
     return _insert_by_kind(_layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
 
 
 def _insert_by_kind(layout: _Layout, depends: Sequence[Depend], tag: str, name: str, element: str) -> Edit:
-    """Return the edit that inserts ``element``, the text of a dependency, next to the dependencies with the same tag."""
+    """Return the edit that inserts ``element``, the text of a dependency, next to the dependencies with the tag ``tag``."""
     order = name if _is_sorted(depends, tag) else ""
     return _insert_by_order(layout, depends, tag, order, element)._replace(kind=_USUAL_ORDER.index(tag) + 1, order=order)
 
@@ -52,7 +52,8 @@ def _insert_by_kind(layout: _Layout, depends: Sequence[Depend], tag: str, name: 
 def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
     """Return whether the dependencies with ``tag`` are sorted by name.
 
-    If there are fewer than two, the dependencies of every other tag are checked instead. False if no tag has two dependencies.
+    If fewer than two dependencies have ``tag``, the dependencies of every other tag are checked instead. The result is False if
+    no tag has two dependencies.
     """
     names: dict[str, list[str]] = {}
     for depend in depends:
@@ -65,7 +66,7 @@ def _is_sorted(depends: Sequence[Depend], tag: str) -> bool:
 def _insert_by_order(layout: _Layout, depends: Sequence[Depend], tag: str, order: str, element: str) -> Edit:
     """Return the edit that inserts ``element``, the text of a dependency with ``tag``.
 
-    ``order`` is the name of the dependency if the dependencies with this tag are sorted by name, else "".
+    ``order`` is the name of the dependency if the dependencies with ``tag`` are sorted by name, else "".
     """
     manifest = layout.manifest
     siblings = [depend for depend in depends if depend.tag == tag]
@@ -109,9 +110,8 @@ def rename(depend: Depend, name: str) -> Edit:
 def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
     """Return the edits that change the tag of a dependency, for example from ``depend`` to ``exec_depend``.
 
-    ``tag`` must differ from its present tag. ``alike`` are all dependencies that change to ``tag`` by the same fix. If the file
-    groups dependencies by tag, the dependency is moved to the group of its new tag. It stays in place
-
+    ``tag`` must differ from the present tag. ``alike`` are all dependencies that one fix changes to ``tag``. If the file groups
+    dependencies by tag, the dependency is moved to the group of its new tag. It stays in place
     - if its whole group changes to a tag that the file does not have yet, or
     - if it is not alone on its line, has a comment or cannot be written again from the manifest.
     """
@@ -173,7 +173,7 @@ def raise_format(manifest: Manifest, format_number: int) -> Edit:
 
 
 def sort(manifest: Manifest) -> tuple[Edit, ...]:
-    """Return the edits that sort the children of ``<package>`` as its schema requires, with as few moves as possible.
+    """Return the edits that sort the children of ``<package>`` as the schema requires, with as few moves as possible.
 
     The result is empty if the children are sorted, or if an element that has to move
 
@@ -202,14 +202,17 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
 
 
 class _Neighbours(NamedTuple):
-    """The item before an element on its first line, and the item after it on its last line, None if there is no such item."""
+    """The items next to an element on its lines: before it on its first line, and after it on its last line.
+
+    An item is an element, a dependency, a comment or a text. It is None if the element is first or last on the line.
+    """
 
     before: Span | None
     after: Span | None
 
 
 def _layout(manifest: Manifest) -> _Layout:
-    """Return the layout of a manifest. The last one is kept, because a rule may edit each dependency of a manifest."""
+    """Return the layout of a manifest. The last layout is cached, because a rule may edit each dependency of a manifest."""
     if not (_LAST and _LAST[0].manifest is manifest):
         _LAST[:] = [_Layout(manifest)]
     return _LAST[0]
@@ -231,7 +234,7 @@ class _Layout:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Neighbours:
-        """Return the item that ends on the first line of an item, and the item that begins on its last line."""
+        """Return the items that are on a line with the item at ``span``: one that ends before it, and one that begins after it."""
         at = self.positions[span]
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
@@ -240,7 +243,7 @@ class _Layout:
         )
 
     def is_alone(self, span: Span) -> bool:
-        """Return whether no other item is on the lines of an item, and no comment is directly above it."""
+        """Return whether no other item is on the lines of the item at ``span``, and no comment is directly above it."""
         at = self.positions[span]
         heading = at > 0 and self.items[at - 1] in self.other_contents and self.items[at - 1].end_line == span.line - 1
         return self.neighbours(span) == (None, None) and not heading
@@ -261,7 +264,7 @@ class _Layout:
         return Edit(place, f"{blank}{self._indent(span)}{element}{self.manifest.newline}")
 
     def insert_before(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
-        """Return the edit that inserts an element before an item."""
+        """Return the edit that inserts ``element`` before the item at ``span``."""
         if self.neighbours(span).before is not None:
             return Edit(span.start(), element)
         blank = self.manifest.newline if blank_line else ""
@@ -269,7 +272,7 @@ class _Layout:
         return Edit(place, f"{self._indent(span)}{element}{self.manifest.newline}{blank}")
 
     def insert_last(self, element: str) -> Edit:
-        """Return the edit that inserts an element into a ``<package>`` without elements."""
+        """Return the edit that inserts ``element`` into a ``<package>`` without elements."""
         end, newline = self.manifest.end, self.manifest.newline
         if end.line == self.begin.line:
             return Edit(end, f"{newline}{self.manifest.indent}{element}{newline}")
@@ -277,7 +280,7 @@ class _Layout:
         return Edit(place, f"{self.manifest.indent}{element}{newline}")
 
     def removal(self, span: Span) -> Edit:
-        """Return the edit that removes an item, and its line if nothing else is on the line."""
+        """Return the edit that removes the item at ``span``, and its line if nothing else is on the line."""
         previous, following = self.neighbours(span)
         path = self.path
         if previous is not None:
@@ -306,7 +309,7 @@ class _Layout:
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
-        """Return the span of the first of the comments directly above an item, the span of the item if there is no comment."""
+        """Return the span of the first comment directly above an item, the span of the item if there is no comment."""
         at = self.positions[span]
         while at and self.items[at - 1] in self.other_contents and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:
@@ -347,7 +350,7 @@ class _Layout:
 
 
 def _element_text(child: Element | Depend) -> str:
-    """Return the XML source of an element or dependency, as ros-lint writes it."""
+    """Return the XML source of an element or dependency in the form that ros-lint writes."""
     if isinstance(child, Depend):
         condition = (("condition", child.condition),) if child.condition else ()
         return _tagged(child.tag, (*child.versions, *condition), child.name)
@@ -360,7 +363,7 @@ def _tagged(tag: str, attributes: Iterable[tuple[str, str]], text: str) -> str:
 
 
 def _is_verbatim(child: Element | Depend) -> bool:
-    """Return whether :func:`_element_text` returns the source of a child, except for quotes and the order of attributes."""
+    """Return whether :func:`_element_text` returns the source of ``child``, except for quotes and the order of attributes."""
     span = child.span
     if child.tag in ("description", "export") or span.line != span.end_line:
         return False
@@ -385,4 +388,4 @@ def _longest_ascent(ranks: list[int]) -> frozenset[int]:
 
 
 _LAST: Final[list[_Layout]] = []
-"""The layout that was computed last, if any."""
+"""The layout of the manifest that was edited last, [] if no manifest was edited."""

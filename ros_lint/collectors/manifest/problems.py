@@ -1,4 +1,4 @@
-"""Errors for which catkin_pkg rejects a manifest, although it is well-formed XML (catkin_pkg/package.py)."""
+"""Errors for which catkin_pkg rejects a manifest, although the manifest is well-formed XML (catkin_pkg/package.py)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ros_lint.facts.manifest import Depend, Element
 
 _Elements = Sequence[tuple[XmlNode, Element]]
 _Depends = Sequence[tuple[XmlNode, Depend]]
-"""Children of ``<package>``, each with its parsed dependency."""
+"""The dependency elements in ``<package>``, each with the dependency that was read from it."""
 
 VERSIONS: Final = frozenset(("version_lt", "version_lte", "version_eq", "version_gte", "version_gt"))
 """The attributes that restrict the version of a dependency (REP 149)."""
@@ -48,19 +48,19 @@ def _allowed(format_number: int) -> dict[str, frozenset[str]]:
 
 
 ALLOWED: Final = {format_number: _allowed(format_number) for format_number in (1, 2, 3)}
-"""The tags that ``<package>`` may contain, by format, each with its attributes."""
+"""The tags that ``<package>`` may contain, by format, each with the attributes that the tag may have."""
 
 _DEPEND_TAGS = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
-"""The <depend> tag and the tags that it includes."""
+"""The tag <depend>, and the tags that <depend> represents in one."""
 
 _EXPORT_TAGS = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
-"""Tags that are valid only in <export>."""
+"""Tags that are valid only inside of <export>."""
 
 _TAGS_FOR_OTHERS = frozenset((*_SINCE_2, "build_depend", "buildtool_depend", "test_depend", "run_depend"))
 
 
 def read_format(root: XmlNode) -> int:
-    """Return the format of a manifest, 0 if there is no such format. Without the attribute ``format``, it is 1."""
+    """Return the format that a manifest declares: 1 without the attribute ``format``, 0 if there is no such format."""
     try:
         format_number = int(root.attributes.get("format", "1"))
     except ValueError:
@@ -118,8 +118,8 @@ def find_problems(
 ) -> Iterator[Fault]:
     """Yield the errors for which catkin_pkg rejects a manifest, unsorted. ``format_number`` is 0 if the format is unknown.
 
-    ``elements`` and ``depends`` are the closed children of the root. If the file could not be read to its end, missing elements
-    are not reported.
+    ``elements`` and ``depends`` are the children of the root that have an end tag. If the file could not be read to its end,
+    missing elements are not reported.
     """
     nodes = [node for node in children(document) if node.end >= 0]
     dependency_tags = {depend.tag for depend in depends}
@@ -148,7 +148,7 @@ def find_problems(
 
 
 def _content(document: Document, node: XmlNode, format_number: int) -> Iterator[Fault]:
-    """Yield the errors of one element: the format does not have its tag, attributes or children."""
+    """Yield the errors of one element: a tag, an attribute or a child that the format does not have."""
     allowed = ALLOWED[format_number].get(node.tag)
     if allowed is None:
         yield _unknown_tag(node, format_number)
@@ -203,7 +203,7 @@ def _unknown_attribute(node: XmlNode, name: str, places: Mapping[str, tuple[int,
 
 
 def _presence(document: Document, root: XmlNode, elements: _Elements) -> Iterator[Fault]:
-    """Yield an error for each element that is missing, or occurs too often."""
+    """Yield an error for each required element that is missing, and for each element that occurs too often."""
     tags = [node.tag for node, _ in elements]
     for tag in ("name", "version", "description", "export"):
         if tags.count(tag) > 1:

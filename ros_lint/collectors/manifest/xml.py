@@ -18,10 +18,10 @@ from ros_lint.base.xml_tree import unmarked
 _new = tuple.__new__  # half the time of calling a named tuple
 
 MOST_DEPTH = 200
-"""The maximum nesting of elements, because tools that read such a file recursively fail at deeper ones."""
+"""The maximum nesting of elements, because tools that read such a file recursively fail at deeper nesting."""
 
 BLANK: Final = " \n\r\t"
-"""The white space that is removed around a value."""
+"""The white space that is removed at both ends of a value."""
 
 _CONFLICT = re.compile(r"^(?:<{7}|\|{7}|={7}|>{7})(?![<|=>])[^\r\n]*", re.MULTILINE)
 _OPEN_TAG = re.compile(r"""<([^\s/>"'=]+)(?:\s+[^\s=/>"']+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*(/?)>""")
@@ -35,7 +35,7 @@ _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
 
 
 class Fault(NamedTuple):
-    """An error in a manifest. ``start`` and ``end`` are the offsets of its position, ``subject`` as in :class:`Problem`."""
+    """An error in a manifest. ``start`` and ``end`` are the offsets of its position, ``subject`` is that of :class:`Problem`."""
 
     kind: str
     message: str
@@ -48,11 +48,14 @@ Start = tuple[str, dict[str, str], int]
 """A start tag as expat reports it: name and attributes with namespaces resolved, and offset."""
 
 Event = Start | int
-"""A start tag, or the offset where an element ends for expat: at its end tag, or after ``<a/>``."""
+"""A start tag, or the offset at which expat reports the end of an element: at its end tag, or after ``<a/>``."""
 
 
 class XmlNode(NamedTuple):
-    """An XML element. ``end`` is -1 if it is never closed. The content is from ``inner`` to ``close``, empty for ``<a/>``."""
+    """An XML element. ``end`` is -1 if the element is never closed.
+
+    The content is from ``inner`` to ``close``, and is empty for ``<a/>``.
+    """
 
     tag: str
     attributes: dict[str, str]
@@ -61,21 +64,21 @@ class XmlNode(NamedTuple):
     close: int
     end: int
     children: tuple[XmlNode, ...] = ()
-    """The children without their own children."""
+    """The direct children of the element. Their own ``children`` are empty."""
 
 
 class Document(NamedTuple):
     """A manifest read as XML. ``root`` is None if not even the root element could be read."""
 
     text: str
-    """The text that expat read. Its offsets are valid in the original text, too."""
+    """The text that expat read. Offsets in this text are valid in the original text, too."""
     events: list[Event]
-    """All tags in order; the root's is the first."""
+    """All start tags and ends of elements, in order. The first is the start tag of the root."""
     root: XmlNode | None
     """The root without its children, see :func:`children`."""
     faults: tuple[Fault, ...]
     read: int
-    """The length of the part that could be read: the whole file, or up to the offset of the error."""
+    """The length of the part that could be read: of the whole file, or up to the offset of the error."""
 
 
 def read(source: Text) -> Document:
@@ -139,7 +142,7 @@ def value(text: str, node: XmlNode) -> tuple[str, int, int]:
 
 
 def markup(text: str, node: XmlNode) -> str:
-    """Return the content of an element including its markup, as catkin_pkg reads ``<description>`` and ``<export>``.
+    """Return the content of an element with its markup, as catkin_pkg reads ``<description>`` and ``<export>``.
 
     The result is "" if the content is blank.
     """
@@ -217,7 +220,7 @@ def _parse(text: str) -> Document:
 
 
 def children(document: Document) -> list[XmlNode]:
-    """Return the children of the root element; each of them contains its own children."""
+    """Return the children of the root element. Each child contains its own children."""
     result = []
     at, last = 1, len(document.events)
     while at < last and not isinstance(document.events[at], int):
@@ -401,7 +404,7 @@ def _explain(text: str, code: int, at: int) -> Fault:
 
 
 def _still_open(text: str) -> str:
-    """Return the start tag, without attributes, of the element in which expat stops, "the file" if it stops in none."""
+    """Return the start tag, without attributes, of the element in which expat stops, "the file" outside of elements."""
     names: list[str] = []
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = lambda name, _: names.append(name)

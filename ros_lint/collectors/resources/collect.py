@@ -1,4 +1,4 @@
-"""Models, displays, parameters and plugin descriptions: URDF, xacro, SDF, rviz, YAML, XML.
+"""Collector of models, displays, parameters and plugin descriptions: URDF, xacro, SDF, rviz, YAML, XML.
 
 Such files name packages in a few fixed forms such as ``package://robot/``, so the text is searched and not parsed.
 """
@@ -73,8 +73,9 @@ def controller_managers(source: Text) -> tuple[Mention, ...]:
 def _packages(source: Text) -> FileFacts:
     """Return the packages that a resource file names, each at its first place, and the files that it looks up in them.
 
-    A mention is optional if only a convention says that the name is a package, or if the file is a ROS 1 launch file,
-    because nothing looks the name up. A mention is conditional if each place is in a block that xacro leaves out by default.
+    A mention (a name that may belong to another package) is optional if nothing looks up the name: only a convention says that
+    it is a package, or the file is a ROS 1 launch file. A mention has the purpose "conditional" if all its places are in blocks
+    that xacro leaves out by default.
     """
     text = source.text
     places: dict[str, tuple[int, int]] = {}
@@ -134,7 +135,7 @@ def _files(source: Text) -> Iterator[LookUp]:
 
 
 def _is_optional(text: str, at: int) -> bool:
-    """Return whether an offset is in a tag with an optional file: ``<xacro:include optional="true"/>``."""
+    """Return whether an offset is in a tag that includes an optional file: ``<xacro:include optional="true"/>``."""
     opening = text.rfind("<", 0, at)
     return opening >= 0 and _OPTIONAL.match(text, opening) is not None
 
@@ -143,7 +144,7 @@ _OPTIONAL = re.compile(r"""<xacro:include\s[^<>]*\boptional\s*=""")
 
 
 def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, int]], inactive: tuple[range, ...] = ()) -> None:
-    """Add the first place of each name outside of the offsets ``inactive`` to ``places``."""
+    """Add the first place of each name in ``text`` to ``places``. Places in the offset ranges ``inactive`` are ignored."""
     for match in pattern.finditer(text):
         if any(match.start() in block for block in inactive):
             continue

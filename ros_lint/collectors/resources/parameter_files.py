@@ -1,4 +1,4 @@
-"""The nodes for which a YAML file has parameters, as rcl_yaml_param_parser reads them.
+"""The nodes for which a YAML file has parameters, as rcl_yaml_param_parser reads the file.
 
 Parameter files are long, but the node names are in a few lines: above each key ``ros__parameters``, in lines that are
 less indented.
@@ -20,7 +20,8 @@ _MARK = "ros__parameters"
 _LINE = re.compile(r"^([ ]*)([\"']?ros__parameters[\"']?[ \t]*:|[^\s#])", re.MULTILINE)
 """Matches a line with content.
 
-Group 2 begins the parameters of a node if it has the key ros__parameters."""
+Group 2 is the key ``ros__parameters``, after which the parameters of a node begin, or the first character of other content.
+"""
 # A key ends with a letter or its quote. If it could end with blanks, a long row of them would take quadratic time.
 _KEY = re.compile(
     r"""([ ]*)(["'])?
@@ -71,7 +72,7 @@ def _in_comments(text: str) -> int:
 
 
 def _headings(text: str) -> Iterator[list[tuple[int, int, str]]]:
-    """Yield the keys above each ``ros__parameters``, outermost first; [] if a key cannot be read."""
+    """Yield the keys above each ``ros__parameters``, outermost first; [] if a key above it cannot be read."""
     parents: list[tuple[int, int]] = []
     for match in _LINE.finditer(text):
         indent = len(match[1])

@@ -20,7 +20,7 @@ _ROOT = "<_>"
 
 
 def roots(text: str) -> list[XmlElement]:
-    """Return the top-level elements, as tinyxml2 reads them for pluginlib; [] for a text that it rejects.
+    """Return the top-level elements of a plugin description as tinyxml2 reads them for pluginlib, [] if it rejects the text.
 
     There may be several roots, and values of attributes may contain "<", as template types do.
     """

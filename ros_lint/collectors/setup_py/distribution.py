@@ -17,7 +17,7 @@ from ros_lint.facts.setup_py import EntryPoint
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 INSTALLED = Facet.SHARE | Facet.EXECUTABLES | Facet.PYTHON
-"""The facets of a package that setup.py determines."""
+"""The parts of a package whose content setup.py determines."""
 _HARMLESS_COMMANDS = frozenset({"sdist", "test", "clean", "pytest", "lint", "upload", "docs", "build_sphinx"})
 _ENTRY = re.compile(r"\s*([^=\s][^=]*?)\s*=\s*(.*?)\s*\Z", re.DOTALL)
 _RESERVED_FOLDERS = frozenset(
@@ -46,7 +46,7 @@ class SetupContext(NamedTuple):
 class Distribution:
     """The files that one call of setup() installs. :meth:`read` computes them.
 
-    ``place`` returns the span of a value. Its second argument is the result for a value without a span.
+    ``place(value, default)`` returns the span of a value, and ``default`` for a value without a span.
     """
 
     def __init__(self, context: SetupContext, place: Callable[[Value, Span], Span]) -> None:
@@ -60,7 +60,7 @@ class Distribution:
         self.problems: list[Problem] = []
 
     def read(self, options: Mapping[str, Value]) -> None:
-        """Compute the files that setup() installs from its options, and store them in the attributes."""
+        """Compute from the options of setup() which files the call installs, and store them in the attributes."""
         if REST in options:
             self._hide(INSTALLED, options[REST])
         self._python(options)
@@ -86,7 +86,7 @@ class Distribution:
     def _items(self, value: Value, facet: Facet) -> Iterator[tuple[Value, bool]]:
         """Yield the known elements of a list, each with a boolean: True if the element may be missing.
 
-        If ``value`` or an element is unknown, an opaque place is recorded, which hides ``facet`` of the package.
+        If ``value`` or an element is unknown, record that the part ``facet`` of the package may contain more than is known.
         """
         if value is None:
             return
@@ -139,8 +139,8 @@ class Distribution:
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
         """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
-        These are the packages in the root folder of ``package_dir`` or in src/, else in the only top-level package. The
-        folders have the form of the option ``package_dir``.
+        These are the packages in the root folder of ``package_dir`` or in src/. Without such a folder, they are the only
+        top-level package and its subpackages. The folders have the form of the option ``package_dir``.
         """
         files = self._context.files
         if "" in folders or files.is_folder("src"):
@@ -264,7 +264,7 @@ class Distribution:
 
 
 def _facet(folder: str) -> Facet:
-    """Return the facet of the package that becomes incompletely known if an unknown file is installed to ``folder``.
+    """Return the part of the package that may contain more than is known if an unknown file is installed to ``folder``.
 
     ``folder`` is relative to the install prefix: ``share/a`` -> ``Facet.SHARE``.
     """

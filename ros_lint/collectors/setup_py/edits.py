@@ -28,7 +28,7 @@ def add(to: EditableList, element: str) -> Edit:
 def place(script: BuildScript) -> Span:
     """Return the span where install rules can be added to a build script.
 
-    Without such a span, the result is the span of the project name, else the start of the file.
+    If there is no such span, return the span of the project name, else the start of the file.
     """
     data_files = slot(script, "data_files")
     return script.commands.insertion or (data_files.end if data_files else script.project.name_span) or file_start(script.path)
@@ -98,7 +98,7 @@ def quoted(to: EditableList, text: str) -> str:
 
 
 _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
-"""Sections and options of setup.cfg for the folder of programs, with and without symlink-install."""
+"""Sections and options of setup.cfg that set the install folder of programs: first with symlink-install, then without."""
 
 
 def program_folders(script: BuildScript) -> dict[str, Span]:

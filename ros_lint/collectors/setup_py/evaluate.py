@@ -1,7 +1,8 @@
 """Evaluation of the ``setup.py``, ``setup.cfg`` and ``pyproject.toml`` of a Python package.
 
 colcon runs setup.py, but ros-lint runs nothing: a small interpreter evaluates setup.py with the names of the files of
-the package. An unknown value becomes an Opaque with the facet of the package that it hides.
+the package. An unknown value becomes an Opaque: a place that could not be evaluated, with the parts of the package that may
+contain more than is known.
 """
 
 from __future__ import annotations
@@ -50,11 +51,11 @@ def evaluate(
 
     - ``name``: the name in package.xml.
     - ``path_prefix``: the folder of the package.
-    - ``files``: all files below that folder, relative to it.
+    - ``files``: all files below the folder of the package, relative to it.
     - ``executables``: the files with the executable bit.
 
     Problems have the kinds ``syntax``, ``missing-file``, ``directory-in-data-files``, ``empty-glob``, ``data-files-form``,
-    ``absolute-destination``, ``entry-point-form``, ``undefined-name``, ``no-function``, and those of
+    ``absolute-destination``, ``entry-point-form``, ``undefined-name``, ``no-function``, and the kinds of
     :mod:`ros_lint.collectors.setup_py.setup_cfg`.
     """
     first = setup_py or setup_cfg or pyproject
@@ -93,7 +94,8 @@ def evaluate(
 def _run(program: Program, source: Text, start: Span) -> BuildScript:
     """Interpret a setup.py, and return a build script with its imports and problems.
 
-    ``start`` is the span of the Opaque for a setup.py that cannot be evaluated to its end or does not call setup().
+    If setup.py cannot be evaluated to its end or does not call setup(), the build script has an Opaque (a place that could not
+    be evaluated) with the span ``start``.
     """
     script = BuildScript(source.path)
     try:
@@ -147,7 +149,7 @@ def _no_function(value: Value) -> str:
 
 
 def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
-    """Return a function of a value and a span: it returns the span of the value if the value has a span, else the argument."""
+    """Return a function ``place(value, default)`` that returns the span of a value, ``default`` if the value has no span."""
 
     def place(value: Value, default: Span) -> Span:
         node = getattr(value, "node", None)

@@ -11,12 +11,12 @@ from ros_lint.collectors.manifest.xml import attribute, read
 
 
 class NamedSchema(NamedTuple):
-    """The format of package.xml whose published schema a manifest names. ``span`` is the span of the format in the address."""
+    """The published schema that a manifest names."""
 
     format: int
-    """Format of package.xml that the schema describes: 1, 2 or 3."""
+    """The format of package.xml that the schema describes: 1, 2 or 3."""
     span: Span
-    """Span of the number of the format in the address of the schema."""
+    """The span of the number of the format in the address of the schema."""
 
 
 _PUBLISHED = re.compile(r"http://download\.ros\.org/schema/package_format([123])\.xsd")
@@ -30,7 +30,7 @@ def named_schema(source: Text) -> NamedSchema | None:
     """Return the published schema that a manifest names; the manifest must be well-formed XML.
 
     The result is None if the manifest names no schema, or a schema at another address. ament_xmllint passes the schema of each
-    ``<?xml-model ...?>`` to xmllint, then ``xsi:noNamespaceSchemaLocation`` of the root. xmllint validates by the last one.
+    ``<?xml-model ...?>`` to xmllint, then ``xsi:noNamespaceSchemaLocation`` of the root. xmllint validates by the last schema.
     """
     *_, last = (None, *_addresses(source))
     if last is None or not (match := _PUBLISHED.fullmatch(source.text, *last)):

@@ -21,13 +21,13 @@ class Violation(NamedTuple):
     """An element or attribute of a manifest that the schema does not allow."""
 
     kind: str
-    """The violated rule as libxml2 names it, such as "ELEMENT_CONTENT", or "misplaced"; "" if libxml2 cannot read the file."""
+    """The violated rule as libxml2 calls it, such as "ELEMENT_CONTENT", or MISPLACED; "" if libxml2 cannot read the file."""
     child: int
-    """Position among the children of ``<package>``; -1 for ``<package>`` itself."""
+    """The position of the element among the children of ``<package>``, from 0; -1 for ``<package>`` itself."""
     attribute: str
-    """Name of the attribute concerned as ``name`` or ``{namespace}name``, or ""."""
+    """The name of the wrong attribute as ``name`` or ``{namespace}name``, "" if no attribute is wrong."""
     message: str
-    """The words of libxml2, without a final full stop."""
+    """The message of libxml2, without the full stop at its end."""
 
 
 MOST_CHARACTERS: Final = 100_000
@@ -36,21 +36,20 @@ MOST_CHARACTERS: Final = 100_000
 _UNEXPECTED = "ELEMENT_CONTENT"
 
 MISPLACED: Final = "misplaced"
-"""The kind of an element that would be allowed at another place."""
+"""The kind of the violation by an element that would be allowed at another place."""
 
 TEXT: Final = "CVC_COMPLEX_TYPE_2_3"
-"""The kind of a text where only elements are allowed."""
+"""The kind of the violation by a text where only elements are allowed."""
 
 BAD_VALUE: Final = ("CVC_PATTERN_VALID", "CVC_DATATYPE_VALID_1_2_1", "CVC_ENUMERATION_VALID")
-"""The kinds of a text or an attribute with a value that its type does not have."""
+"""The kinds of the violation by a text or an attribute whose value its type does not allow."""
 
 
 def violations(source: Text, form: int) -> tuple[Violation, ...] | None:
     """Return the elements and attributes of a manifest that the schema of a format does not allow.
 
     ``form`` is the number of the format. The result is empty exactly if xmllint accepts the file. xmllint stops at the
-    first misplaced element; here the elements after it are checked as well, as if all were sorted.
-
+    first misplaced element; this function also checks the elements after it, as if all elements were sorted.
     The result is None if the file is not checked: it is not well-formed, declares an entity, is too large or nested too
     deep, or is in UTF-16, which versions of xmllint read differently.
     """
@@ -85,7 +84,7 @@ _DECLARED = re.compile(r"""<\?xml\b[^>]*?\bencoding\s*=\s*["']([^"']*)""")
 
 
 def _misdeclared_encoding(source: Text) -> str:
-    """Return the error in the encoding that a file in UTF-8 with a byte order mark declares, "" if there is none.
+    """Return the message about a wrong encoding that a file in UTF-8 with a byte order mark declares, "" if it is not wrong.
 
     The xmllint of Ubuntu 22.04 and 24.04 reads such a file in the declared encoding. Newer versions ignore the declaration.
     """
@@ -131,7 +130,7 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _entries(log: Any) -> Iterator[Any]:
-    """Yield the entries of an error log of lxml, whose type stubs lack the iteration."""
+    """Yield the entries of an error log of lxml. Its type stubs do not allow to iterate over the log itself."""
     yield from log
 
 
@@ -148,7 +147,7 @@ _STEP = re.compile(r"/[^/]+/([^/\[]+)(?:\[(\d+)\])?")
 
 
 def _errors(root: etree._Element, children: list[etree._Element], form: int) -> Iterator[Violation]:
-    """Yield the violations in the tree below ``root``. ``children`` are the children of the root in the order of the file."""
+    """Yield the violations in the XML tree of ``root``. ``children`` are the children of the root in the order of the file."""
     schema = _schema(form)
     if schema.validate(root):
         return

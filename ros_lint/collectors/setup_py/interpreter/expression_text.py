@@ -13,7 +13,7 @@ def at(node: ast.AST | None) -> str:
 
 
 _DEEPEST = 30
-"""Greatest depth of an expression that is shown."""
+"""Maximum nesting depth of an expression in a message. Parts that are nested deeper are replaced by ``...``."""
 
 
 def _shown(node: ast.AST, levels: int) -> ast.AST:
@@ -36,7 +36,7 @@ def _shown_in(value: Any, levels: int) -> Any:
 
 
 def _template(node: ast.JoinedStr | ast.FormattedValue) -> str:
-    """Return the source of an f-string, the same in each version of Python."""
+    """Return the source of an f-string, written in the same way by each version of Python."""
     parts = []
     pieces: list[ast.expr] = node.values if isinstance(node, ast.JoinedStr) else [node]
     for part in pieces:

@@ -1,4 +1,4 @@
-"""Models of the functions that setup.py files call: those of setuptools, glob, os and pathlib."""
+"""Models that compute the results of the functions in setup.py files: functions of setuptools, glob, os and pathlib."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 MODULES: Final = frozenset(
     {"os", "os.path", "sys", "glob", "pathlib", "fnmatch", "itertools", "setuptools", "distutils", "distutils.core"}
 )
-"""The modules with models."""
+"""The modules whose functions have models."""
 _CONSTANTS: dict[str, Value] = {
     **PYTHON_CONSTANTS,
     "os.extsep": ".",
@@ -73,7 +73,10 @@ class Setup(NamedTuple):
 
 
 class SetupLibrary:
-    """The models for a setup.py, as :class:`ros_lint.collectors.python.interpreter.protocol.Library` requires them."""
+    """The models of library functions for a setup.py.
+
+    The class implements :class:`ros_lint.collectors.python.interpreter.protocol.Library`.
+    """
 
     def __init__(self, package: str, files: Files) -> None:
         self._package = package
@@ -153,7 +156,7 @@ class SetupLibrary:
         return None
 
     def _generate_distutils_setup(self, call: LibraryCall) -> Value:
-        """Return the result of generate_distutils_setup() of catkin_pkg: given options, package name and an unknown version."""
+        """Return the result of generate_distutils_setup() of catkin_pkg: given options, package name and unknown version."""
         version = Unknown("the version in package.xml is not read", None, call.node)
         return {"name": self._package, "version": version, **call.keywords}
 
@@ -174,7 +177,7 @@ def _on_known(function: Callable[..., Value]) -> Rule:
 
 
 def _spread(arguments: list[Value], function: Callable[[list[Value]], Value]) -> Value:
-    """Return the union of the results of a function for all combinations of alternatives of its arguments.
+    """Return a value whose alternatives are the results of a function for all combinations of alternatives of its arguments.
 
     The result for an unknown argument is Unknown.
     """

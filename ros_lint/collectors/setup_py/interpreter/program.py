@@ -33,10 +33,10 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 
 
 class Program(Machine):
-    """Interpreter of one setup.py. :meth:`follow` interprets it, and stores the results in the attributes.
+    """Interpreter of one setup.py. :meth:`follow` interprets the file, and stores the results in the attributes.
 
-    It treats unknown values differently from the interpreter of launch files: an expression that fails or has an unknown
-    part is unknown, with the reason and the origin of the unknown part, and the program continues.
+    Unknown values are treated differently than in launch files. An expression that fails or has an unknown part is unknown,
+    with the reason and the origin of the unknown part. After such an expression, the interpretation continues.
     """
 
     most_items = 50_000
@@ -48,7 +48,7 @@ class Program(Machine):
         self.no_functions: list[tuple[ast.Call, Value]] = []
         """Calls of values that cannot be called, in code that certainly runs."""
         self.end: str = ""
-        """The reason why the evaluation stopped before the end, as a clause; "" if it did not."""
+        """The reason why the evaluation stopped early, a clause such as "it is nested too deeply"; "" if it ended regularly."""
 
     def follow(self, tree: ast.Module, text: Text) -> None:
         """Interpret the statements of the setup.py, and store the results in the attributes."""
@@ -82,7 +82,7 @@ class Program(Machine):
         return self._with_origin(value, node, frame)
 
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
-        """Return the value of an operation, or the unknown operand because of which the value is unknown."""
+        """Return ``value``, the result of an operation. If an unknown operand made the result unknown, return that operand."""
         fresh = isinstance(value, Unknown) and value.node is None and value.reason != TOO_LARGE
         if not fresh and not (isinstance(value, str) and UNKNOWN in value):
             return value
@@ -90,7 +90,7 @@ class Program(Machine):
         return unknown if unknown is not None and unknown.node is not None else value
 
     def _with_origin(self, value: Value, node: ast.expr, frame: Frame) -> Value:
-        """Return ``value`` with the expression ``node`` as its origin, unless the value has an origin."""
+        """Return ``value`` with the expression ``node`` as its origin, unless ``value`` has an origin already."""
         if isinstance(value, str):
             if UNKNOWN in value:
                 return Unknown(_reason(node), None, node)
@@ -125,7 +125,7 @@ class Program(Machine):
         return source
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:
-        """Return the result of a call. Lists and dictionaries passed to an unknown function are marked as possibly changed."""
+        """Return the result of a call. Mark lists and dictionaries that are passed to an unknown function as possibly changed."""
         if isinstance(function, (Function, Class, Bound)):
             return super().call(function, arguments, keywords, node, frame)
         if isinstance(function, Method) or (isinstance(function, LibraryName) and function.name not in MODULES):

@@ -27,7 +27,7 @@ from ros_lint.collectors.setup_py.interpreter.expression_text import at
 from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
 
 REST: Final = UNKNOWN
-"""The key of a dict for all unknown keys. Its value is an Unknown."""
+"""The key that represents all unknown keys of a dictionary. The value of this key is an Unknown."""
 
 
 class Word(str):
@@ -44,11 +44,11 @@ class Word(str):
 
 
 LARGEST: Final = 1 << 25
-"""Characters of a value that is followed. A list that contains another list twice, and so on, is larger than the memory."""
+"""The maximum size in characters of a value that is evaluated. Lists that contain a list repeatedly could exceed the memory."""
 _DEEPEST: Final = 50
-"""The maximum nesting depth of containers in a value that is followed."""
+"""The maximum nesting depth of containers in a value that is evaluated."""
 _ELEMENT: Final = 128
-"""Characters that an element of a container counts for."""
+"""The size in characters that each element of a container adds to the size of a value."""
 
 
 def is_followed(values: Iterable[Value]) -> bool:
@@ -69,7 +69,7 @@ def is_followed(values: Iterable[Value]) -> bool:
 
 
 def _inner(value: Value) -> tuple[Value, ...]:
-    """Return the elements of a container, the alternatives of a Union, or the value in a guarded value; () for other values."""
+    """Return the elements of a container, the alternatives of a Union, or the value inside a Guarded; () for other values."""
     if isinstance(value, dict):
         return tuple(value.values())
     if isinstance(value, Guarded):
@@ -78,10 +78,10 @@ def _inner(value: Value) -> tuple[Value, ...]:
 
 
 def unknown_in(values: Iterable[Value], tests: Mapping[tuple[str, ...], ast.expr]) -> Unknown | None:
-    """Return the first unknown value in ``values`` and their elements, None if everything is known.
+    """Return the first unknown value among ``values`` and their elements, None if everything is known.
 
-    If there is none, but an element depends on an unknown condition, or the values are too large, the result is an Unknown for
-    that reason. ``tests`` are the tested expressions, by the texts of their conditions.
+    If no element is unknown, but one depends on an unknown condition, or the values are too large, return an Unknown that says
+    so. ``tests`` are the tested expressions, by the texts of their conditions.
     """
     waiting = [*values]
     if not is_followed(waiting):
@@ -116,8 +116,8 @@ class Deciding:
     def option(self, value: Value) -> Value:
         """Return a value without alternatives that contradict the conditions.
 
-        A list element that may be missing is Guarded in the result. A value with several alternatives left is Unknown; if
-        all of them are lists, the result is one list with their different elements Guarded.
+        A list element that may be missing is Guarded in the result. If several alternatives are left, the result is Unknown.
+        Exception: for lists, the result is one list, and the elements that not every list has are Guarded.
         """
         return self._of(value) if is_followed((value,)) else Unknown("it is too large to be evaluated")
 
@@ -166,7 +166,10 @@ def _same(left: Value, right: Value) -> bool:
 
 
 def _merged(left: list[Value], right: list[Value]) -> list[Value]:
-    """Return one list for two alternative lists. Elements that are not in their common start or end are Guarded."""
+    """Return one list for two alternative lists.
+
+    Elements that are not in the common start or end of the lists may be missing, and are Guarded.
+    """
     start, end, shorter = 0, 0, min(len(left), len(right))
     while start < shorter and _same(left[start], right[start]):
         start += 1
