@@ -234,7 +234,7 @@ class _Layout:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Neighbours:
-        """Return the items that are on a line with the item at ``span``: one that ends before it, and one that begins after it."""
+        """Return the previous item if it ends on the first line of an item, and the next item if it begins on its last line."""
         at = self.positions[span]
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
