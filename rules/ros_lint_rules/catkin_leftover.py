@@ -3,7 +3,7 @@
 
 Parts of ROS 1 in an ament package:
 
-- `find_package(catkin REQUIRED)` and `catkin_package()` that always run;
+- `find_package(catkin REQUIRED)` and `catkin_package()` outside of conditions;
 - `<nodelet>` and `<rviz>` in the exports of `package.xml`.
 
 ## Why it matters
@@ -23,7 +23,7 @@ Not reported:
 - Commands under a condition, as in packages for both ROS versions.
 - `find_package(catkin)` without `REQUIRED`.
 - Exports under a condition.
-- Exports of a package that has the build type catkin under a condition: they serve ROS 1.
+- Exports of a package that has the build type catkin under a condition, because the exports serve ROS 1.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ Move `ament_package()` to the end of the file. Plain `install()` commands may fo
 
 Not reported:
 
-- Either command in a condition, a loop or a function, because the order of execution is unknown. Commands in
+- Commands, or `ament_package()`, in a condition, a loop or a function, because the order of execution is unknown. Commands in
   `if(BUILD_TESTING)` are reported.
 - `find_package(ament_lint_auto)`, if a macro of another package may have found it before.
 """

@@ -1,7 +1,7 @@
 """
 ## What it finds
 
-Words of `rclcpp_components_register_node()` among the arguments of `rclcpp_components_register_nodes()`:
+Keywords of `rclcpp_components_register_node()` among the arguments of `rclcpp_components_register_nodes()`:
 
     rclcpp_components_register_nodes(library PLUGIN "robot::Talker" EXECUTABLE talker)
 
@@ -12,8 +12,8 @@ executable is built.
 
 ## How to fix it
 
-Remove the words, as the fix does, or call `rclcpp_components_register_node()`. Its `EXECUTABLE` must not have the name of the
-library.
+Remove the keywords and their values, as the fix does, or call `rclcpp_components_register_node()`. There, the value of
+`EXECUTABLE` must not be the name of the library.
 
 ## Limitations
 
@@ -36,13 +36,13 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 _WORDS = {"PLUGIN": 0, "NO_UNDEFINED_SYMBOLS": 0, "EXECUTABLE": 1, "EXECUTOR": 1}
-"""Keywords of rclcpp_components_register_node() that no class name follows, with the number of their values."""
+"""Keywords of rclcpp_components_register_node(), with the number of arguments after each that are not class names."""
 
 
 def _strays(call: Call) -> list[tuple[int, int]]:
-    """Return the first and last index of each group of arguments that belong to rclcpp_components_register_node().
+    """Return the first and last index of each keyword with its value, such as ``EXECUTABLE talker``.
 
-    CMake takes these arguments for names of classes: ``EXECUTABLE talker``.
+    rclcpp_components_register_nodes() has no keywords, so it takes these arguments for class names.
     """
     words = ((at, _WORDS[text]) for at, text in enumerate(call.texts) if at and text in _WORDS)
     return [(at, min(at + more, len(call.args) - 1)) for at, more in words]

@@ -6,13 +6,13 @@ Components whose name differs between CMake and the sources:
 - CMake registers a class, but no source has `RCLCPP_COMPONENTS_REGISTER_NODE` for this name.
 - A source has the macro, but CMake does not register the class.
 
-Both are one rule because a misspelt name causes both.
+One rule reports both cases, because a misspelt name causes both.
 
 ## Why it matters
 
 `ros2 component load` and `ComposableNode` look up the exact name, first in the ament index, then in the library. They fail with
-"Could not find requested resource in ament index" or "Failed to find class with the requested plugin name". So does the
-executable that `rclcpp_components_register_node(... EXECUTABLE x)` builds.
+"Could not find requested resource in ament index" or "Failed to find class with the requested plugin name". The executable that
+`rclcpp_components_register_node(... EXECUTABLE x)` builds fails in the same way.
 
 ## How to fix it
 
@@ -79,16 +79,20 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _forgets_macro(package: Package) -> bool:
-    """Return whether a source includes register_node_macro.hpp, but none calls RCLCPP_COMPONENTS_REGISTER_NODE().
+    """Return whether a source includes register_node_macro.hpp, but no source calls RCLCPP_COMPONENTS_REGISTER_NODE().
 
-    Sources of tests count too.
+    Sources of tests count, too.
     """
     included = any(use.via == "include" and "register_node_macro" in use.what for use in package.uses)
     return included and all(macro.kind != "component" for macro in package.registrations)
 
 
 def _alike(component: Component, macros: list[Registration]) -> list[Registration]:
-    """Return the macros that register the class in another namespace, else the macro with the most similar class, else []."""
+    """Return the calls of RCLCPP_COMPONENTS_REGISTER_NODE() that may register a component under another name.
+
+    These are all calls with the class name of the component in another namespace, else the call with the most similar class
+    name, else [].
+    """
     last = component.name.rpartition("::")[2]
     alike = [macro for macro in macros if macro.name.rpartition("::")[2] == last]
     if alike:

@@ -5,8 +5,9 @@ Components that CMake registers in a function or in the `CMakeLists.txt` of a su
 
 ## Why it matters
 
-The registration is a CMake variable, which `ament_package()` writes to the ament index. A variable set in a function or subfolder
-is lost at its end. `ros2 component load` and `ComposableNode` fail with "Could not find requested resource in ament index".
+The registration is a CMake variable, which `ament_package()` writes to the ament index. A variable set in a function or
+subfolder is lost when CMake leaves the function or subfolder. `ros2 component load` and `ComposableNode` fail with "Could not
+find requested resource in ament index".
 
 ## How to fix it
 

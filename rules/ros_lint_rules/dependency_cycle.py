@@ -1,12 +1,12 @@
 """
 ## What it finds
 
-Packages that depend on each other, directly or through others: by build, run-time or test dependencies, by groups, or by
-dependencies that `colcon.pkg` and `colcon.meta` add.
+Packages that depend on each other, directly or through other packages. Build, run-time, test and group dependencies
+(`<group_depend>`) count, and dependencies that `colcon.pkg` and `colcon.meta` add.
 
 There is one finding for each set of packages that all depend on each other. It shows a shortest cycle with the line of every
-dependency in it, and which dependencies to remove so that no cycle remains. These are as few as possible, preferably test
-dependencies, then run-time dependencies, then build dependencies.
+dependency in it, and which dependencies to remove so that no cycle remains. As few dependencies as possible are named: test
+dependencies if possible, else run-time dependencies, else build dependencies.
 
 ## Why it matters
 

@@ -16,8 +16,8 @@ dashed keys.
 ## How to fix it
 
 - `ament_target_dependencies(t p)`: use `target_link_libraries(t PUBLIC p::p)`, or `${p_TARGETS}` for interface packages. The
-  fix links to `${p_TARGETS}`, as the command does. It is offered if all calls write the package names out and each package is
-  known to export targets.
+  fix links to `${p_TARGETS}`, as the command does. It is offered if no call has a variable among the package names, and each
+  package is known to export targets.
 - `rosidl_target_interfaces(t ${PROJECT_NAME} "rosidl_typesupport_cpp")`: use `rosidl_get_typesupport_target(support
   ${PROJECT_NAME} "rosidl_typesupport_cpp")` and `target_link_libraries(t ${support})`.
 - `ament_export_interfaces()`: use `ament_export_targets()`. The fix does this.

@@ -26,9 +26,9 @@ Not reported:
 - Other paths below `/opt/ros`, such as `/opt/ros/humble/setup.bash`.
 - Paths that are composed at run time.
 
-The confidence is high if the target distribution (`--distro`, settings or environment) is another one than that of the path and
-the file with the path is installed, built or launched. Otherwise it is medium: the path is right on machines with that
-distribution.
+The confidence is high if the path names another distribution than the target distribution (`--distro`, settings or
+environment), and the file with the path is installed, built or launched. Otherwise the confidence is medium, because the path
+is right on machines with the distribution that it names.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ The same `find_package()` call twice.
 
 ## Why it matters
 
-The second call has no effect. If one of them is changed or removed, the other remains.
+The second call has no effect. If one of the calls is changed or removed, the other one remains.
 
 ## How to fix it
 

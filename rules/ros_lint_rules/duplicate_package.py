@@ -12,7 +12,8 @@ packages, so `--packages-select` cannot build one of the two.
 
 ## How to fix it
 
-Rename one, remove one, or put an empty file `COLCON_IGNORE` into the folder of the one that should not be built.
+Rename or remove one of the packages, or put an empty file `COLCON_IGNORE` into the folder of a package that should not be
+built.
 
 ## Limitations
 
@@ -54,7 +55,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _are_built_separately(packages: Iterable[Package]) -> bool:
-    """Return whether the packages are not built together, because each is in its own workspace: ``arm_ws``, ``lesson_2``."""
+    """Return whether each package is in a workspace of its own (``arm_ws``, ``lesson_2``), so that no build has two of them."""
     places = [graph.workspace_of(package.path) for package in packages]
     return "" not in places and len(set(places)) == len(places)
 

@@ -10,14 +10,14 @@ Nothing is installed, and setuptools reports no error: `glob('launch/*.launch.py
 ## How to fix it
 
 Correct the pattern, or remove the entry. `glob(os.path.join('launch', '*launch.[pxy][yma]*'))` matches all launch files, both
-`a.launch.py` and `a_launch.py`. The fix writes this if launch files are not matched, and `*.yml` instead of `*.yaml` (or the
-reverse) if that matches.
+`a.launch.py` and `a_launch.py`. The fix writes this pattern for launch files, and `*.yml` instead of `*.yaml` (or the reverse)
+if that matches a file.
 
 ## Limitations
 
 Not reported:
 
-- Patterns that cannot be evaluated, and sums of several globs.
+- Patterns that cannot be evaluated, and lists that several calls of `glob()` form together (`glob(...) + glob(...)`).
 - Patterns for files that git ignores: such files are generated or downloaded.
 
 Reported with medium confidence:
@@ -63,9 +63,10 @@ _LAUNCH = re.compile(r"launch\.(?:[pxy][yma]\w*)\Z")
 
 
 def _fix(package: Package, pattern: str) -> Fix | None:
-    """Return the fix that writes a pattern with matches: for launch files of any name, or for the other suffix of YAML files.
+    """Return the fix that replaces a pattern that matches no file by a pattern that matches files.
 
-    None if no file matches such a pattern, or the pattern is not written in exactly one place.
+    The new pattern is ``*launch.[pxy][yma]*`` for launch files, and ``*.yml`` for ``*.yaml`` or the reverse. The result is None
+    if no file matches the new pattern, or the old pattern is not written in exactly one place.
     """
     script = package.script
     folder, _, name = pattern.rpartition("/")
@@ -93,7 +94,7 @@ _YAML = {"*.yaml": "*.yml", "*.yml": "*.yaml"}
 
 
 def _folder(pattern: str) -> str:
-    """Return the folder of a pattern, "" if the folder contains wildcards."""
+    """Return the folder of a pattern: ``launch`` for ``launch/*.py``; "" if the folder itself contains wildcards."""
     parts = pattern.split("/")[:-1]
     fixed = [part for part in parts if not re.search(r"[*?\[]", part)]
     return "/".join(fixed) if fixed == parts else ""

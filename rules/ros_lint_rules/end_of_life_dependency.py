@@ -10,9 +10,10 @@ The package is not completely ported. `rosdep install` fails at the name, for ev
 
 ## How to fix it
 
-- Depend on the successor in ROS 2. The message names it if one is known. The fix writes it if the package uses it already.
-- Remove the dependency if the message says so: its successor is declared already, nothing uses either of them, or no interfaces
-  are generated.
+- Depend on the successor in ROS 2, which the message names if it is known. The fix writes the successor if the package already
+  uses it.
+- Remove the dependency if the message says so, because the successor is declared already, nothing uses the dependency or its
+  successor, or no interfaces are generated.
 - If a Python module of that name is imported, such as `serial`, declare the rosdep key of the module, which the message names.
 - In a package for ROS 1 and ROS 2, write `condition="$ROS_VERSION == 1"` into the tag.
 
@@ -57,7 +58,10 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _fix(dependency: dependencies.UnresolvedDependency, successor: str, workspace: Workspace) -> Fix | None:
-    """Return the fix that declares the successor in place of a dependency, None unless the package uses only the successor."""
+    """Return the fix that declares the successor in place of a dependency.
+
+    None if the package declares the successor already, or does not use it.
+    """
     package = dependency.package
     if package.declares(successor) or not any(successor in use.providers for use in package.uses):
         return None
@@ -66,7 +70,10 @@ def _fix(dependency: dependencies.UnresolvedDependency, successor: str, workspac
 
 
 def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspace: Workspace) -> str:
-    """Return the rosdep key of the imported Python module that has the declared name; "" if none is imported."""
+    """Return the rosdep key of an imported Python module with the name of the dependency: ``python3-serial`` for ``serial``.
+
+    The result is "" if no such module is imported, or the dependency is used in other ways, too.
+    """
     uses = [use for use in unresolved_dependency.matching_uses if use.package != unresolved_dependency.name]
     if not unresolved_dependency.runs_python or not uses or any(use.via != "import" for use in uses):
         return ""
@@ -74,7 +81,7 @@ def _imported(unresolved_dependency: dependencies.UnresolvedDependency, workspac
 
 
 def _is_unused(package: Package, name: str, successor: str) -> bool:
-    """Return whether a fully analysed package uses neither the package ``name`` of ROS 1 nor its ``successor``."""
+    """Return whether a fully analysed package uses neither the package ``name`` nor its ``successor``."""
     if not package.declares(name) & Role.BUILD or not dependencies.is_fully_visible(package) or name in package.textual_mentions:
         return False
     return not any(successor in use.providers for use in package.uses)
@@ -96,12 +103,12 @@ def _remedy(package: Package, successor: str, *, unused: bool) -> str:
 
 
 _OF_ROS_1 = re.compile(r"\$ROS_VERSION\s*==\s*[\"']?1\b")
-"""A condition for dependencies that a package for both ROS versions has in ROS 1."""
+"""Pattern of a condition that holds only in ROS 1, as a package for ROS 1 and ROS 2 has it: ``$ROS_VERSION == 1``."""
 _FOR_INTERFACES = "rosidl_default_"
 
 
 def _has_interfaces(package: Package) -> bool:
-    """Return whether the package generates interfaces, may do so, or has interface files."""
+    """Return whether the package generates interfaces, may generate interfaces, or has interface files."""
     script = package.script
     if script is None or script.products.interfaces or package.hidden(Facet.INTERFACES):
         return True

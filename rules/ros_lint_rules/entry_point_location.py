@@ -2,7 +2,7 @@
 ## What it finds
 
 Nodes written in Python that are installed to `bin/`, because `setup.cfg` is missing or lacks
-`install_scripts=$base/lib/<package>`. If `setup.cfg` names another package there, see `name-mismatch`.
+`install_scripts=$base/lib/<package>`. If `setup.cfg` has this setting with the name of another package, see `name-mismatch`.
 
 Also a `setup.cfg` with this setting under `[install]` only: `colcon build --symlink-install` uses `script_dir` under `[develop]`.
 
@@ -108,7 +108,7 @@ def _without_symlinks_only(package: Package, inside: Container[str]) -> Iterator
 
 
 _NODES = frozenset({"Node", "LifecycleNode"})
-"""Classes that a module with a node imports."""
+"""Names of base classes in rclpy. A module that contains one of these names probably defines a node."""
 
 
 RULE = Rule(

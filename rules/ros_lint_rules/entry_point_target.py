@@ -20,8 +20,8 @@ names a file that Python cannot import because of its name (`my-node.py`). The f
 
 Not reported:
 
-- Modules of other packages. Exceptions: this package has the same module under its own name, or a fully analysed package of the
-  workspace with that name has no such module.
+- Modules of other packages. Exceptions: this package has a module of the same name in its own Python package, or the other
+  package is in the workspace, is fully analysed and has no such module.
 - Missing functions in modules that use `import *`, define `__getattr__` or cannot be read: they may define any name.
 - Modules that are generated during the build, and missing modules if a file of the package cannot be read.
 """
@@ -59,7 +59,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _lacking(
     package: Package, script: BuildScript, entry: EntryPoint, name: str, attribute: str | None, workspace: Workspace
 ) -> Iterator[Finding]:
-    """Yield the finding if the module ``name`` of an entry, or the ``attribute`` in it, does not exist."""
+    """Yield the finding for an entry point if its module ``name``, or the function ``attribute`` of the module, does not exist.
+
+    ``attribute`` is None for an entry point without ``:function``. Such an entry point is reported if it is for a program.
+    """
     runs = entry.group in ("console_scripts", "gui_scripts")
     module = next((module for module in script.python.entry_point_modules if module.name == name), None)
     if attribute is None:
@@ -93,7 +96,10 @@ def _targets(package: Package, _: Workspace) -> frozenset[str]:
 
 
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
-    """Yield the finding for a module that is not in the sources, if it must be a module of ``package``."""
+    """Yield the finding for an entry point ``name:function`` whose module is not in the sources.
+
+    Nothing is yielded if the module may belong to another package, or may be generated.
+    """
     script = package.script
     if script is None or name in script.products.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
         return
@@ -123,7 +129,7 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
 
 
 def _is_slip(name: str, module: str) -> bool:
-    """Return whether ``name`` is a plausible typo of ``module``: their differing words resemble each other."""
+    """Return whether ``name`` is a plausible typo of ``module``: the words in which the two names differ resemble each other."""
     in_name, in_module = set(_WORDS.split(name)), set(_WORDS.split(module))
     only_in_name, only_in_module = " ".join(sorted(in_name - in_module)), " ".join(sorted(in_module - in_name))
     return not only_in_name or not only_in_module or bool(names.similar_names(only_in_name, [only_in_module]))
@@ -133,7 +139,7 @@ _WORDS = re.compile(r"[._]")
 
 
 def _is_in_package(module: str, wanted: str, script: BuildScript, files: Sequence[str]) -> bool:
-    """Return whether a module is in the folder of the wanted module or in a Python package."""
+    """Return whether ``module`` is in the same folder as the module ``wanted``, or in the folder of a Python package."""
     above = module.rpartition(".")[0]
     if above == wanted.rpartition(".")[0] or above in script.products.python_packages:
         return True
@@ -154,7 +160,10 @@ def _lacks(workspace: Workspace, top: str, name: str) -> bool:
 
 
 def _fix(entry: EntryPoint, wrong: str, right: str) -> Fix | None:
-    """Return the fix that replaces the module name, if the entry is written out on one line."""
+    """Return the fix that replaces the module name ``wrong`` of an entry point by ``right``.
+
+    None if ``right`` is "", or the entry point is not a string on one line.
+    """
     inner = entry.span.inner(f"{entry.name} = {entry.target}")
     if not right or inner is None:
         return None

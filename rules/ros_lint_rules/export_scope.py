@@ -7,8 +7,8 @@ the `CMakeLists.txt` of a subfolder that `add_subdirectory()` reads.
 ## Why it matters
 
 These commands set variables, which `ament_package()` writes to the CMake configuration of the package. Variables that are set
-in a function or subfolder are lost at its end. Packages that find this one get none of these exports: "fatal error:
-robot/robot.hpp: No such file or directory", or an unknown target.
+in a function or subfolder are lost when CMake leaves the function or subfolder. Packages that find this one get none of these
+exports: "fatal error: robot/robot.hpp: No such file or directory", or an unknown target.
 
 ## How to fix it
 
@@ -16,8 +16,8 @@ Call the command in the `CMakeLists.txt` of the package, before `ament_package()
 although `install(TARGETS ... EXPORT ...)` is in the subfolder. If no other package uses what the subfolder builds, such as
 plugins, remove the call.
 
-If nothing else is exported, what `unexported-dependency` and `unexported-headers` report for the package is probably a
-consequence. It is not shown as long as this finding is.
+If nothing else is exported, findings of `unexported-dependency` and `unexported-headers` for the package are probably
+consequences. They are hidden as long as this finding is shown.
 
 ## Limitations
 

@@ -5,7 +5,7 @@ A `find_package()` without `REQUIRED` or `QUIET`, if no condition checks whether
 
 ## Why it matters
 
-CMake goes on if the package is missing, which is noticed only when the compiler fails.
+CMake goes on if the package is missing. The mistake is noticed only when the compiler fails.
 
 ## How to fix it
 

@@ -7,8 +7,8 @@ Arguments of `ament_target_dependencies()` and `ament_export_dependencies()` tha
 - a typo of a found package, or two package names without a blank between them;
 - an exported name that is otherwise unknown, with medium confidence.
 
-Also this package itself, as an argument of `ament_target_dependencies()` or of `find_package()`, because it cannot be found
-before it is installed.
+Also reported: this package itself as an argument of `ament_target_dependencies()` or of `find_package()`, because CMake cannot
+find a package before it is installed.
 
 ## Why it matters
 
@@ -63,10 +63,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _no_packages(package: Package, found: frozenset[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for arguments that are certainly not packages: targets, and misspelt names of packages that CMake finds.
+    """Yield findings for arguments that are not packages: targets, misspelt names of found packages, unknown exported names.
 
-    An exported package is accepted without a find_package() if the manifest declares it or a find module exists. A name that
-    is misspelt in the manifest is left to another rule: once it is corrected there, CMake finds the package.
+    ``found``: the packages that CMake finds. An exported package needs no find_package() if the manifest declares it or a find
+    module exists. Names that are misspelt in the manifest are left out, because another rule reports the manifest.
     """
     script = package.script
     assert script is not None
@@ -153,9 +153,9 @@ def _targets(call: Call, all_names: Mapping[str, int]) -> Iterator[Finding]:
 
 _EXPORTS = "ament_export_dependencies"
 _TARGET_COMMANDS = {"ament_target_dependencies": "target_link_libraries", _EXPORTS: "ament_export_targets"}
-"""Commands that take packages, with the commands that do the same for targets."""
+"""Commands that link or export packages, each with the command that links or exports targets."""
 _REPEATED = frozenset({"foreach", "while", "function", "macro"})
-"""Blocks in which an argument may have several values."""
+"""Kinds of CMake blocks that may run several times, so that an argument in them may have several values."""
 
 
 RULE = Rule(

@@ -7,7 +7,7 @@ Build scripts that their tools reject:
 - Python in `setup.py` that is newer than the Python of the chosen distribution;
 - `rosidl_generate_interfaces()` without interface files;
 - undefined names in `setup.py`;
-- calls of a value that is not a function, such as a module, or a tuple that is not followed by a comma;
+- calls of a value that is not a function, such as a module, or a tuple after which a comma is missing: `('a', []) ('b', [])`;
 - entries of `data_files` that are not a pair of a folder and a list, and destinations outside the install prefix.
 
 ## Why it matters
@@ -26,7 +26,7 @@ Not reported:
 
 - Templates and Python 2.
 - Python that is newer than that of the distribution, if no distribution was chosen.
-- Names and calls in code that catches the error, or that `setup.py` may not reach.
+- Undefined names and wrong calls in code that catches the error, or that may not run.
 - Missing interface files, if a folder of the package is not available, such as a submodule that is not cloned.
 """
 

@@ -54,7 +54,7 @@ def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
 
 
 def _without_call(entry: EntryPoint) -> Fix | None:
-    """Return the fix that removes the final (), if the entry is one string on one line."""
+    """Return the fix that removes the () at the end of an entry point; None unless the entry point is a string on one line."""
     span = entry.span
     blanks = span.end_column - span.column - len(entry.name) - len(entry.target) - len("'='")
     if span.line != span.end_line or not 0 <= blanks <= 2:  # around the equals sign

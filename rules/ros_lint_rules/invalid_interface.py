@@ -7,10 +7,10 @@ Messages, services and actions passed to `rosidl_generate_interfaces()` that ros
   that do not begin with a capital letter;
 - names of fields that are not in lower case with single underscores, and names of constants that are not in upper case;
 - duplicate names, and fields named like a C++ keyword;
-- a line with a `;`, a comment with `//`, a line that begins with spaces, a default value that the type does not allow;
-- a service without the line `---`, an action without two of them, and such a line with other content;
+- lines with a `;`, comments with `//`, lines that begin with spaces, default values that the type does not allow;
+- services without a line `---`, actions without two such lines, and lines with `---` and other text;
 - files that are not named like `MotorState.msg`, are not in UTF-8, or begin with a byte order mark;
-- a package with such files whose name has upper-case letters or two underscores in a row.
+- names of packages with interfaces that have upper-case letters or two underscores in a row.
 
 ## Why it matters
 
@@ -19,7 +19,7 @@ later, when the generated code is compiled.
 
 ## How to fix it
 
-Follow the message. The fix does this if there is only one correction.
+Follow the message. There is a fix if only one correction is possible.
 
 ## Limitations
 

@@ -10,15 +10,15 @@ once in the share directory of package`.
 
 ## How to fix it
 
-Rename one, or install it only once. Includes are not affected, because they name the folder.
+Rename one of the files, or install the file only once. Includes are not affected, because they name the folder.
 
 ## Limitations
 
 Not reported:
 
 - Files that are installed under unknown conditions, and files without the name of a launch file.
-- Different files that other launch files of the workspace include: these are parts that are not launched by name. If a file of
-  the workspace cannot be read, each may be such a part.
+- Different files of the same name, if other launch files of the workspace include all of them, because included files need not
+  be launched by name. If a file of the workspace cannot be read, different files are never reported.
 - Launch files of tests and examples.
 
 If neighbouring folders have several names in common, as with one set of files for each robot, the confidence is medium: such
@@ -69,7 +69,11 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_set(repeated: Mapping[str, Sequence[InstalledFile]], places: Sequence[InstalledFile]) -> bool:
-    """Return whether neighbouring folders have several file names in common, as with one set of files for each robot."""
+    """Return whether the launch files ``places`` are parts of similar sets of files, e.g. of one set for each robot.
+
+    Their folders are then next to each other and have several file names in common. ``repeated``: the launch files that are
+    installed more than once, by name.
+    """
     folders = _folders(places)
     return len({folder.rpartition("/")[0] for folder in folders}) == 1 and any(
         len(folders & _folders(others)) > 1 for others in repeated.values() if others is not places

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from ros_lint.api import launch
 
 _SHORT = frozenset({"spawner", "spawner.py", "unspawner", "spawn_entity.py", "create", "load_controller"})
-"""Executables that exit after their work."""
+"""Executables that exit after their work, such as spawning a model. Two nodes of the same name then do no harm."""
 
 Conditions = tuple[LaunchCondition, ...]
 
@@ -55,16 +55,16 @@ def _of(file: LaunchFile, names: _Names, workspace: Workspace) -> Iterator[Findi
 
 
 class _Names:
-    """Possible names of nodes, regardless of conditions: a cheap test before launch files are followed through includes."""
+    """Cache of the names that nodes of each launch file may have: a cheap test before the includes of a file are evaluated."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = launch.include_resolver(workspace)
         self._known: dict[str, frozenset[str]] = {}
 
     def repeated(self, file: LaunchFile) -> set[str]:
-        """Return the names that occur twice in a file and the files it includes.
+        """Return the names that two nodes of a launch file and the files it includes may have.
 
-        Nodes that start later, or under conditions that exclude each other, do not count.
+        Nodes that a timer or an event starts later do not count, and neither do nodes under conditions that exclude each other.
         """
         seen: dict[str, list[Conditions]] = {}
         repeated: set[str] = set()
@@ -77,7 +77,7 @@ class _Names:
         return repeated
 
     def of(self, file: LaunchFile) -> frozenset[str]:
-        """Return the names of nodes in a file and the files it includes."""
+        """Return the possible names of all nodes in a launch file and the files it includes."""
         return self._all(file, ())
 
     def _parts(

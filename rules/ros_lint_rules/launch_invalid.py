@@ -4,11 +4,11 @@
 A launch file that the launch front end rejects:
 
 - It does not parse.
-- It has a tag, attribute or substitution that does not exist, lacks a required one, or has a value of the wrong type.
+- It has a tag, attribute or substitution that does not exist or has a value of the wrong type, or it lacks a required one.
 - A Python launch file passes unknown or removed keywords to a node, argument or other class of the launch libraries, or passes
-  something without its keyword.
-- It omits a required keyword, such as `executable=` of a node.
-- A Python launch file uses a name that is not defined, or imports one from a module that does not have it.
+  a value without the required keyword.
+- A Python launch file omits a required keyword, such as `executable=` of a node.
+- A Python launch file uses a name that is not defined, or imports a name that the module does not have.
 - It passes a file in XML to `PythonLaunchDescriptionSource`.
 - It uses something that was added to the launch format, or to Python, after the chosen distribution.
 - A Python launch file adds a substitution to a string, or passes it where Python requires a string.
@@ -65,9 +65,9 @@ from ros_lint.api import (
 )
 
 _FOR_OLD = re.compile(r"(?:^|[_.-])(?:crystal|dashing|el[eo]quent|foxy)(?:[_.-]|$)")
-"""In the name of a launch file: a distribution that has the keywords which were removed in Galactic."""
+"""Pattern of launch file names with a distribution before Galactic, which still has the keywords that Galactic removed."""
 _OTHER_RULES = frozenset({"forgotten-path", "no-slash", "substitution-as-text"})
-"""Problems that `launch-misjoined-path` and `launch-substitution-as-value` report: ros2 launch accepts the file."""
+"""Kinds of problems that ros2 launch accepts: `launch-misjoined-path` and `launch-substitution-as-value` report them."""
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -93,7 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _fix(path: str, problems: Iterable[Problem]) -> Fix | None:
-    """Return the fix that renames removed keywords, if the file has no other problem."""
+    """Return the fix that renames removed keywords; None if the file has another problem."""
     if any(problem.kind != "removed-keyword" for problem in problems):
         return None
     edits = dict.fromkeys(Edit(problem.span, problem.subject) for problem in problems)
@@ -105,7 +105,10 @@ def _is_for_old(path: str) -> bool:
 
 
 def _newer(problems: Iterable[Problem], target: TargetDistro) -> Iterator[Problem]:
-    """Yield the problems of features that the chosen distribution lacks. A later distribution is later in the alphabet."""
+    """Yield a problem for each feature that a distribution after the chosen one added.
+
+    Distributions are compared by the alphabet: a later distribution has a later initial letter.
+    """
     if target.explicit and target.distro != "rolling":
         for problem in problems:
             if target.distro < problem.kind:

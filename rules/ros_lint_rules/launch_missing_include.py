@@ -1,25 +1,25 @@
 """
 ## What it finds
 
-- A launch file that includes a launch file, or names a parameter, model, map or display file, that does not exist in its
-  package: it is neither installed there nor in the sources.
+- A launch file that includes another launch file, or names a parameter file, model, map or display (a configuration of RViz,
+  `*.rviz`), that its package neither installs nor has in its sources.
 - An installed model, display or parameter file (URDF and xacro among them) that looks up a missing mesh or other file in a
   package of the workspace.
 - A missing file that MoveIt's builders read from their package:
   `MoveItConfigsBuilder("arm").joint_limits(file_path="config/joint_limits.yaml")`.
-- A missing file that an included launch file names with an argument that it is passed, such as `$(var folder)/robot.yaml`. It
-  is resolved as when the including launch file is launched, directly or through further includes.
+- A missing file that an included launch file names by an argument, such as `$(var folder)/robot.yaml`. The argument has the
+  value that the including launch file passes, directly or through further includes.
 
-This rule reports all of them because each is a name of a file that is neither installed nor in the sources of its package.
+One rule reports all these cases, because each is the name of a file that its package neither installs nor has in its sources.
 
 ## Why it matters
 
 The launch file stops, or the node starts without its parameters. xacro stops at a missing include. RViz and Gazebo show nothing
-for a missing mesh. RViz starts with its default display if its own is missing, so this is a warning.
+for a missing mesh. If the configuration of RViz is missing, RViz starts with its default, so this is only a warning.
 
 ## How to fix it
 
-Correct the path. The message names a file of the same name that the package does install, or the package that has the file.
+Correct the path. The message suggests a file of the same name that the package installs, or names the package with the file.
 
 ## Limitations
 
@@ -72,7 +72,7 @@ from ros_lint.api import (
 _WRITTEN = (".yaml", ".yml", ".rviz", ".urdf", ".xacro", ".srdf", ".sdf", ".world", ".wbt", ".lua", ".launch", ".py", ".xml")
 """Suffixes of files that developers write and keep with the package."""
 _MODELS = (".urdf", ".xacro", ".srdf", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
-"""Suffixes of files that look up files of packages and are not programs."""
+"""Suffixes of files other than programs that may look up files of packages, such as models and RViz configurations."""
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -85,7 +85,10 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files that installed models, displays and parameter files look up in workspace packages."""
+    """Yield findings for missing files of workspace packages that other files look up.
+
+    These other files are installed models, RViz configurations and parameter files.
+    """
     if not package.lookups:
         return
     share = f"share/{package.name}/"
@@ -125,7 +128,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for missing files that launch files name independently of launch arguments."""
+    """Yield findings for missing files that launch files name without the help of launch arguments."""
     by_name = launch.references_by_name(package, ("include", "file"))
     names_at: dict[Span, set[str]] = {}
     for (_, path), named in by_name.items():
@@ -170,7 +173,10 @@ def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
 
 
 def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
-    """Yield the place where the package of a missing file is looked up on an earlier line, for this file only."""
+    """Yield the earlier line of a launch file that looks up the package of a missing file, if it serves only this file.
+
+    ``names_at``: the files for which each look-up of a package serves.
+    """
     place, named = reference.span, reference.package_span
     if place.path == named.path and named.line < place.line and len(names_at[named]) == 1:
         yield Related("the package is looked up here", named)
@@ -215,10 +221,10 @@ class _Missing:
         self._passed: dict[tuple[str, bool], dict[_Key, launch.PassedFile]] = {}
 
     def passed_by(self, file: LaunchFile, *, settled: bool = False) -> dict[_Key, launch.PassedFile]:
-        """Return the files that are missing when ``file`` is launched, see :func:`passed_files`.
+        """Return the missing files whose paths included launch files form from arguments when ``file`` is launched.
 
-        Files that a launch file names without the help of arguments are left out. ``settled``: also leave out files that depend
-        on the launch arguments of ``file`` itself.
+        The keys are the place in the included file, the package and the path (:func:`passed_files`). Files that a launch file
+        names without arguments are left out. ``settled``: also leave out files that depend on the arguments of ``file`` itself.
         """
         key = file.path, settled
         if key not in self._passed:
@@ -247,7 +253,7 @@ _Key = tuple[Span, str, str]
 
 
 def _message(owner: str, path: str, more: int = 0) -> str:
-    """Return the beginning of a message: ``path`` and ``more`` other files of the same folder do not exist in the package."""
+    """Return the beginning of a message: ``path`` and ``more`` other files of its folder do not exist in package ``owner``."""
     if not more:
         return f"'{path}' does not exist in '{owner}'"
     return f"'{path}' and {more} more file{'s' if more > 1 else ''} of the same folder do not exist in '{owner}'"
@@ -259,7 +265,7 @@ def _severity(path: str) -> Severity:
 
 
 def _twin(path: str, all_names: tuple[str, ...]) -> str:
-    """Return an installed file of the same folder and suffix with a nearly equal name, or ""."""
+    """Return the installed file with nearly the name of ``path``, in the same folder and with the same suffix; else ""."""
     folder, _, base = path.rpartition("/")
     siblings = [name.rpartition("/")[2] for name in all_names if _folder_and_suffix(name) == _folder_and_suffix(path)]
     near = names.similar_names(base, siblings, 1, 0.8)
@@ -267,7 +273,7 @@ def _twin(path: str, all_names: tuple[str, ...]) -> str:
 
 
 def _is_misspelt(path: str, all_names: tuple[str, ...]) -> bool:
-    """Return whether the suffix has the letters of the suffix of an existing file in another order: ``x.yalm``."""
+    """Return whether ``path`` is an existing file except for the order of letters in the suffix: ``x.yalm`` for ``x.yaml``."""
     stem, _, suffix = path.rpartition(".")
     return any(name.startswith(f"{stem}.") and sorted(name[len(stem) + 1 :]) == sorted(suffix) for name in all_names)
 
@@ -300,7 +306,10 @@ _FILLED_LATER = frozenset({"generated", "map", "maps", "temp", "tmp"})
 
 
 def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tuple[str, ...] | None:
-    """Return the files below share/<package> if ``path`` is certainly not among them, else None."""
+    """Return the files in the share directory of package ``owner`` if ``path`` is certainly not among them, else None.
+
+    ``kind``: "include" for a launch file, "file" for any other file.
+    """
     owners = workspace.by_name.get(owner, ())
     if not owners:
         known = workspace.world.launch_files(owner)
@@ -325,7 +334,7 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return the hint which package installs the file: ``package``, else the only other package that does; "" if unclear."""
+    """Return the hint that names the package which installs ``path``: ``package``, else the only other one; else ""."""
     owners = {
         other.name
         for other in workspace.packages
@@ -337,7 +346,10 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
 
 
 def _hint(path: str, all_names: tuple[str, ...]) -> str:
-    """Return the suggestion: a file of the same name, also before or after xacro, or else a file with a similar path."""
+    """Return the suggestion of an installed file: one with the same name, else one with a similar path, else "".
+
+    ``robot.urdf`` and ``robot.urdf.xacro`` count as the same name.
+    """
     base = path.rpartition("/")[2]
     meant = names.of_same_kind(path, all_names)
     same = [name for name in meant if name.rpartition("/")[2] == base]

@@ -4,8 +4,8 @@
 A launch file that starts something from a package, includes a file of it or looks it up, but the package is not in the
 run-time closure: installing the package of the launch file does not install it.
 
-The same for commands that the launch file runs, such as `xacro`, `ros2 control`, `ros2 bag` and `ros2 trace`, and for commands
-in front of nodes, such as `prefix="xterm -e"`.
+Also reported are the packages of commands that the launch file runs, such as `xacro`, `ros2 control`, `ros2 bag` and `ros2
+trace`, and of commands in front of nodes, such as `prefix="xterm -e"`.
 
 ## Why it matters
 
@@ -24,8 +24,8 @@ Not reported:
 - Packages that a declared dependency provides transitively.
 - Packages with other uses that `undeclared-dependency` or `wrong-dependency-kind` reports.
 - Launch files that check what is installed, with `has_resource`, `get_packages_with_prefixes` or `PackageNotFoundError`.
-- Packages that do not exist: see `launch-unknown-package`. Without an explicit target distribution, a package of any
-  distribution is accepted, with its dependencies there; the message names the distributions.
+- Packages that do not exist: see `launch-unknown-package`. If no target distribution is set, a package of any distribution is
+  accepted, with its dependencies in that distribution; the message names the distributions.
 - Launch files of tests and examples, copies of launch files (`arm.launch (copy).py`), and launch files that are not installed.
 - `<test_depend>` packages, in a launch file that is only named like a test (`test_arm.launch.py`).
 
@@ -75,7 +75,10 @@ _DONE = {
 """The verb for each kind of reference of a launch file, in the order of the strength of the evidence."""
 _ORDER = tuple(_DONE)
 _LINES_OF_CALL = 1
-"""The most lines between package and name in one call. Otherwise a variable has the path of the package."""
+"""Maximum number of lines between the package and the file name in one call.
+
+If more lines are between them, the path of the package is in a variable.
+"""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -108,7 +111,10 @@ def _is_in_example(reference: LaunchReference) -> bool:
 
 
 def _use(reference: LaunchReference, name: str, place: Span) -> str:
-    """Return the part of the message that says what a launch file does with a package at the place of the finding."""
+    """Return the part of the message that says how a launch file uses the package ``name``: ``'rviz2' is started here``.
+
+    ``place``: the place of the finding.
+    """
     verb, file_place = _DONE[reference.kind], reference.span
     if reference.name in ("", name):
         return f"'{name}' is {verb} here"
@@ -119,13 +125,16 @@ def _use(reference: LaunchReference, name: str, place: Span) -> str:
 
 
 def _is_in_every_branch(name: str, reference: LaunchReference, package: Package) -> bool:
-    """Return whether the launch file with a reference starts nodes of the package ``name`` whatever its conditions are."""
+    """Return whether the launch file with a reference starts nodes of the package ``name`` whichever conditions hold."""
     file = next((file for file in package.launch if file.path == reference.package_span.path), None)
     return file is not None and name in launch.packages_of_every_branch(file)
 
 
 def _place(best: LaunchReference, others: Sequence[LaunchReference]) -> Span:
-    """Return the place of the package name, or the place of the file if one look-up of the package serves several files."""
+    """Return the place of the finding: the place of the package name in the reference ``best``.
+
+    If one look-up of the package serves several files, the result is the place of the file name instead.
+    """
     is_shared = any(other.package_span == best.package_span and other.name != best.name for other in others)
     return best.span if is_shared and best.kind in ("include", "file") else best.package_span
 
@@ -159,9 +168,9 @@ def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list
 
 
 def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the names that the rule wrong-dependency-kind may report, because the declared tag may not cover their uses.
+    """Return the declared packages that the rule wrong-dependency-kind may report, because their tags may not cover their uses.
 
-    The packages with these names are exported, or code uses them at run time for more than launching.
+    These packages are exported, or code uses them at run time for more than launching.
     """
     names: set[str] = set()
     for need in dependencies.needs(package, workspace):
@@ -173,7 +182,10 @@ def _in_wrong_tags(package: Package, workspace: Workspace) -> frozenset[str]:
 
 
 def _needs(workspace: Workspace, name: str, package: Package) -> bool:
-    """Return whether ``name`` needs ``package`` without declaring it: only one of the two can declare the other."""
+    """Return whether the package ``name`` needs ``package`` without declaring it.
+
+    Only one of the two packages can declare the other one, because colcon rejects cycles.
+    """
     for candidate in workspace.by_name.get(name, ()):
         if any(need.name == package.name and sure for need, sure in dependencies.undeclared(candidate, workspace)):
             return True

@@ -74,7 +74,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 
 
 def _read_by_path(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield the names of files that are opened relative to the working directory: parameters, displays and includes."""
+    """Yield the file names of an action that launch or the node opens relative to the working directory.
+
+    These are names of included launch files, parameter files and configurations of RViz.
+    """
     if action.kind == "include" and action.target is not None:
         yield action.target
     if action.kind in ("node", "component"):
@@ -84,11 +87,11 @@ def _read_by_path(action: LaunchAction) -> Iterator[LaunchValue]:
 
 
 _GIVES_FILE = frozenset({"-d", "--display-config", "--params-file"})
-"""Options with a file name as value, of RViz and of all nodes."""
+"""Command line options with a file name as value: the options of RViz for its configuration, and one of all nodes."""
 
 
 def _is_left_out(package: Package, path: str) -> bool:
-    """Return whether the package does not install a file to its share directory."""
+    """Return whether the package certainly does not install the file ``path`` to its share directory."""
     installed = {file.source for file in package.built.products.installs if file.path.startswith("share/")}
     return bool(package.built.path) and not package.hidden(Facet.SHARE) and path not in installed
 

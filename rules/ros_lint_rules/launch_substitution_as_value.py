@@ -1,7 +1,7 @@
 """
 ## What it finds
 
-A Python launch file that uses a substitution or condition as if it had its value already:
+A Python launch file that uses a substitution or condition as if it were a Python value:
 
 - It formats, compares or tests a substitution.
 - It joins conditions with `and` or `or`.
@@ -22,7 +22,7 @@ of `OpaqueFunction`, use `perform(context)`.
 Not reported:
 
 - Substitutions in code that catches errors or only prints, such as `print()`.
-- A substitution tested in a function that gets it as an argument, because the test may be whether it is given at all.
+- A substitution tested in a function that has it as a parameter, because the function may test whether a value was passed.
 - Launch files of tests, examples and templates.
 - What Python rejects, such as `'robot_' + LaunchConfiguration('name')`: `launch-invalid` reports it.
 """

@@ -19,7 +19,7 @@ Correct the name, or declare the argument.
 Not reported:
 
 - Configurations of a file that computes the names of the configurations it reads.
-- Configurations of a file with more than two undeclared ones, because it is a part of other launch files.
+- Configurations of a file with more than two undeclared ones, because such a file is made to be included by other files.
 - Files that include a launch file from outside the workspace, and all files if a file of the workspace cannot be read, because it
   may include them.
 - Configurations read with a default, if any launch file of the workspace sets or passes them, or if the name differs from the
@@ -38,7 +38,10 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, launch, names
 
 _MOST_MISSING = 2
-"""A file that reads more undeclared configurations is assumed to be a part of a file that sets them."""
+"""Maximum number of undeclared configurations that are reported in a launch file.
+
+A file that reads more is assumed to be included by a file that sets them.
+"""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:

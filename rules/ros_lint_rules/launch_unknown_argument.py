@@ -5,7 +5,8 @@ An include that passes an argument which neither the included launch file nor an
 
 ## Why it matters
 
-The argument has no effect, without a message. It was renamed or removed in the included file, so the default applies again.
+The argument has no effect, and no message says so. Mostly it was renamed or removed in the included file, so the default
+applies.
 
 ## How to fix it
 
@@ -22,9 +23,11 @@ Not reported:
 - Arguments that something later in the same scope may read, such as a launch file from outside the workspace. A passed argument
   stays set until the end of the enclosing scoped group.
 
-The confidence is medium if the included file fills in parameters from launch configurations, or if something later in a file
-that includes this one may read the argument. It stays high in the second case if the name resembles an argument that is not
-passed.
+The confidence is medium in these cases:
+
+- The included file fills in parameters from launch configurations.
+- Something later in a file that includes this one may read the argument. Exception: the name resembles an argument that is not
+  passed.
 
 The severity is info, or warning if the name resembles an argument that is not passed.
 """
@@ -69,7 +72,10 @@ def _of_include(
 
 
 def _configurations(value: LaunchValue) -> Iterator[str]:
-    """Yield the launch configuration that a value consists of: a file often passes on an argument under the same name."""
+    """Yield the name of the launch configuration if a value is nothing but that configuration: ``mode`` for ``$(var mode)``.
+
+    A launch file often passes on its own argument to an argument of the same name.
+    """
     for text in value.texts:
         yield from (name for name, _, whole in launch.configurations(text) if whole == text)
 
@@ -77,8 +83,8 @@ def _configurations(value: LaunchValue) -> Iterator[str]:
 def _in_sibling(name: str, target: LaunchFile, package: Package, source: LaunchFile, workspace: Workspace) -> str:
     """Return the hint that a variant of the included file declares the argument, "" unless exactly one in ``package`` does.
 
-    A variant is in or below the folder of the included file and has a longer name: ``base_imu`` for ``base``. ``source``, the
-    including file, is no variant, although it often declares the arguments that it passes on.
+    A variant is in or below the folder of the included file and has a longer name: ``base_imu`` for ``base``. The including
+    file ``source`` is no variant, although it often declares the arguments that it passes on.
     """
     folder, tree = target.path.rpartition("/")[0], launch.include_tree(workspace)
     declaring = [
@@ -98,7 +104,7 @@ def _stem(file: LaunchFile) -> str:
 
 
 def _useless(file: str, name: str, place: Span, hint: str, *, sure: bool, is_similar: bool) -> Finding:
-    """Return the finding for an argument ``name`` that the included ``file`` does not use, although it is passed.
+    """Return the finding for the argument ``name`` that is passed to the included ``file``, although the file does not use it.
 
     ``is_similar``: the file uses an argument of a similar name that is not passed.
     """

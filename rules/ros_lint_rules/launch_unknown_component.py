@@ -66,12 +66,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _class(name: str) -> str:
-    """Return the name of a component without its namespace, which all components of a package may share."""
+    """Return the class name of a component without its namespace: ``Talker`` for ``demo::Talker``."""
     return name.rpartition("::")[2]
 
 
 def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ...] | None:
-    """Return the components that a package registers if ``name`` is certainly not among them, else None."""
+    """Return the components that the package ``owner`` registers if ``name`` is certainly not among them, else None."""
     owners = workspace.by_name.get(owner, ())
     if not owners:
         known = workspace.world.components(owner)

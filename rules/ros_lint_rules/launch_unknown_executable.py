@@ -27,7 +27,7 @@ Not reported:
 - The build script installs a file of that name that is not in the sources: see `missing-file`.
 - The package is released, and the sources of its release are not fully known. The sources for an earlier and a later
   distribution are used instead, if both are known and neither contains the executable.
-- Names that are only reached on other distributions: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
+- Names that are only used on other distributions: `'spawner' if os.environ['ROS_DISTRO'] > 'foxy' else 'spawner.py'`.
 
 Reported with medium confidence:
 
@@ -83,7 +83,7 @@ class _Missing(NamedTuple):
     """An executable that a package does not install, and the hint for the message."""
 
     hint: str
-    """The end of the message."""
+    """The end of the message, which says what to do: ``; did you mean 'talker'?``."""
     meant: str = ""
     """The only executable that is possible instead, or ""."""
     related: tuple[Related, ...] = ()
@@ -130,13 +130,13 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
 
 
 def _is_lost(package: Package, name: str) -> bool:
-    """Return whether the script would install a file called ``name`` that is missing from the sources: see missing-file."""
+    """Return whether the build script installs a file ``name`` that is not in the sources: missing-file reports that file."""
     lost = [problem.subject.rpartition("/")[2] for problem in package.built.problems if problem.kind == "missing-file"]
     return name in lost
 
 
 def _uninstalled_target(package: Package, name: str) -> _Missing | None:
-    """Return the hint for an executable that the package builds but does not install, unless another rule reports it."""
+    """Return the hint for an executable that the package builds but does not install; None if it does not build ``name``."""
     executables = [target for target in package.built.products.targets if target.kind == "executable"]
     target = next((target for target in executables if target.name == name), None)
     if target is None:
@@ -146,7 +146,7 @@ def _uninstalled_target(package: Package, name: str) -> _Missing | None:
 
 
 def _named_by_module(package: Package, name: str, all_names: Collection[str]) -> _Missing | None:
-    """Return the hint if a launch file names a Python module instead of its executable, else None."""
+    """Return the hint if ``name`` is a Python module of the package instead of the executable that runs it, else None."""
     script, stem = package.built, name.removesuffix(".py")
     entries = [
         entry for entry in script.products.entry_points if entry.name in all_names and entry.module.rpartition(".")[2] == stem

@@ -8,8 +8,8 @@ The message suggests another package in these cases:
 
 - A package with a similar name exists.
 - The package of the launch file installs the executables that are started. It was renamed, or the launch file was copied.
-- The name lacks the first word that the packages of a project share: `planner_utils` for `acme_planner_utils` in a package
-  `acme_bringup`. Nothing is suggested if that package has none of the executables and files that the launch file names.
+- The name lacks the first word that the packages of a project share: `planner_utils` for `acme_planner_utils` in a launch file
+  of `acme_bringup`. Nothing is suggested if `acme_planner_utils` lacks the executables and files that the launch file names.
 
 ## Why it matters
 
@@ -105,11 +105,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 class _Place(NamedTuple):
-    """A place that names a package; the place that best explains the finding sorts first."""
+    """A place in a launch file that names an unknown package. In sorted order, the best place for the finding comes first."""
 
     apart: bool
     """True if the launch file is an example, or a test that the build script does not run."""
     by_default: bool
+    """True if the name is the default of a launch argument."""
     idle: bool
     """True if the launch file is not installed."""
     conditional: bool
@@ -118,7 +119,7 @@ class _Place(NamedTuple):
 
 
 def _joined(question: str, hint: str) -> str:
-    """Return a question with a hint after it, which is a new sentence if the question ends with a question mark."""
+    """Return ``question`` followed by ``hint``. After a question mark, the hint is a sentence of its own."""
     if not (hint and question.endswith("?")):
         return f"{question}{hint}"
     first = hint.removeprefix("; ")
@@ -126,7 +127,7 @@ def _joined(question: str, hint: str) -> str:
 
 
 def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
-    """Return the end of the message about an undeclared package that may be available elsewhere."""
+    """Return the end of the message for a package that may be available elsewhere: how to declare it in package.xml."""
     tag = dependencies.tag_for(package, workspace, name, Role.EXEC)
     if condition := dependencies.condition_for(workspace, name):
         return f'; add <{tag} condition="{condition}">{name}</{tag}>{dependencies.condition_format(package)}'
@@ -136,8 +137,8 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
     """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
 
-    A tag with a false condition counts as well: the package is not needed in this distribution. An unknown dependency is
-    assumed not to depend on a package that ROS 2 replaced by another package.
+    A tag with a false condition counts as a declaration, because the package is not needed in this distribution. An unknown
+    dependency is assumed not to depend on a package that ROS 2 replaced by another package.
     """
     manifest = package.manifest
     if manifest is None or manifest.problems or any(depend.name == name for depend in manifest.depends):
@@ -154,13 +155,16 @@ class _Verdict(NamedTuple):
     resembles: bool = True
     """True if the name is probably a typo or an old name, not a package that is unavailable."""
     known: bool = False
-    """True if the hint names the replacement in ROS 2, or a package of the same words: then it is not available elsewhere."""
+    """True if the hint names the replacement in ROS 2, or a package with the same words in another order.
+
+    Then the unknown package is assumed not to be available elsewhere.
+    """
 
 
 def _unknown(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[_Place]]]:
     """Yield each unknown package name with the places in launch files that name it.
 
-    Places that start executables of this package are a group of their own, so a name may be yielded twice.
+    A name may be yielded twice: with the places that start executables of this package, and with all other places.
     """
     unknown: dict[tuple[str, bool], list[_Place]] = {}
     own = launch.installed_programs(package)
@@ -224,7 +228,10 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
 
 
 def _its_program(successor: str, places: Sequence[_Place], workspace: Workspace) -> str:
-    """Return the only executable of a released successor, in parentheses; "" if it has several or the name is the same."""
+    """Return the only executable of the released package ``successor`` as `` (executable 'x')``.
+
+    The result is "" if the successor has several executables, or its executable has the name that launch files start.
+    """
     programs = workspace.world.executables(successor).names
     wanted = {place.reference.name for place in places if place.reference.kind == "node"}
     return f" (executable '{programs[0]}')" if wanted and len(programs) == 1 and not wanted.intersection(programs) else ""
@@ -265,7 +272,10 @@ def _may_start(package: Package, name: str) -> bool:
 
 
 def _has_like(name: str, programs: Iterable[str]) -> bool:
-    """Return whether a program has the name, alone or with more words: renamed packages often rename their programs as well."""
+    """Return whether the words of ``name`` are in the name of a program: ``talker`` in ``demo_talker_node``.
+
+    Packages that are renamed often rename their programs as well.
+    """
     return any(f"_{name}_" in f"_{program}_" for program in programs)
 
 

@@ -5,7 +5,7 @@ A launch argument that is declared but never used, neither in its file nor in a 
 
 ## Why it matters
 
-The argument has no effect, without a message, although `ros2 launch --show-args` lists it.
+The argument has no effect, and no message says so, although `ros2 launch --show-args` lists it.
 
 ## How to fix it
 
@@ -21,8 +21,8 @@ Not reported:
   parameter file, which may use any argument.
 - All arguments, if a file of the workspace cannot be read, because it may include this file.
 - Arguments of a file that only contains arguments, because it sets them for files that include it.
-- Arguments with an empty default that another launch file of the same folder requires, because this file may replace the other
-  one.
+- Arguments with an empty default that another launch file of the same folder requires, because the two files may be
+  interchangeable.
 - Arguments with nearly the name of an undeclared configuration: `launch-undeclared-configuration` reports the configuration.
 """
 
@@ -33,7 +33,7 @@ from collections.abc import Iterator
 from ros_lint.api import STANDARD_LIBRARY, Finding, LaunchFile, Package, Rule, Severity, Workspace, launch
 
 _QUIET = launch.LAUNCH_RUNTIME | {"nav2_common", "xacro", "yaml"}
-"""Modules that read no launch configurations, in addition to the Python standard library."""
+"""Python modules that read no launch configurations, beside those of the standard library."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -68,7 +68,7 @@ def _is_of_launch(module: str) -> bool:
 
 
 def _replacing(file: LaunchFile, package: Package, workspace: Workspace) -> Iterator[str]:
-    """Yield the arguments with an empty default if a launch file of the same folder declares them without a default."""
+    """Yield the arguments of ``file`` with an empty default that another launch file of its folder declares without a default."""
     resolver = launch.include_resolver(workspace)
     required = {name for other in package.launch if _folder(other) == _folder(file) for name in resolver.takes(other).required}
     for action in launch.walk_actions(file.actions):

@@ -15,11 +15,12 @@ Declare the argument before its first use.
 
 Not reported:
 
-- Configurations that a file declares or sets which includes this one, or perhaps one that is included earlier.
-- All configurations, if a file of the workspace cannot be read, because it may include this file.
+- Configurations that a file which includes this one declares or sets.
+- Configurations that may be declared by a file that this one includes earlier.
+- All configurations, if a file of the workspace cannot be read, because that file may include this one.
 
-The confidence is medium for configurations that are read under a condition, and if the file requires other arguments, so that it
-is a part of other launch files.
+The confidence is medium for configurations that are read under a condition, and if the file requires other arguments, because
+it is then probably included by other launch files.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
-    """Yield the arguments that are read before they are declared, because a launch file is processed in order.
+    """Yield a finding for each argument that is read before it is declared, because a launch file is processed in order.
 
     ``above``: names of the configurations declared or set by files that include ``file``.
     """
@@ -90,7 +91,7 @@ class _Early(NamedTuple):
     sure: bool
     """True if the configuration is certainly read at ``span``."""
     holds: bool | None
-    """The result of a condition that compares the missing configuration; None if launch stops instead."""
+    """The result of the condition that compares the missing configuration; None outside of such conditions: launch stops."""
 
 
 _OUTCOMES = {None: "the launch file stops", False: "the condition is never true", True: "the condition is always true"}
@@ -101,7 +102,8 @@ def _read_early(
 ) -> Iterator[_Early]:
     """Yield the configurations that are read before their declaration.
 
-    ``declared`` has the index of the declaring action, by name.
+    ``declared``: the index of the action of ``file`` that declares each configuration. ``above``: names of the configurations
+    that including files declare or set.
     """
     known = set(above)
     last = max(declared.values(), default=-1)
@@ -126,9 +128,9 @@ def _read_early(
 
 
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
-    """Yield each text of an action that launch evaluates: the text, its place, True if it is under a condition, and ``holds``.
+    """Yield each text of an action that launch evaluates: the text, its place, whether it is under a condition, and ``holds``.
 
-    The texts of a condition itself are always evaluated. ``holds`` is the result of a condition that compares a missing
+    The texts of a condition itself are not under this condition. ``holds`` is the result of a condition that compares a missing
     configuration. It is None for every other text, because launch stops there (:class:`_Early`).
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}

@@ -1,11 +1,11 @@
 """
 ## What it finds
 
-`link_directories()`.
+Calls of `link_directories()`.
 
 ## Why it matters
 
-It affects every later target, which may then link a library of the same name from the wrong folder.
+The command affects every later target. A target may then link a library of the same name from the wrong folder.
 
 ## How to fix it
 

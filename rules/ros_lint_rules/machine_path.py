@@ -9,7 +9,7 @@ Paths that work only on one machine or in the root of one workspace:
   (`~/ros2_ws/src/robot/config/robot.yaml`).
 - A path that climbs from an installed folder to the sources: `os.path.join(share, '../../../../src/robot/config/robot.yaml')`.
 
-All are one rule because all lead to the sources or files of one machine instead of the installed file.
+One rule reports all of them, because each leads to the sources or files of one machine instead of the installed file.
 
 ## Why it matters
 
@@ -89,7 +89,7 @@ _OF_GAZEBO = (".sdf", ".world")
 _MODELS = (".urdf", ".xacro", ".srdf", ".rviz")
 _PROGRAMS = (".py", ".c", ".cc", ".cpp", ".cxx", ".h", ".hpp")
 _IMAGES = (".pgm", ".png", ".bmp")
-"""Images of maps, which are next to the map file."""
+"""Suffixes of images of maps. A map file names its image relative to its own folder."""
 
 
 class _Inside(NamedTuple):
@@ -97,9 +97,9 @@ class _Inside(NamedTuple):
 
     package: str
     rest: str
-    """The path below the folder of the package; "" for the folder itself, or if the package has no such file."""
+    """The path relative to the folder of the package; "" for the folder itself, or if the package has no such file."""
     whole: bool
-    """True if the path leads to the folder of the package itself."""
+    """True if the path leads to the folder of the package itself, not to a file in it."""
     program: str
     """The name of the file for ``ros2 run``, "" if the package does not install it as a program."""
 
@@ -206,9 +206,10 @@ def _source_of_generated(machine: MachinePath, package: Package) -> str:
 
 
 def _resource_path(scheme: str, inside: _Inside, workspace: Workspace) -> str:
-    """Return the condition under which Gazebo finds a package by ``scheme``, "" if its manifest fulfils it.
+    """Return the part of a remedy that says what to add to Gazebo's resource path, so that ``model://<package>`` is found.
 
-    Gazebo searches ``gazebo_model_path`` of each ``package.xml`` for the folder of the package (gazebo_ros, ros_gz_sim).
+    The result is "" if the manifest of the package adds the folder already, or ``scheme`` is not ``model://``. Gazebo searches
+    the folders in ``gazebo_model_path`` of each ``package.xml`` for the folder of the package (gazebo_ros, ros_gz_sim).
     """
     elements = [
         element for package in workspace.by_name[inside.package] if package.manifest for element in package.manifest.exports
@@ -220,7 +221,7 @@ def _resource_path(scheme: str, inside: _Inside, workspace: Workspace) -> str:
 
 
 def _as_modules(inside: _Inside, workspace: Workspace) -> str:
-    """Return the remedy for a folder of Python modules that is added to the search path, "" for any other path."""
+    """Return the remedy for a path to a folder of Python modules, which a program adds to ``sys.path``; "" for other paths."""
     below = [
         file for package in workspace.by_name[inside.package] for file in package.files if file.startswith(f"{inside.rest}/")
     ]
@@ -232,7 +233,7 @@ def _as_modules(inside: _Inside, workspace: Workspace) -> str:
 
 
 def _is_left_out(inside: _Inside, workspace: Workspace) -> bool:
-    """Return whether the package does not install the file to its share directory."""
+    """Return whether the package certainly does not install the file to its share directory."""
     below = (f"{inside.rest}/", f"{inside.rest}.")
     for package in workspace.by_name[inside.package]:
         installed = [file.source for file in package.built.products.installs if file.path.startswith("share/")]
@@ -265,7 +266,7 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
 
 
 def _scheme(inside: _Inside, file: str) -> str:
-    """Return the prefix by which a model names a file of a package, "" if ``file`` is no model."""
+    """Return the prefix by which a model names a file of a package, e.g. ``package://robot``; "" if ``file`` is no model."""
     if not file.endswith((*_OF_GAZEBO, *_MODELS)):
         return ""
     if _is_yaml(inside.rest):  # a plugin opens its parameter file as a plain path, which xacro has to fill in
@@ -278,9 +279,9 @@ def _is_yaml(file: str) -> bool:
 
 
 _STAGED = re.compile(r"(?:^|/)(?:build|share/[^/]+/cmake)/")
-"""Folders of generated CMake files: the build folder and an install prefix."""
+"""Pattern of paths to CMake files in a build folder or in an install prefix, which are generated."""
 _RECORDS = frozenset({"experiment", "experiments"})
-"""Folders with records of runs."""
+"""Names of folders with records of runs on one machine."""
 
 
 def _is_of_container(path: str) -> bool:
@@ -291,8 +292,9 @@ def _is_of_container(path: str) -> bool:
 def _inside(path: str, workspace: Workspace) -> _Inside | None:
     """Return the package of the workspace that a path leads to, None if there is none.
 
-    A folder of the path has the name of the package, and the package has the rest of the path. Below ``src`` the package need
-    not have the rest, because a program may create the file.
+    A folder of the path must have the name of the package or of its folder, and the package must contain the rest of the path:
+    ``config/a.yaml`` of ``/home/me/ws/src/robot/config/a.yaml``. Below ``src`` the file may be missing, because a program may
+    create it.
     """
     folders = _folders(workspace)
     parts = path.split("/")
@@ -310,7 +312,7 @@ def _inside(path: str, workspace: Workspace) -> _Inside | None:
 
 
 def _program(package: Package, file: str) -> str:
-    """Return the name of a file for ``ros2 run``, "" if it is not installed to lib/<package>."""
+    """Return the name by which ``ros2 run`` starts a file of the package, "" if it is not installed to lib/<package>."""
     own = f"lib/{package.name}/"
     installed = [provided.path for provided in package.built.products.installs if provided.path.startswith(own)]
     sources = [provided.path for provided in package.built.products.installs if file and provided.source == file]
@@ -327,7 +329,7 @@ def _has(package: Package, path: str) -> bool:
 
 @cached_by_workspace
 def _folders(workspace: Workspace) -> Mapping[str, Package]:
-    """Return the packages by folder name and by package name."""
+    """Return the packages of the workspace, each by the name of its folder and by its own name."""
     by_folder = {package.path.rpartition("/")[2]: package for package in workspace.packages if package.path}
     return by_folder | {package.name: package for package in workspace.packages}
 

@@ -10,7 +10,7 @@ A `package.xml` that `catkin_pkg` accepts but that is not valid by the XML schem
 - Text between the elements of `<package>` or of `<export>`.
 - Everything else that `xmllint` rejects, such as unknown attributes in a namespace.
 
-Also a manifest that names the schema of another format than its own.
+Also reported: a manifest that names the schema of another format than its own.
 
 lxml validates the manifests with the same library as `xmllint`. No schema is downloaded.
 
@@ -34,7 +34,8 @@ group_depend, member_of_group, export. Another fix corrects the format in the ad
 
 ## Limitations
 
-- There is no fix if an element to be moved has a comment, shares its line with another element, or is a description or an export.
+- There is no fix if an element to be moved has a comment, shares its line with another element, or is a `<description>` or
+  `<export>`.
 - Only the schemas in `http://download.ros.org/schema/` are known. A manifest that names another address is validated by the
   schema of its format, with medium confidence.
 - A manifest of more than 100,000 characters is not validated.
@@ -111,7 +112,7 @@ def _invalid(manifest: Manifest) -> Iterator[Finding]:
 
 
 def _order(manifest: Manifest, children: list[Element | Depend]) -> Finding | None:
-    """Return the finding about the first element that is in the wrong order: the element before it has to come after it."""
+    """Return the finding about the first element that has to come before its predecessor; None if the order is right."""
     ranks = [edits.manifest.schema_rank(child.tag) for child in children]
     for number, (earlier, child) in enumerate(pairwise(children), 1):
         if ranks[number] < ranks[number - 1]:

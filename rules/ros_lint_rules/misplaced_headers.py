@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-- Headers that are installed without the folder by which another package of the workspace includes them, as by
-  `install(DIRECTORY include/robot/ DESTINATION include)`.
+- Headers that are installed without a folder that the includes in another package of the workspace contain: `install(DIRECTORY
+  include/robot/ DESTINATION include)` with `#include <robot/robot.hpp>`.
 - Headers that are installed to `include/${PROJECT_NAME}`, while the package exports only `include`.
 - Headers that are installed with an additional folder: without a slash at the end, `install(DIRECTORY include DESTINATION
   include)` puts `robot/robot.hpp` into `include/include`.
@@ -45,7 +45,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _misplaced(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield one finding for headers that are installed without the folder with which other packages include them (a/b.hpp)."""
+    """Yield one finding for headers that are installed without the folder ``a`` of their includes in other packages: ``a/b.hpp``.
+
+    ``wanted``: the includes of headers of this package in other packages.
+    """
     installed = [file for file in package.built.products.installs if file.source.endswith(files.HEADERS) and not file.conditional]
     provided = {file.source: file for file in installed}
     paths = [file.path for file in package.built.products.installs]

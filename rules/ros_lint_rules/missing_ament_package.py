@@ -17,8 +17,8 @@ Call `ament_package()` once, as the last command of the top-level CMakeLists.txt
 
 Not reported:
 
-- A command or included file that cannot be analysed may call it, or another CMakeLists.txt of the package.
-- The package installs its own CMake configuration: other packages find it as a plain CMake project.
+- A command or included file that cannot be analysed, or another CMakeLists.txt of the package, may call `ament_package()`.
+- The package installs its own CMake configuration, so other packages find it as a plain CMake project.
 """
 
 from __future__ import annotations

@@ -10,10 +10,10 @@ Files and folders that a build script names but that do not exist:
 
 Also folders where `install(FILES)` expects a file.
 
-In a hook of pre-commit (`PRE_COMMIT=1`), files that git does not track do not exist: "'src/extra.cpp' exists, but git does not
-track it".
+In a hook of pre-commit (`PRE_COMMIT=1`), files that git does not track count as missing: "'src/extra.cpp' exists, but git does
+not track it".
 
-This rule reports all of them because each is a path in a build script at which there is no such file.
+One rule reports all of them, because each is a path in a build script at which there is no such file.
 
 ## Why it matters
 
@@ -58,7 +58,7 @@ _PRINTING = frozenset({
     "arch", "date", "dpkg-architecture", "hostname", "lsb_release", "nproc", "nvidia-smi", "pkg-config", "uname", "which",
     "whoami",
 })  # fmt: skip
-"""Programs that only print information."""
+"""Programs that only print information and create no file."""
 _PRINTING_OF_GIT = frozenset({"describe", "diff", "log", "ls-files", "rev-list", "rev-parse", "show", "status", "symbolic-ref"})
 
 
@@ -142,7 +142,11 @@ def _builds_in_sources(package: Package) -> bool:
 
 
 def _hint(package: Package, path: str) -> str:
-    """Return the suggestion: the only file of that name, or a file of the folder with a similar name."""
+    """Return the suggestion for a missing file: the only file of the package with its name, or a similar name in its folder.
+
+    For a keyword of install() that is repeated, such as FILES, the result says to write it only once. It is "" if there is no
+    suggestion.
+    """
     if path in _KINDS_OF_INSTALL:
         return f"; CMake reads a repeated {path} as a path, so write it only once"
     folder, _, name = path.rpartition("/")

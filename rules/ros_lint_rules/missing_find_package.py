@@ -50,7 +50,7 @@ from ros_lint.api import (
 )
 
 _NO_EVIDENCE = ("export", "plugins", "helper")
-"""Purposes of mentions that do not require find_package() in this script."""
+"""Purposes for which a script can name a package without find_package() (``Mention.purpose``)."""
 _INCLUDING = ("include_directories", "target_include_directories")
 
 
@@ -94,14 +94,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _gives_commands(name: str) -> bool:
-    """Return whether a package of this name only provides commands and is installed with the build tool."""
+    """Return whether, by its name, a package only provides CMake commands and comes with the build tool."""
     return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(names.VENDOR)
 
 
 def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for declared packages whose headers the sources include without a find_package().
+    """Yield findings for declared packages whose headers the sources include, although no find_package() finds the package.
 
-    ``along``: the packages that find_package() finds, directly or through other packages; None if unknown.
+    ``along``: the packages that CMake finds, directly or through other packages; None if unknown.
     """
     if along is None:
         return

@@ -65,7 +65,7 @@ def _library(package: Package, workspace: Workspace, plugin: PluginFile, library
 
 
 def _plain(path: str) -> str:
-    """Return the name of a library from its path: lib/libfoo.so and libfoo are foo."""
+    """Return the name of a library from its path: ``foo`` for ``lib/libfoo.so`` and for ``libfoo``."""
     name = path.rpartition("/")[2]
     return name.removesuffix(".so").removesuffix(".a").removesuffix(".dll").removeprefix("lib")
 

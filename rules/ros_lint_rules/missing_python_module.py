@@ -6,8 +6,8 @@ Python modules that are in the sources but not installed where they are imported
 In an `ament_python` package:
 
 - A sub-package that the list `packages=[package_name]` omits.
-- A folder that contains the module of an entry point, or that an installed module imports from, if the list omits it, or
-  `find_packages()` omits it because it has no `__init__.py`.
+- A folder with the module of an entry point, or with a module that an installed module imports, if the list `packages` omits
+  the folder, or `find_packages()` omits it because it has no `__init__.py`.
 - A module of an entry point that imports a module of its own folder by its bare name. Both are installed in their Python
   package, so the import needs the name of that package.
 
@@ -20,8 +20,8 @@ In an `ament_cmake` package:
 - A Python package with the name of the package, if nothing of it is installed. The confidence is high if it has a `setup.cfg` for
   `ament_python_install_package()` or another workspace package imports it, otherwise medium.
 
-This rule reports all of them because the same import fails, for the same reason: the module is not installed where Python looks
-for it.
+One rule reports all of them, because each import fails for the same reason: the module is not installed where Python looks for
+it.
 
 ## Why it matters
 
@@ -107,7 +107,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 class _Lack(NamedTuple):
-    """A Python package that setup.py does not install."""
+    """A Python package that setup.py does not install, and what the finding about it says."""
 
     name: str
     folder: str
@@ -141,7 +141,7 @@ def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
 
 
 def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> Iterator[_Lack]:
-    """Yield the Python sub-packages that setup.py does not install, although installed modules import them.
+    """Yield the Python sub-packages of ``imports`` that setup.py does not install, although installed modules import them.
 
     Left out are the folders ``as_data``, whose Python files are installed as data.
     """
@@ -153,13 +153,13 @@ def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> 
 
 
 def _uninstalled_imports(package: Package, workspace: Workspace) -> Iterator[UninstalledImport]:
-    """Yield the imports of modules that are not installed; they are uncertain if an unreadable file may change sys.path."""
+    """Yield the imports of modules that are not installed. All are uncertain if an unreadable file may change sys.path."""
     unread = workspace.unread(package)
     yield from (item._replace(sure=False) if unread else item for item in package.uninstalled_imports)
 
 
 def _remedy(package: Package, folder: str, name: str, slot: EditableList | None) -> str:
-    """Return the end of the message: what makes the folder a Python package; "" if the folder has an __init__.py."""
+    """Return the end of the message that says how to make ``folder`` a Python package; "" if it has an ``__init__.py``."""
     if f"{folder}/__init__.py" in package.files:
         return ""
     return f"; add {folder}/__init__.py" + (
@@ -191,7 +191,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
 
 
 def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield a finding for the Python package of an ament_cmake package if none of its modules is installed."""
+    """Yield a finding if an ament_cmake package has a Python package with its own name, but installs none of the modules."""
     script = package.script
     hidden = package.hidden(Facet.PYTHON | Facet.EXECUTABLES | Facet.SHARE)
     if script is None or package.builds_with != "ament_cmake" or hidden or script.commands.insertion is None:
@@ -224,7 +224,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _packages(package: Package) -> Iterator[tuple[str, str]]:
-    """Yield the folders with modules that may be Python packages, each with its dotted name."""
+    """Yield the folders of modules that may be Python packages: the dotted name and the path (``robot.sub``, ``robot/sub``)."""
     folders = {file.rpartition("/")[0] for file in package.files if file.endswith(".py") and "/" in file}
     for folder in sorted(folders):
         parts = folder.removeprefix("src/").split("/")

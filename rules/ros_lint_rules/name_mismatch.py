@@ -9,7 +9,7 @@ A package whose build script uses another name than `package.xml` in one of thes
 - the folder `share/<package>`, to which `package.xml` is installed;
 - the folder `lib/<package>`, to which programs are installed, as set in `setup.cfg`.
 
-This rule reports all places because a package that is renamed or copied has to be changed in each of them.
+One rule reports all places, because a package that is renamed or copied has to be changed in each of them.
 
 ## Why it matters
 
@@ -21,8 +21,8 @@ the package. `ros2 run` searches for programs in `lib/<package>` only.
 Use the name of `package.xml` everywhere. The fix replaces a name that is written out. In `setup.py` the fix is unsafe, because
 folders and files may be named after the same variable.
 
-There is no fix if another package has the same name (see `duplicate-package`), because then `package.xml` may be the copied
-file.
+There is no fix if another package has the same name (see `duplicate-package`), because then the name in `package.xml` may be
+the wrong one.
 
 ## Limitations
 
@@ -83,14 +83,14 @@ def _mismatches(package: Package, manifest: Manifest, script: BuildScript) -> It
 
 
 def _is_called(package: Package, name: str) -> bool:
-    """Return whether any project() of the package has this name. A superbuild has several."""
+    """Return whether any project() of the package has the name ``name``. A superbuild calls project() several times."""
     return name == package.built.project.name or any(
         build.evaluated_name(package, call.texts[0]) == name for call in package.calls("project") if call.args
     )
 
 
 def _python(manifest: Manifest, script: BuildScript) -> Iterator[Finding]:
-    """Yield one finding for each wrong name, at the first place that has it."""
+    """Yield one finding for each wrong package name in setup.py and setup.cfg, at the first place with that name."""
     wrong: dict[str, list[Related]] = {}
     if script.project.name and script.project.name_span and _distribution(script.project.name) != _distribution(manifest.name):
         message = f"setup() uses the name '{script.project.name}'"

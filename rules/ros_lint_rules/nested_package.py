@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-A valid `package.xml` with a build script next to it, in a folder below another package. If a build script in the root turns a
-folder with several packages into one plain package, there is a single finding.
+A valid `package.xml` with a build script next to it, in a folder below another package. If a build script in a folder without
+`package.xml` turns this folder and several packages below it into one plain package, there is a single finding.
 
 ## Why it matters
 
@@ -76,7 +76,7 @@ def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
 
 
 def _is_lost(package: Package, nested: Manifest) -> bool:
-    """Return whether a nested manifest is probably a package to be built, neither data nor of ROS 1."""
+    """Return whether a nested manifest probably belongs to a package that should be built, not to data or to ROS 1."""
     data = any(_DATA.fullmatch(folder) or files.is_auxiliary(f"{folder}/") for folder in _between(package, nested))
     return not (data or _is_installed(package, nested) or package.builds_with == "catkin" or _is_of_ros_1(nested))
 
@@ -88,7 +88,7 @@ def _is_installed(package: Package, nested: Manifest) -> bool:
 
 
 def _between(package: Package, nested: Manifest) -> list[str]:
-    """Return the folders between a package and a nested manifest."""
+    """Return the names of the folders on the path from a package to a nested manifest."""
     return nested.path.removeprefix(f"{package.path}/").split("/")[:-1]
 
 
@@ -107,9 +107,10 @@ def _outer(package: Package) -> str:
 
 
 def _remedy(package: Package, inside: list[Manifest], it: str) -> str:
-    """Return the remedy; ``it`` is the pronoun for the nested packages, "it" or "them".
+    """Return the remedy for packages that colcon ignores; ``it`` is their pronoun, "it" or "them".
 
-    The script of a root folder may be intended. Then colcon can build the folders below it with --base-paths.
+    If the build script that hides them is in the root folder, the remedy also names the option --base-paths of colcon, because
+    that script may be intended.
     """
     folders = dict.fromkeys(folder for nested in inside for folder in _between(package, nested)[:1])
     remedies = f"move {it} out, or mark {it} with COLCON_IGNORE"

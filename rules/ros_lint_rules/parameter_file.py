@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-A YAML file that a launch file passes to nodes as parameters although it has none for any of them: it has no `ros__parameters`
-at all, or only those of other nodes.
+A YAML file that a launch file passes to nodes as a parameter file, although it has no parameters for any of these nodes: it has
+no `ros__parameters` at all, or only those of other nodes.
 
 ## Why it matters
 
@@ -62,7 +62,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
 
 
 def _rewrites(module: str) -> bool:
-    """Return whether a Python module has the RewrittenYaml of nav2_common, which adds a namespace to parameter files."""
+    """Return whether a Python module provides RewrittenYaml (nav2_common), a class that adds a namespace to parameter files."""
     return module.startswith("nav2_common") or module.rpartition(".")[2] == "rewritten_yaml"
 
 

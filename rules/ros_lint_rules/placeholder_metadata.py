@@ -7,7 +7,7 @@ and maintainer addresses that end in `@todo.todo`; also `Your Name` and `you@exa
 ## Why it matters
 
 Without a licence, others are not allowed to use the package; without an address, users cannot report bugs. Debian packages,
-documentation and the ROS index repeat these texts.
+documentation and the ROS index show the placeholders.
 
 ## How to fix it
 

@@ -77,7 +77,7 @@ def _of_other_package(plugin: str, workspace: Workspace) -> str:
 
 @cached_by_workspace
 def _registering_packages(workspace: Workspace) -> Mapping[str, Package]:
-    """Return the packages that register classes as plugins in C++, by the name of the class."""
+    """Return the packages that register classes as plugins or components in C++, by the name of the class."""
     return {macro.name: package for package in workspace.packages for macro in package.registrations}
 
 
@@ -126,7 +126,10 @@ def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]
 
 
 def _differ(described: str, registered: str) -> bool:
-    """Return whether two names denote different classes. A name without a namespace, also in ``< >``, matches any namespace."""
+    """Return whether two names certainly denote different classes.
+
+    A name without a namespace matches a name in any namespace, also in template arguments.
+    """
     if "::" not in described or "::" not in registered:
         return False
     first, second = (_NAME.findall(name) for name in (described, registered))

@@ -59,7 +59,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _implies(general: Depend, special: Depend) -> bool:
-    """Return whether ``general`` declares everything that ``special``, another tag with the same name, declares."""
+    """Return whether the tag ``general`` declares everything that ``special``, a tag with the same name, declares."""
     if general is special or general.condition != special.condition:
         return False
     if general.tag == special.tag:

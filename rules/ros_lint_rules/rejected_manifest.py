@@ -14,7 +14,7 @@ Everything for which `catkin_pkg` rejects a `package.xml`:
 
 Every problem is reported with its place; `catkin_pkg` stops at the first one.
 
-This rule reports all of them because one of them is enough for colcon to ignore the whole file.
+One rule reports all of them, because one of them is enough for colcon to ignore the whole file.
 
 ## Why it matters
 
@@ -47,7 +47,7 @@ from ros_lint.api import Depend, Edit, Finding, Fix, Manifest, Problem, Rule, Se
 
 _SHORT_VERSION = re.compile(r"v?(\d+)(?:\.(\d+))?(?:\.(\d+))?")
 _OF_FORMAT_1 = frozenset(("build_depend", "buildtool_depend", "test_depend", "conflict", "replace", "run_depend", "exec_depend"))
-"""Dependency tags of format 1, and <exec_depend>, which format 1 names <run_depend>."""
+"""Dependency tags of format 1, and in addition <exec_depend>, which is called <run_depend> in format 1."""
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
@@ -82,7 +82,7 @@ def _fix(manifest: Manifest, problem: Problem, depend: Depend | None) -> Fix | N
 
 
 def _other_tag(manifest: Manifest, problem: Problem, depend: Depend) -> Fix | None:
-    """Return the fix for a dependency tag of another format."""
+    """Return the fix for a dependency tag that the format of the manifest does not have: another tag, or another format."""
     if depend.tag == "run_depend":
         if any(_equal(depend, other) for other in manifest.depends if other.tag in ("depend", "exec_depend")):
             return Fix(f"remove <run_depend>{depend.name}</run_depend>", (edits.manifest.remove(manifest, depend),))

@@ -7,10 +7,10 @@ Scripts that are installed to `lib/<package>` but cannot be run:
   `install(FILES ...)`, or by `data_files` from a file without the bit.
 - Scripts without an interpreter line such as `#!/usr/bin/env python3`.
 - Scripts with an interpreter line that ends with a carriage return, so that the system does not find the interpreter.
-- Scripts installed by `install(PROGRAMS ...)` from a file without the bit, because `colcon build --symlink-install` runs that
-  file. The confidence is medium if none of the installed scripts of the package has the bit.
+- Scripts installed by `install(PROGRAMS ...)` from a file without the bit, because after `colcon build --symlink-install` the
+  installed program is that file. The confidence is medium if none of the installed scripts of the package has the bit.
 
-This rule reports all of them because the effect is the same: the script is installed as a program but does not start.
+One rule reports all of them, because the effect is the same: the script is installed as a program but does not start.
 
 ## Why it matters
 
@@ -93,11 +93,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _line(package: Package, file: ScriptFile, name: str, started: bool, any_executable: bool) -> Iterator[Finding]:
-    """Yield the finding about the interpreter line of a script, else about the permissions of the script.
+    """Yield the finding about the interpreter line of a script; if the line is right, about the permissions of the script.
 
-    ``name``: its file name after installation; ``started``: a launch file starts it.
-    ``any_executable``: an installed script of the package has the executable bit. If none has it, the file system may not
-    support the bit.
+    ``name``: the file name of the script after installation. ``started``: whether a launch file starts the script.
+    ``any_executable``: whether any installed script of the package has the executable bit. If none has it, the file system may
+    not support the bit.
     """
     place = package.start_of(file.path)
     if file.carriage_return:
@@ -143,7 +143,11 @@ def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: d
 
 
 def _confidence(package: Package, call: Call | None) -> Confidence:
-    """Return medium for install(FILES) in a package that exports CMake code: that code may run the script with an interpreter."""
+    """Return the confidence of the finding for scripts that are installed without the executable bit.
+
+    It is medium for install(FILES) in a package that exports CMake code, because that code may run the scripts with an
+    interpreter, else high.
+    """
     run_by_cmake = package.built.exports.config_extras and call is not None and call.texts[0] == "FILES"
     return Confidence.MEDIUM if run_by_cmake else Confidence.HIGH
 

@@ -1,9 +1,9 @@
 """
 ## What it finds
 
-A package of the workspace that an underlay has too. The package of the workspace hides the other one. The message names the
-versions, the packages of the underlay that were built against the hidden package, and the executables, launch files and
-interfaces that only the hidden package has.
+A package of the workspace that an underlay contains, too. The package of the workspace hides that of the underlay. The message
+names the versions, the packages of the underlay that were built against the hidden package, and the executables, launch files
+and interfaces that only the hidden package has.
 
 ## Why it matters
 

@@ -17,7 +17,7 @@ Rename the Python package, or move the interfaces into a separate package named 
 
 Not reported:
 
-- Either command under a condition.
+- Packages that call `rosidl_generate_interfaces()` or `ament_python_install_package()` under a condition.
 - Names that cannot be evaluated.
 - Interfaces with `SKIP_INSTALL`, because they are not installed.
 """

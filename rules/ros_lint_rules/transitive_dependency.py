@@ -110,13 +110,15 @@ def _is_in_cmake(use: Use) -> bool:
 
 
 def _is_command(need: dependencies.Need) -> bool:
-    """Return whether only commands of another package use the package: they find it, and may link and export it."""
+    """Return whether only CMake commands of another package use the needed package, e.g. find, link and export it."""
     calls = {use.span for use in need.uses if use.via == "macro"}
     return all(use.span in calls for use in need.uses)
 
 
 def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
-    """Return whether packages rarely declare ``need``, because the first package of ``path`` exists in order to provide it.
+    """Return whether packages rarely declare the package of ``need``, because another package exists in order to provide it.
+
+    That package is the first one of ``path``, the dependencies from a declared name to the needed package.
 
     True for parts of build tools, tools that run tests, linters, packages that launch files use through a metapackage, and
     launch itself in launch files.
@@ -143,12 +145,15 @@ def _is_part_of_build_tool(path: Sequence[str]) -> bool:
 
 
 def _is_one_type(need: dependencies.Need) -> bool:
-    """Return whether only one place uses the package: a type is named there, outside of public headers."""
+    """Return whether the only use of the needed package is the name of a type in a single place, not in a public header."""
     return len(need.uses) == 1 and need.uses[0].via == "symbol" and not need.role & Role.EXPORT
 
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, confidence: Confidence) -> Finding:
-    """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
+    """Return the finding for an undeclared package (``need``).
+
+    The confidence is at most medium if colcon rejects the manifest, or if the declaration would close a cycle.
+    """
     best, *others = need.uses
     path = _path(package, workspace, need)
     name = path[-1]
@@ -170,7 +175,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
 def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
     """Return the names on a path of dependencies, from a declared name to the needed package.
 
-    The declared name serves the purpose of the need if possible: to build, to run or to test.
+    If possible, the declared name serves the purpose for which the package is needed: to build, to run or to test.
     """
     best = need.uses[0]
     names = _declared_names(package, workspace)
@@ -187,7 +192,7 @@ _PURPOSES = (Role.BUILD | Role.TOOL, Role.EXEC | Role.EXPORT, Role.TEST | Role.T
 
 @cache
 def _purpose(role: Role) -> Role:
-    """Return all roles that serve the purpose of a role: to build, to run or to test."""
+    """Return all roles (flags such as ``Role.EXEC``) with the same purpose as ``role``: to build, to run or to test."""
     return next(roles for roles in _PURPOSES if role & roles)
 
 

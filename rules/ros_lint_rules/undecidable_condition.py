@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-- A `condition` in `package.xml` that does not parse: `$ROS_VERSION` without a comparison, `&&` instead of `and`, or an unquoted
-  number with a dot.
+- A `condition` in `package.xml` that does not parse, for example because of `$ROS_VERSION` without a comparison, `&&` instead
+  of `and`, or an unquoted number with a dot.
 - With medium confidence: a condition that depends on a variable other than `ROS_VERSION`, `ROS_DISTRO` and
   `ROS_PYTHON_VERSION`.
 

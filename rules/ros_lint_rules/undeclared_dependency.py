@@ -4,7 +4,7 @@
 A package that is used, although no dependency in `package.xml` provides it where it is needed: an included header, an imported
 Python module, a `find_package()`, a message type, or a package whose files are looked up.
 
-A package that another dependency provides is found as well if that dependency has a tag for another purpose:
+A used package that a declared dependency provides is reported as well if that dependency has a tag for another purpose:
 
 - It is needed to build, and only an `<exec_depend>`, `<build_export_depend>` or `<test_depend>` provides it.
 - It is needed to run, and only a `<build_depend>`, `<buildtool_depend>` or `<test_depend>` provides it.
@@ -15,11 +15,16 @@ It works only if another package happens to be installed or built first. On a cl
 it fails: colcon may build the packages in the wrong order, `rosdep install` does not install the package, and the released
 binary lacks it.
 
-The tags of a package decide what is installed: to build it, its `build_depend`, `buildtool_depend` and `depend`, because bloom
-makes them the `Build-Depends` of the source package; with it, its `exec_depend`, `build_export_depend`, `buildtool_export_depend`
-and `depend`, the `Depends` of the binary package. `rosdep install --dependency-types` distinguishes them in the same way. What
-these dependencies need at run time or export is installed with them. colcon alone makes everything available for every purpose,
-so such a mistake is not noticed in a workspace.
+The tags of a package decide what is installed:
+
+- to build the package: its `build_depend`, `buildtool_depend` and `depend`, because bloom makes them the `Build-Depends` of the
+  source package;
+- together with the package: its `exec_depend`, `build_export_depend`, `buildtool_export_depend` and `depend`, because bloom
+  makes them the `Depends` of the binary package.
+
+`rosdep install --dependency-types` distinguishes the tags in the same way. What these dependencies need at run time or export
+is installed with them. colcon alone makes everything available for every purpose, so such a mistake is not noticed in a
+workspace.
 
 ## How to fix it
 
@@ -45,7 +50,7 @@ Not reported:
 - Packages that a declared dependency with a tag for the same purpose provides: see `transitive-dependency`.
 - Packages that come with a dependency which needs another tag itself: see `wrong-dependency-kind`.
 - Packages that come with a dependency with the right tag in another distribution, if the distribution is not set.
-- Packages for tests, if a dependency with any tag provides what they use, because all of it serves tests.
+- Packages that exist only for tests, if a dependency with any tag provides what they use, because every tag then serves tests.
 - Parts of launch that only launch files import, if a dependency with any tag provides them, because `ros2 launch` does so, too.
 - Names that only launch files start, include or look up, except in tests: see `launch-outside-closure`.
 - Templates for other packages, scripts that build the documentation, and copies made by editors.
@@ -181,7 +186,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _finding(package: Package, workspace: Workspace, need: dependencies.Need, problem: str, confidence: Confidence) -> Finding:
-    """Return the finding for a need. The confidence is at most medium if colcon rejects the manifest, or for a cycle."""
+    """Return the finding for an undeclared package (``need``). ``problem``: the part of the message that says what is wrong.
+
+    The confidence is at most medium if colcon rejects the manifest, or if the declaration would close a cycle.
+    """
     best, *others = sorted(need.uses, key=lambda use: _is_in_unreached_module(package, use))
     name = need.name
     role = Role.TEST if name in build.unguarded_tests(package) else need.role  # unguarded-test asks to move it to the tests
@@ -237,7 +245,7 @@ def _misplaced_names(package: Package, workspace: Workspace) -> frozenset[str]:
 
 
 def _provided_elsewhere(package: Package, workspace: Workspace, name: str) -> str:
-    """Return a remark if declared dependencies provide a package in other distributions, and the user chose none, else ""."""
+    """Return a remark if declared dependencies provide ``name`` in other distributions, and none was chosen; else ""."""
     if workspace.target.explicit:
         return ""
     distros = dependencies.distros_providing(package, workspace, name)
@@ -247,12 +255,12 @@ def _provided_elsewhere(package: Package, workspace: Workspace, name: str) -> st
 
 
 def _is_conditional(need: dependencies.Need) -> bool:
-    """Return whether only parts of models need the package that xacro leaves out unless an argument is passed."""
+    """Return whether only optional parts of models need the package: xacro leaves them out unless an argument is passed."""
     return all(use.conditional for use in need.uses)
 
 
 def _is_unreached(package: Package, need: dependencies.Need) -> bool:
-    """Return whether a need only results from modules that nothing in this package starts or imports."""
+    """Return whether only modules that nothing in this package starts or imports need the package."""
     uses = [use for use in need.uses if use.certain] or need.uses
     return all(_is_in_unreached_module(package, use) for use in uses)
 
@@ -262,7 +270,7 @@ def _is_in_unreached_module(package: Package, use: Use) -> bool:
 
 
 def _is_commented_out(package: Package, name: str) -> bool:
-    """Return whether a comment of the manifest contains a dependency tag with the name, which the author removed on purpose."""
+    """Return whether a dependency tag with the name is commented out in the manifest: its author removed it on purpose."""
     text = package.manifest.text if package.manifest else ""
     tag = re.compile(rf"<\w*depend\b[^>]*>\s*{re.escape(name)}\s*</")
     return name in text and any(tag.search(comment) for comment in _COMMENT.findall(text))
@@ -272,19 +280,19 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
 def _is_of_environment(need: dependencies.Need) -> bool:
-    """Return whether only environment variables need the package: ros_core installs ros_environment, which sets them."""
+    """Return whether the package is only needed for environment variables: it is ros_environment, which ros_core installs."""
     return all(use.what.startswith("$ENV{") for use in need.uses)
 
 
 def _is_unused(need: dependencies.Need) -> bool:
-    """Return whether only imports need the package whose names the sources never use."""
+    """Return whether the package is only imported, and no source uses an imported name."""
     return all(use.unused for use in need.uses)
 
 
 def _is_only_in_uncompiled_headers(package: Package, need: dependencies.Need) -> bool:
-    """Return whether only public headers that this package does not compile need the package.
+    """Return whether the needed package is included only by public headers that this package does not compile.
 
-    Then this package builds without the needed package, and only dependents that do not declare the needed package fail.
+    Then this package builds without the needed package. Only dependents that do not declare the needed package fail.
     """
     targets = package.built.products.targets
     if package.hidden(Facet.LIBRARIES | Facet.EXECUTABLES) or any(
@@ -313,7 +321,10 @@ def _is_left_to_pip(package: Package, workspace: Workspace, need: dependencies.N
 
 
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
-    """Return the find_package() of an undeclared package that a package of interfaces does not use, "" if there is none."""
+    """Return the find_package() to remove, as text for a message, if a package with only interfaces finds a package in vain.
+
+    The result is "" if the package builds other targets, or may use the needed package.
+    """
     products = package.built.products
     if not products.interfaces or any(target.kind != "other" for target in products.targets):
         return ""
@@ -322,9 +333,9 @@ def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -
 
 
 def _unused_find(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
-    """Return the find_package() of an undeclared package that no code of a package with targets uses, "" if there is none.
+    """Return the find_package() to remove, as text for a message, if no code of a package with targets uses what it finds.
 
-    The build script may link the package. Left out are packages that other uses may need.
+    The build script may link the found package. The result is "" if code may use it, or if anything else may need it.
     """
     if workspace.unread() or not dependencies.is_build_visible(package) or not package.built.products.targets:
         return ""
@@ -347,9 +358,9 @@ def _calls(name: str, need: dependencies.Need) -> str:
 def _brought(
     package: Package, workspace: Workspace, need: dependencies.Need, all_needs: ByName[dependencies.Need]
 ) -> tuple[Consequence, ...]:
-    """Return the findings for undeclared packages that need no tag of their own once ``need`` is declared.
+    """Return the findings that are hidden beside the finding for ``need``, an undeclared package.
 
-    These packages are dependencies of ``need``.
+    They are about other undeclared packages that ``need`` depends on. These need no tag of their own once ``need`` is declared.
     """
     closure = workspace.world.closure((need.name,))
     others = all_needs.named(*closure.names) if len(closure) < len(all_needs) else all_needs
@@ -363,7 +374,7 @@ def _brought(
 
 
 def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Need, need: dependencies.Need) -> bool:
-    """Return whether packages that declare ``need`` rarely declare ``other``, because ``need`` provides it for its purposes."""
+    """Return whether packages that declare the package of ``need`` rarely declare that of ``other``, which comes with it."""
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False
@@ -398,14 +409,14 @@ _PYTEST = "python3-pytest"
 _CODE = frozenset({"include", "symbol"})
 _IN_BUILD_SCRIPT = frozenset({"cmake", "target"})
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/")
-"""Headers of interfaces, which packages declare even if another package provides them."""
+"""Pattern of headers of interfaces. Their packages are mostly declared even if another package provides them."""
 
 
 def _suggestion(name: str, workspace: Workspace) -> str:
-    """Return the package that an unresolved name most likely means, "" if ambiguous.
+    """Return the package that the unknown name ``name`` most likely means, "" if the name is known or ambiguous.
 
-    Either a misspelt name, or the only package of the workspace that has the name after a prefix: ``my_robot_msgs`` for
-    ``robot_msgs``.
+    The result is a package with a similar name, or the only package of the workspace with the name after a prefix:
+    ``my_robot_msgs`` for ``robot_msgs``.
     """
     if workspace.world.resolution(name) != "unknown":
         return ""
@@ -417,7 +428,7 @@ def _suggestion(name: str, workspace: Workspace) -> str:
 
 
 def _module_of_declared_name(package: Package, name: str, use: Use) -> str:
-    """Return the imported module if ``name`` provides it, although a declared package has the name of the module; else ""."""
+    """Return the module that ``use`` imports from the package ``name`` if another declared package is called like it; else ""."""
     module = use.name.partition(".")[0] if use.via == "import" else ""
     return module if module != name and package.tags(module) else ""
 

@@ -7,7 +7,7 @@
 - Libraries in `ament_export_libraries()` that are not built, if they have the name of the project or nearly the name of a built
   library.
 
-This rule reports all of them because each is a name that no command of the workspace defines, usually a typo.
+One rule reports all of them, because each is a name that no command of the workspace defines, usually a typo.
 
 ## Why it matters
 
@@ -31,8 +31,8 @@ there.
 
 Not reported:
 
-- Scripts with commands, names or included files that cannot be followed, except install() before them, because CMake looks for
-  the target when install() is called.
+- Scripts with commands, names or included files that cannot be evaluated. Exception: calls of `install()` before these places,
+  because CMake looks for the target when `install()` is called.
 - Uses under a condition.
 - Uses in functions and loops, except names in `target_link_libraries()` and `ament_target_dependencies()` that can be
   evaluated.
@@ -127,7 +127,7 @@ def _finds_unknown(package: Package, workspace: Workspace) -> bool:
 
 
 def _unfilled(package: Package) -> Iterator[Finding]:
-    """Yield findings for exported sets without targets: CMake stops at the install(EXPORT) of such a set."""
+    """Yield findings for arguments of ament_export_targets() to which no ``install(TARGETS ... EXPORT ...)`` adds a target."""
     filled = list(dict.fromkeys([exported.export_set for exported in package.built.exports.targets]))
     for call in package.calls("ament_export_targets", "ament_export_interfaces"):
         for index, text in enumerate(call.texts):
@@ -195,7 +195,7 @@ def _may_rename_targets(package: Package) -> bool:
 
 
 def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Iterator[Related]:
-    """Yield the places where the owners define targets without exporting them."""
+    """Yield the places where the packages ``owners`` define targets with the names ``all_names`` without exporting them."""
     for owner in owners:
         for target in owner.built.products.targets:
             if target.name in all_names:
@@ -203,9 +203,9 @@ def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Itera
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
-    """Yield findings for exported libraries that are not built, if the name resembles a library of this package.
+    """Yield findings for exported libraries that are not built, if the name is that of the project or resembles a built library.
 
-    Other names may be system libraries. ``defined``: names of targets that exist.
+    Libraries with other names may be libraries of the system. ``defined``: names of all targets of the package.
     """
     libraries = sorted(target.name for target in package.built.products.targets if target.kind == "library")
     for call in package.calls("ament_export_libraries"):
@@ -220,7 +220,10 @@ def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Findin
 
 
 def _finding(message: str, name: str, all_names: Sequence[str], places: list[tuple[Call, int]], otherwise: str = "") -> Finding:
-    """Return a finding that suggests a similar name of ``all_names``, or ends with ``otherwise`` if no name is similar."""
+    """Return the finding for an undefined name. It suggests a similar name of ``all_names``, or else ends with ``otherwise``.
+
+    ``places``: the calls with the undefined name, each with the index of the argument.
+    """
     near = names.similar_names(name, all_names, 1, 0.8)
     message += names.ask_if_meant(near) if near else otherwise
     fix = None

@@ -7,12 +7,13 @@ Dependencies that `ament_export_dependencies()` lacks:
 - Packages whose targets an exported library links publicly: arguments of `target_link_libraries()` without `PRIVATE`, and of
   `ament_target_dependencies()`, if the package is known to export targets.
 - `generate_parameter_library`, if it generates an exported library.
-- Beside such a package, libraries outside of ROS whose targets an exported library links publicly, such as `Threads`.
+- In addition to one of these packages: libraries outside of ROS whose targets an exported library links publicly, such as
+  `Threads`.
 
-Also `Qt5` and `Qt6` in `ament_export_dependencies()`, which cannot pass components.
+Also reported: `Qt5` and `Qt6` in `ament_export_dependencies()`, which cannot pass components.
 
-This rule reports both because a package that finds this one lacks the dependency in either case. All packages that are certainly
-missing in `ament_export_dependencies()` are one finding.
+One rule reports both, because a package that finds this one lacks the dependency in either case. All packages that are
+certainly missing in `ament_export_dependencies()` are one finding.
 
 ## Why it matters
 
@@ -108,7 +109,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 Lack = tuple[tuple[str, ...], Finding]
-"""A finding with the CMake names of the packages to export, () if it is uncertain that this suffices."""
+"""The CMake names of the packages to export, and the finding. The names are () if it is uncertain that exporting suffices."""
 
 
 def _is_certain(lack: Lack) -> bool:
@@ -139,7 +140,7 @@ def _together(lacks: Sequence[Lack], linked: Sequence[Lack], of_system: tuple[st
 
 
 def _is_seen(package: Package) -> bool:
-    """Return whether the exports of a package are known completely and are written in its script."""
+    """Return whether all exports of a package are known and are written as commands in its CMakeLists.txt."""
     script = package.script
     if script is None or build.stops_early(script) or package.builds_with != "ament_cmake":
         return False
@@ -147,15 +148,16 @@ def _is_seen(package: Package) -> bool:
 
 
 def _exported(script: BuildScript) -> set[str]:
-    """Return the packages that find_package() of this package also finds, by their CMake names."""
+    """Return the CMake names of the packages that the package with the script exports as dependencies."""
     exported = {mention.name for mention in dependencies.macro_packages(script, "export", "interfaces")}
     return exported.union(mention.name for mention, _ in script.exports.packages)
 
 
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
-    """Yield the finding about packages that dependents do not find, although an exported library links their targets.
+    """Yield findings about unexported packages whose targets an exported library links publicly.
 
-    Each finding comes with the names of the packages, () if it is uncertain that dependents do not find them.
+    Each finding comes with the names of these packages, () if it is uncertain that dependents do not find them. ``reported``:
+    packages that are left out.
     """
     script = package.script
     if script is None or not _is_seen(package):
@@ -198,7 +200,10 @@ def _linked_of_system(package: Package, workspace: Workspace) -> Iterator[str]:
 
 
 def _without_components(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    """Yield findings for exported packages that CMake only finds with components, because the call cannot pass components."""
+    """Yield findings for exported packages that CMake only finds with components (Qt).
+
+    ament_export_dependencies() cannot pass components.
+    """
     script = package.script
     if script is None or not _is_seen(package) or build.has_extras(package):
         return
@@ -226,13 +231,16 @@ def _is_without(workspace: Workspace, all_names: Iterable[str], keys: re.Pattern
 
 
 _COMPONENTS_ONLY = {"Qt5": re.compile("qt.*5|libqt5|rviz_"), "Qt6": re.compile("libqt6|qt6-|rviz_")}
-"""Packages that need components, with the keys that install them and the packages that find them for dependents."""
+"""CMake packages that can only be found with components, with patterns of packages that find them for dependents.
+
+The patterns also match the rosdep keys that install them.
+"""
 
 
 def _has_headers(script: BuildScript) -> bool:
-    """Return whether the package installs headers. A library without headers is a plugin: no package links it.
+    """Return whether the package installs headers. A package without headers has only plugins, which no package links.
 
-    Generated headers, such as the parameters of a plugin, do not count: they are for the package itself.
+    Generated headers do not count, because they serve the package itself, e.g. the parameters of a plugin.
     """
     return script.hides(Facet.SHARE) or any(
         provided.path.endswith(files.HEADERS) and provided.source for provided in script.products.installs
@@ -278,9 +286,9 @@ _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
 
 
 def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
-    """Yield a pair for each unexported package that installed headers include: the CMake name and the finding.
+    """Yield a pair for each unexported package that installed headers include: a tuple with its CMake name, and the finding.
 
-    The name is in a tuple, which is () if the finding is uncertain.
+    The tuple is () if the finding is uncertain.
     """
     script = package.script
     if script is None or not _is_seen(package):
@@ -320,7 +328,10 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
 
 
 def _can_be_found(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a package is declared for more than tests and uses ament, so its CMake name is its package name."""
+    """Return whether find_package() can find the package ``name`` by its package name.
+
+    It can if the package is built with ament_cmake and declared for more than tests.
+    """
     others = workspace.by_name.get(name, ())
     released = workspace.world.released(name)
     built = {other.builds_with for other in others} or {released.build_type if released else ""}
@@ -332,7 +343,7 @@ def _certainty(
 ) -> tuple[Confidence, Severity | None]:
     """Return the confidence and the severity of the finding for a package that installed headers include.
 
-    It is an info if a package in ``exported`` depends on ``name``, and has the severity of the rule (None) otherwise.
+    The severity is info if a package in ``exported`` depends on ``name``, else None, which means the severity of the rule.
     """
     script = package.script
     assert script is not None
@@ -350,7 +361,8 @@ def _certainty(
 def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
     """Return the sources of programs and of libraries that are not exported, without folder and suffix.
 
-    Empty if an exported library has sources. Excludes programs of a single source, whose headers may be for other packages.
+    The result is empty if an exported library has sources. Programs of a single source are left out, because their headers may
+    be for other packages.
     """
     built = [target for target in script.products.targets if not target.test]
     words = [text for call in package.calls("ament_export_libraries", anywhere=True) for text in call.texts]
@@ -381,7 +393,7 @@ _DIRECTORIES = re.compile(r"\$\{(\w+?)_INCLUDE_DIRS?\}")
 
 
 def _public_includes(package: Package, workspace: Workspace, script: BuildScript) -> dict[str, list[Use]]:
-    """Return the ROS packages, and libraries with vendor packages, that installed headers include, with the uses."""
+    """Return the ROS packages, and libraries with vendor packages, that installed headers include, with these includes."""
     is_package = workspace.world.is_package
     installed = _installed(script)
     finds = dependencies.names_searched(package, script)
@@ -398,7 +410,7 @@ def _public_includes(package: Package, workspace: Workspace, script: BuildScript
 def _is_unavailable(package: Package, workspace: Workspace, use: Use) -> bool:
     """Return whether a header belongs to a declared package that is neither in the workspace nor in the distribution.
 
-    Only headers of interfaces and headers of packages of other distributions are known to belong to a package.
+    Such a package is only known for headers of interfaces, and for headers of packages of other distributions.
     """
     unavailable = workspace.world.resolution(use.package) in ("unknown", "elsewhere")
     return unavailable and use.name.startswith(f"{use.package}/") and bool(package.declares(use.package) & ~Role.TEST)

@@ -1,7 +1,7 @@
 """
 ## What it finds
 
-A class that is registered with `PLUGINLIB_EXPORT_CLASS`, but that no exported plugin description makes known:
+A class that is registered with `PLUGINLIB_EXPORT_CLASS`, but is in no exported plugin description:
 
 - The package exports no description.
 - The description is not exported, and therefore not installed.
@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
-    """Yield findings for unexported descriptions with a registered class that no installed description lists."""
+    """Yield a finding for each plugin description that is not exported, if a registered class is in no installed description."""
     exported = {text for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True) for text in call.texts}
     script = package.built
     installed = [plugin for plugin in script.files.plugin_files if plugin.path in script.products.installed]
@@ -106,7 +106,7 @@ def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterat
 
 
 _READ_BY_RQT = frozenset({"rqt_gui", "qt_gui"})
-"""Tags in <export> of the manifest by which plugins are found. ROS 2 ignores other tags with a plugin attribute."""
+"""Tags in <export> of the manifest by which rqt finds plugins. ROS 2 ignores other tags with an attribute ``plugin``."""
 
 
 def _reads_manifest(package: Package) -> bool:
@@ -141,7 +141,7 @@ def _unexported(package: Package, workspace: Workspace, registered: Sequence[Reg
 
 
 def _unloaded_base(registered: Sequence[Registration], workspace: Workspace) -> str:
-    """Return the base of the registered classes if it is in the workspace and nothing loads its plugins, else ""."""
+    """Return the base class of the registered classes if a workspace package has it and nothing loads its plugins, else ""."""
     bases = {macro.base for macro in registered}
     base = bases.pop()
     owner = base.partition("::")[0]

@@ -87,9 +87,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _of_python(package: Package) -> Iterator[Finding]:
-    """Yield one finding for all interface files of an ament_python package, which cannot generate code for them.
+    """Yield one finding for all interface files of an ament_python package, because ament_python cannot generate code.
 
-    The span is the tag that declares that the package generates interfaces.
+    The place of the finding is the tag by which the package declares that it generates interfaces.
     """
     depends = package.manifest.depends if package.manifest else ()
     tag = next((depend for depend in depends if depend.name in _DECLARE_INTERFACES), None)
@@ -146,7 +146,7 @@ def _finding(
 
 
 _MANY = 5
-"""If more files of one folder are not listed, they share one finding."""
+"""Maximum number of unlisted files of one folder that get a finding each. More files share one finding."""
 
 
 def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:

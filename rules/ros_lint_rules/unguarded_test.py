@@ -1,9 +1,9 @@
 """
 ## What it finds
 
-Commands that create tests, and `find_package()` of packages that are only for tests, outside of `if(BUILD_TESTING)`, if the
-package that provides them is declared only as `<test_depend>`. Also if the package is not declared at all; then
-`undeclared-dependency` proposes `<test_depend>`.
+Commands that create tests, and `find_package()` of packages for tests, outside of `if(BUILD_TESTING)`. The package that
+provides the command is declared only as `<test_depend>`, or not at all. In the second case, `undeclared-dependency` proposes
+`<test_depend>`.
 
 ## Why it matters
 

@@ -9,7 +9,7 @@ Executables that are built but not installed, or installed where `ros2 run` and 
   is an executable whose sources, or the headers that belong to it, include rclcpp;
 - any other executable that is installed to `lib/` or `bin/<package>/`, where the shell does not find it either.
 
-This rule reports both because `ros2 run` finds the executable in neither case, and the remedy is the same `install()`.
+One rule reports both, because `ros2 run` finds the executable in neither case, and the remedy is the same `install()`.
 
 ## Why it matters
 
@@ -81,7 +81,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _problems(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[tuple[str, Finding]]:
-    """Yield each executable that is not installed to lib/<package>: the problem, and a finding without a message."""
+    """Yield a pair for each executable that is not installed to lib/<package>: the problem as text, and the finding.
+
+    The finding has no message yet, because executables with the same problem share one finding.
+    """
     unseen, own = build.opaque_except_undefined_targets(package, Facet.EXECUTABLES), f"lib/{package.name}"
     if any("INSTALL_TO_PATH" in call.texts for call in package.calls("ament_auto_package", anywhere=True)):
         return
@@ -137,7 +140,7 @@ def _problems(package: Package, script: BuildScript, workspace: Workspace) -> It
 
 
 def _merged(problem: str, findings: Sequence[Finding], script: BuildScript, package: Package) -> Finding:
-    """Return one finding for executables with the same problem."""
+    """Return one finding for all executables with the same problem. ``findings``: a finding without message for each."""
     first, *others = findings
     subjects = [finding.subject for finding in findings]
     are, them = ("are", "them") if others else ("is", "it")
@@ -156,7 +159,7 @@ def _merged(problem: str, findings: Sequence[Finding], script: BuildScript, pack
 
 
 def _is_outside_packages(folder: str) -> bool:
-    """Return whether a folder is bin or lib, not a folder of a package in lib."""
+    """Return whether an install folder is ``lib``, ``bin`` or a folder in ``bin``, and so not ``lib/<package>``."""
     return folder.partition("/")[0] == "bin" or folder == "lib"
 
 
@@ -182,7 +185,7 @@ def _only_excluded_start(package: Package, name: str, launched: Sequence[LaunchR
 
 
 def _installs_executables_only(package: Package, span: Span, targets: tuple[BuildTarget, ...]) -> bool:
-    """Return whether the install() at a place installs nothing but executables."""
+    """Return whether the call of install() at the place ``span`` installs nothing but executables."""
     kinds = {target.name: target.kind for target in targets}
     for call in package.calls("install"):
         if call.extent.covers(span):

@@ -17,8 +17,8 @@ directory".
 `install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})`, with the same folder in `target_include_directories(...
 $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)`. The fix installs to the folder that is exported.
 
-Remove the export instead if the package only has programs, because headers without a library are useless to others. The same
-may apply if the library is not installed, or is only loaded, as plugins and components are.
+Remove the export instead if the package only has programs, because headers without a library are useless to others. Removing it
+may also be right if the library is not installed, or is only loaded, as plugins and components are.
 
 ## Limitations
 
@@ -103,7 +103,7 @@ def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> 
 
 
 def _place(exports: Sequence[Call]) -> str:
-    """Return the folder to install headers to: the exported folder, if there is one."""
+    """Return the folder to which headers should be installed: the exported folder, "include" if none is exported."""
     return exports[0].texts[0].strip("/") if exports else "include"
 
 

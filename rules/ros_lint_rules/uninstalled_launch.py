@@ -77,9 +77,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _grouped(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
-    """Return the missing files by folder. Files of a subfolder are listed under an outer folder that is missing as a whole.
+    """Return the launch files that are not installed by folder: files of subfolders are grouped under the outermost folder.
 
-    ``kept``: folders of which files are installed already; they take no files of subfolders.
+    ``kept``: folders with installed files. Files of their subfolders are not grouped under them.
     """
     groups: dict[str, list[str]] = {}
     for folder in sorted(missing):

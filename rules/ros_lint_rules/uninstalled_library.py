@@ -7,9 +7,9 @@ A library that is built but not installed, although
 - it is exported with `ament_export_libraries()`, or
 - it is `SHARED` or a `MODULE` that only installed programs, plugin loaders or other packages can use.
 
-Also a library that is exported with `ament_export_libraries()` and installed to `lib/<package>` instead of `lib`.
+Also reported: a library that is exported with `ament_export_libraries()` and installed to `lib/<package>` instead of `lib`.
 
-This rule reports both because other packages and programs find the library in neither case.
+One rule reports both, because other packages and programs find the library in neither case.
 
 ## Why it matters
 
@@ -176,11 +176,11 @@ def _is_for_others(
 ) -> bool:
     """Return whether a shared library is only useful if it is installed.
 
-    It is declared SHARED, every build has it, and no uninstalled program or test links it, with these exceptions:
+    Such a library is declared SHARED, is part of every build, and is linked by no uninstalled program or test. Exceptions:
 
-    - If the library is ``loaded`` at run time, because it has plugins or components, links do not matter.
-    - If its header is installed, tests may link it.
-    - If the package installs nothing that it builds, its programs may link it.
+    - A library that is ``loaded`` at run time, because it has plugins or components, may be linked by any target.
+    - A library with an installed header may be linked by tests.
+    - If the package installs nothing that it builds, programs may link the library.
     """
     if build.is_optional_target(package, library) or not build.is_declared_shared(package, workspace, library.name):
         return False
@@ -208,7 +208,7 @@ def _links(script: BuildScript) -> Mapping[str, Sequence[_User]]:
 
 
 def _exports(package: Package) -> Mapping[str, Span]:
-    """Return the places of the first unconditional exports, by the name of the library."""
+    """Return the first unconditional ament_export_libraries() for each library, by the name of the library."""
     exports: dict[str, Span] = {}
     for call in package.calls("ament_export_libraries", anywhere=True):
         if not call.blocks:

@@ -2,7 +2,7 @@
 ## What it finds
 
 - Files that are looked up in the share folder of a package of the workspace and exist in its sources, but are not installed
-  there: parameters, models, maps, displays and included files that launch files name.
+  there: parameters, models, maps, configurations of RViz and included files that launch files name.
 - Whole folders of such files (`config/`, `urdf/`, `worlds/` ...) of which nothing is installed.
 
 ## Why it matters
@@ -33,15 +33,15 @@ Reported with medium confidence:
 
 - Folders that nothing in the package names. They may serve documentation, be opened by hand from the sources, or be left over.
 - Examples and templates, going by their names, because they are copied and not looked up.
-- Folders that a text names by their place in the sources (`/home/me/src/robot/maps/hall`, `'src', 'robot', 'maps'`), or that
-  code reaches through a macro which CMake sets to the source folder, because they are found there.
+- Folders that a program or launch file finds in the sources: by a path such as `/home/me/src/robot/maps/hall` or `'src',
+  'robot', 'maps'`, or by a macro that CMake sets to the source folder.
 - Folders that a program looks up in its working directory.
 - Files of a name that a launch file looks up in another package, because the file here may be a copy.
 
 A folder that nothing in the package names is reported with high confidence in these cases:
 
-- It is inside a folder that is installed (`worlds/textures/`), and its files are only used at run time: displays, maps, models,
-  textures, parameters.
+- It is inside a folder that is installed (`worlds/textures/`), and its files are only used at run time: configurations of RViz,
+  maps, models, textures, parameters.
 - It contains such files, and the package builds, installs and tests nothing, so that these files are its purpose.
 - It contains parameters of nodes (`ros__parameters`), and the package has nodes, or files only.
 - It contains models or worlds, and the package has files only and installs no other model.
@@ -81,13 +81,13 @@ _PICTURE = (".png", ".jpg", ".jpeg")
 _RUN_TIME = (
     ".dae", ".lua", ".obj", ".pgm", ".rviz", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro", ".yaml", ".yml",
 )  # fmt: skip
-"""Suffixes of files that are only used at run time."""
+"""Suffixes of files that programs and launch files use only at run time, never in a build."""
 _OF_MODELS = (".dae", ".obj", ".sdf", ".srdf", ".stl", ".urdf", ".wbt", ".world", ".xacro")
-"""Suffixes of resources that only files and programs look up; displays, maps and parameters are also opened by hand."""
+"""Suffixes of files that users do not open by hand, in contrast to configurations of RViz, maps and parameters."""
 
 
 _TO_EXTEND = "add it to this install(DIRECTORY)"
-"""The end of a message whose place is a command that installs other folders to the same place."""
+"""The remedy if the finding is at an install() that installs other folders to the share folder."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -129,9 +129,9 @@ def _is_resource(path: str) -> bool:
 
 
 def _unit(path: str, kept: set[str]) -> str:
-    """Return the path to install for a file: its topmost folder, or the file itself if the folder is in ``kept``.
+    """Return what to install so that ``path`` is installed: its topmost folder, or the file itself if the folder is in ``kept``.
 
-    ``kept``: folders of which files are installed already.
+    ``kept``: folders with installed files.
     """
     top, inside, _ = path.partition("/")
     if not inside and "." not in top:
@@ -162,10 +162,10 @@ def _name(path: str) -> str:
 def _folders(
     package: Package, script: BuildScript, kept: set[str], reported: set[str], looked_into: Mapping[str, Span]
 ) -> Iterator[Finding]:
-    """Yield a finding for each folder with resources that contains no installed file.
+    """Yield a finding for each folder with resources (models, parameters and other files) of which no file is installed.
 
-    ``reported``: top folders with findings already. ``looked_into``: folders in which a missing file is looked up, with the
-    place of the look-up.
+    ``kept``: paths and folders of installed files. ``reported``: top folders that are left out, because they have findings.
+    ``looked_into``: folders in which a missing file is looked up, with the place of the look-up.
     """
     launches = {launch_file.path for launch_file in launch.package_launch_files(package)}
     places = dict(script.files.referenced_resources)
@@ -188,8 +188,8 @@ def _folders(
 class _FolderFindings:
     """Findings for folders that are not installed, with a confidence that depends on the rest of the package.
 
-    ``places``: files, with the place of a text of the package that names them. ``looked_into``: folders, with the place where a
-    missing file is looked up in them. ``folders``: all folders of which nothing is installed.
+    ``places``: files of the package, each with the place of a text that names it. ``looked_into``: folders in which a missing
+    file is looked up, each with the place of the look-up. ``folders``: all folders of which nothing is installed.
     """
 
     def __init__(

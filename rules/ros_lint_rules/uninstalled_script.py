@@ -4,8 +4,8 @@
 - A script with an interpreter line that an `ament_cmake` package does not install. It is in `scripts/`, in the folder of
   scripts that are installed, or in the folder of a Python package that is not installed. In the root of the package, only
   nodes are reported: scripts that import `rclpy`.
-- A script or module of an `ament_python` package that a page or script of the package starts with `ros2 run`, although it is
-  neither in `scripts` nor an entry point.
+- A script or module of an `ament_python` package that is neither in `scripts` nor an entry point, although the documentation or
+  a script of the package starts it with `ros2 run`.
 
 ## Why it matters
 
@@ -30,9 +30,9 @@ Not reported:
 
 Reported with high confidence:
 
-- Files that a page or script of the package starts with `ros2 run`.
-- Executable nodes in the folder of nodes that are installed (both import `rclpy`), unless more nodes are left out than
-  installed.
+- Files that the documentation or a script of the package starts with `ros2 run`.
+- Executable nodes (scripts that import `rclpy`) in a folder with installed nodes, unless the folder has more nodes that are not
+  installed than installed ones.
 
 Other scripts have medium confidence, or low confidence if they are not executable, because they may be tools for use in the
 sources only.

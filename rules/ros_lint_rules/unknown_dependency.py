@@ -11,7 +11,7 @@ A dependency in `package.xml` that is neither a package (of the workspace, an un
 - `ament_python`, which is a build type, not a package;
 - a tag without a name.
 
-This rule reports all of them because the tag is the same mistake for rosdep and colcon; only the correct name differs.
+One rule reports all of them, because the tag is the same mistake for rosdep and colcon; only the correct name differs.
 
 ## Why it matters
 
@@ -142,7 +142,7 @@ def _unknown(
 ) -> Finding:
     """Return the finding for an unknown name with a suggestion.
 
-    ``renamed``: the dependencies that fixes rename so far, by package and new name.
+    ``renamed``: the dependencies for which fixes already write another name, by package and new name.
     """
     name, world, target = unresolved.name, workspace.world, workspace.target
     known = f"{target.distro}, as of {world.knowledge.date}"
@@ -203,7 +203,7 @@ def _unknown(
 
 
 def _in_folder(name: str, workspace: Workspace) -> str:
-    """Return the only package in a folder of that name, "" if there is none or several."""
+    """Return the only package of the workspace whose folder is called ``name``, "" if there is none or several."""
     all_names = {package.name for package in workspace.packages if package.path.rpartition("/")[2] == name}
     return all_names.pop() if len(all_names) == 1 else ""
 
@@ -228,9 +228,9 @@ def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspa
 
 
 def _caller(by: str, key: str) -> str:
-    """Return the tool that uses the declared name, such as "pip" or "find_package", for messages; "" if unknown.
+    """Return the tool that uses the declared name for the rosdep key ``key``, such as "pip" or "find_package"; "" if unknown.
 
-    ``by``: how the rosdep key ``key`` was found.
+    ``by``: the kind of the declared name, e.g. "cmake" for a name of find_package().
     """
     return "pip" if by == "system" and key.endswith("-pip") else _CALLED_SO_BY.get(by, "")
 
@@ -259,9 +259,10 @@ def _removal(unresolved: dependencies.UnresolvedDependency) -> tuple[Edit, ...]:
 def _rename(
     unresolved: dependencies.UnresolvedDependency, name: str, twin: dependencies.UnresolvedDependency | None = None
 ) -> tuple[Edit, ...]:
-    """Return the edits that write another name into every tag, () if tags would be duplicated.
+    """Return the edits that write ``name`` into every tag of a dependency.
 
-    ``twin``: another dependency of the package that is renamed to the same name.
+    If the package has equal tags with ``name`` already, the edits remove the tags instead. The result is () if it has different
+    tags with ``name``. ``twin``: another dependency of the package that is renamed to ``name``.
     """
     package = unresolved.package
     have = {declared.depend.tag for declared in package.tags(name)}

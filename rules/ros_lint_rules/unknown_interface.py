@@ -1,9 +1,9 @@
 """
 ## What it finds
 
-A used message, service or action that does not exist: a header, an imported name or the type of a field that its package does not
-have. The package may be this one, another one of the workspace, or a released one. The type `Header` without a package name is a
-`Header` of the same package, not that of `std_msgs`.
+A message, service or action that is used but does not exist: code includes its header or imports it, or a field has it as type,
+but its package does not have it. The package may be this one, another one of the workspace, or a released one. The type
+`Header` without a package name is a `Header` of the same package, not that of `std_msgs`.
 
 ## Why it matters
 
@@ -56,20 +56,20 @@ from ros_lint.api import (
 
 _GENERATE = "rosidl_generate_interfaces"
 _HEADER = re.compile(r"(?P<maker>\w+)/(?P<kind>msg|srv|action)/(?P<name>(?!rosidl_)(?!\w*__)\w+)(?P<end>\.h(?:pp)?)")
-"""The main header of an interface, not its detail headers."""
+"""Pattern of the main header of an interface; detail headers such as ``robot/msg/detail/state__struct.hpp`` do not match."""
 _USUAL = ("std_msgs", "geometry_msgs", "sensor_msgs", "builtin_interfaces", "nav_msgs")
 """Packages with messages that other messages commonly contain."""
 
 
 class _Used(NamedTuple):
-    """A use of an interface."""
+    """A use of an interface (message, service or action)."""
 
     maker: str
     """The package that should have the interface."""
     kind: str
     """msg, srv or action; "" if unknown."""
     name: str
-    """As written, without the suffix of a header."""
+    """The name of the interface as written, without the suffix of a header."""
     header: str
     """The suffix of a header; "" if it is not a header."""
     bare: bool
@@ -133,7 +133,10 @@ def _used(package: Package) -> Iterator[_Used]:
 
 
 def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
-    """Return the message about a use of a package of the workspace; None if it is right or cannot be decided."""
+    """Return the message about a use of an interface of ``maker``, a package of the workspace.
+
+    None if the interface exists, or if that cannot be decided.
+    """
     generated = maker.built.products.interfaces
     if maker.builds_with != "ament_cmake" or maker.hidden(Facet.INTERFACES):
         return None
@@ -149,7 +152,10 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
 
 
 def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace) -> str | None:
-    """Return the message about a use of a package that generates nothing; None as in _wrong()."""
+    """Return the message about a use of an interface of ``maker``, a package that generates no interfaces.
+
+    None if the interface may exist nevertheless.
+    """
     kind = used.kind or "msg"
     interface, file = f"{kind}/{used.name}", f"{kind}/{used.name}.{kind}"
     if maker.script is None or next(maker.calls(_GENERATE, anywhere=True), None):
@@ -164,7 +170,10 @@ def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace)
 
 
 def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
-    """Return the message about a use of a package that is released or in an underlay; None as in _wrong()."""
+    """Return the message about a use of an interface of a package that is released or in an underlay.
+
+    None if the interface exists, or if that cannot be decided.
+    """
     known = workspace.world.interfaces(used.maker, everywhere=not workspace.target.explicit)
     available = _names(known, used.kind, bool(used.header))
     if not known or _is_among(used, available):
@@ -175,12 +184,16 @@ def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
 
 
 def _is_among(used: _Used, available: Collection[str]) -> bool:
-    """Return whether the interface is among ``available``, or is a message that belongs to a service or an action."""
+    """Return whether the interface is among ``available``, or is a message of a service or action there: ``Add_Request``."""
     return used.name in available or (not used.header and any(used.name.startswith(f"{name}_") for name in available))
 
 
 def _message(used: _Used, interfaces: Sequence[str], available: Collection[str], verb: str, remedy: str) -> str:
-    """Return the message about a use, with a suggestion from all ``interfaces`` or from those ``available`` of the same kind."""
+    """Return the message about a use of a missing interface.
+
+    It suggests an interface of another kind but the same name from ``interfaces``, else a similar name from ``available``. If
+    there is no suggestion, it ends with ``remedy``. ``verb``: "generate" or "have".
+    """
     form = _form(used.header)
     named = f"{used.kind or 'msg'}/{used.name}{used.header}"
     parts = ((interface.partition("/")[0], interface.partition("/")[2]) for interface in interfaces)
@@ -193,7 +206,7 @@ def _message(used: _Used, interfaces: Sequence[str], available: Collection[str],
 
 
 def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
-    """Return the message about a type without a package name that another package has; "" if no package has it."""
+    """Return the message about a type without a package name, if another package has a message of this name; else ""."""
     all_names = dict.fromkeys([*(declared.name for declared in package.declared), *_USUAL])
     world, everywhere = workspace.world, not workspace.target.explicit
     owners = [
@@ -214,10 +227,10 @@ def _generated(name: str, workspace: Workspace) -> tuple[str, ...]:
 
 @cached_by_package
 def _available(maker: Package, workspace: Workspace) -> Mapping[tuple[str, bool], frozenset[str]]:
-    """Return the names of the interfaces of a package by kind ("" for all kinds), and by whether they are in snake_case.
+    """Return the names of the interfaces of a package, by kind ("" for all kinds) and by whether the names are in snake_case.
 
-    The names of headers are in snake_case. Interfaces for which no code is generated are included, because another finding
-    reports them.
+    The names of headers are in snake_case. Interfaces for which no code is generated are included, because
+    ungenerated-interface reports them.
     """
     interfaces = [names.interfaces.defined_in(file) for file in maker.files]
     ungenerated = [interface for interface in interfaces if interface and interface not in maker.built.cmake.commented_interfaces]

@@ -18,11 +18,11 @@ adds it to the existing call for the target.
 
 Not reported:
 
-- The script, or that of a package of the workspace that it finds, cannot be fully evaluated.
+- The build script of the package, or of a package of the workspace that it finds, cannot be fully evaluated.
 - The target may get include directories in other ways: folders outside of the package, compiler options, unknown variables,
   imported targets.
-- Something that the target links provides or may provide the package, directly or through targets of this package, even under a
-  condition.
+- A package that the target links, directly or through targets of this package, provides or may provide the package with the
+  headers, even under a condition.
 - The include or the source is not part of every build, or is for tests only.
 - No `find_package()` finds the package: see `missing-find-package`.
 - Vendor packages, because their targets have other names.

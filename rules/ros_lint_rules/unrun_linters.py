@@ -8,7 +8,7 @@ Linters that are declared but never run:
 - `ament_lint_auto_find_test_dependencies()` is called, but `ament_lint_auto` is the only `<test_depend>`. The call runs the
   linters among the test dependencies, and there are none.
 
-This rule reports all of them because the declared linters check nothing in each case.
+One rule reports all of them, because the declared linters check nothing in each case.
 
 ## Why it matters
 
@@ -41,7 +41,7 @@ _AUTO = "ament_lint_auto"
 _ALL = "ament_lint_common"
 _RUN = "ament_lint_auto_find_test_dependencies"
 _MAY_BRING = re.compile("cmake|common|lint|test|tool")
-"""Parts of the names of packages that may provide linters when CMake finds them."""
+"""Pattern of the names of packages that may make linters available when CMake finds them."""
 _BRING_NONE = frozenset({_AUTO, "ament_cmake", "ament_cmake_auto", "ament_cmake_python", "ament_cmake_ros"})
 
 
@@ -78,7 +78,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _none_to_run(package: Package, script: BuildScript) -> Iterator[Finding]:
-    """Yield a finding if the script runs the declared linters, but the only test dependency is ament_lint_auto."""
+    """Yield a finding if the script runs the linters among the test dependencies, but package.xml declares no linter.
+
+    Then ament_lint_auto, which runs the linters, is the only test dependency.
+    """
     for_tests = [declared.depend for declared in package.declared if declared.depend.tag == "test_depend"]
     if _RUN not in script.commands.names or {depend.name for depend in for_tests} != {_AUTO}:
         return

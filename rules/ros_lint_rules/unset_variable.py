@@ -1,7 +1,7 @@
 """
 ## What it finds
 
-A variable that is a whole argument of a command of CMake and that nothing sets. These commands are checked:
+A variable that nothing sets, although it is a whole argument (`${sources}`) of a CMake command. These commands are checked:
 
 - `ament_export_dependencies()` and the other `ament_export_*()` commands;
 - `ament_target_dependencies()` and `target_link_libraries()`;
@@ -20,8 +20,8 @@ Write the name of the variable that is set, or set the variable before the comma
 If exactly one variable of the package has a similar name, the fix writes its name. It is unsafe, because the command then has
 an effect.
 
-Findings that are probably consequences are not shown as long as this one is: for example, what `unexported-dependency` reports
-if the variable is an argument of `ament_export_dependencies()`.
+Findings that are probably consequences are hidden as long as this one is shown: for example, findings of
+`unexported-dependency` if the variable is an argument of `ament_export_dependencies()`.
 
 ## Limitations
 
@@ -106,7 +106,7 @@ def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str],
 
 
 def _effect(command: str) -> str:
-    """Return the part of the message that says what happens if an argument of the command is an unset variable."""
+    """Return the part of the message that says what a command does with an unset variable: ``links nothing``."""
     return next(effect for prefix, effect in _EFFECTS.items() if command.startswith(prefix))
 
 
@@ -119,11 +119,11 @@ _EFFECTS = {
     "rclcpp_": "registers nothing",
     "": "adds no source",
 }
-"""The effect of an empty argument, by the beginning of the command."""
+"""The effect of an empty argument, as text for a message, by the beginning of the name of the command."""
 
 
 def _explained(command: str) -> tuple[str, ...]:
-    """Return the names of the rules that report the consequence of an empty argument of the command; () if there are none."""
+    """Return the names of the rules whose findings may be consequences of an empty argument of the command; () if none."""
     return next((rules for prefix, rules in _CONSEQUENCES.items() if command.startswith(prefix)), ())
 
 

@@ -23,11 +23,11 @@ A `<test_depend>` beside a `<depend>` of the same name is an info, because nothi
 
 Not reported:
 
-- C++ code uses a type of the dependency by its bare name, because a header of a third package may make it known.
-- A page of the package says to start something of the dependency (`ros2 run`, `ros2 launch`).
-- Dependencies that may be needed without a trace: linters, run-time and tool dependencies, metapackages, vendor packages,
-  packages without code, and packages that provide CMake macros or plugins.
-- Packages through which `ament_auto_find_build_dependencies()` finds a library in use that is declared by its rosdep key.
+- Dependencies with a type that C++ code uses by its bare name, because a header of a third package may declare it.
+- Dependencies with programs or launch files that the documentation of the package starts (`ros2 run`, `ros2 launch`).
+- Dependencies that may be needed although no file names them: linters, run-time and tool dependencies, metapackages, vendor
+  packages, packages without code, and packages that provide CMake macros or plugins.
+- Packages through which `ament_auto_find_build_dependencies()` finds a used library that is declared by its rosdep key.
 - Packages that contain no code themselves, and packages whose build scripts cannot be fully evaluated.
 - Tags with a condition that is false in some ROS 2 environment.
 
@@ -104,7 +104,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
-    """Return the message for an unused dependency ``name`` that provides ``carried``, a used but undeclared package."""
+    """Return the message for the unused dependency ``name``.
+
+    ``carried``: a package that is used but not declared, and that only ``name`` provides.
+    """
     if carried.package == package.name:
         return f"'{name}' is not used, only its dependency '{carried.name}'; declare '{carried.name}' instead"
     if carried.name == name:
@@ -116,7 +119,7 @@ def _message_if_carrying(package: Package, name: str, carried: dependencies.Lost
 
 
 def _needless_tags(package: Package, workspace: Workspace, depend: Depend) -> Iterator[Depend]:
-    """Yield the <build_export_depend> and <exec_depend> tags that an unused <build_depend> leaves without purpose."""
+    """Yield the <build_export_depend> and <exec_depend> tags that have no purpose without the unused <build_depend>."""
     for other in package.tags(depend.name) if depend.tag == "build_depend" else ():
         tag = other.depend.tag
         to_run = tag == "exec_depend" and not dependencies.has_programs(workspace.world, depend.name)
@@ -206,13 +209,16 @@ def _is_used(package: Package, name: str) -> bool:
 
 
 def _brings_linters(script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Return whether the test dependency is a workspace package whose dependencies include linters run by the build script."""
+    """Return whether the test dependency ``name`` provides linters that the build script runs.
+
+    It then is a package of the workspace with linters among its exported or run-time dependencies.
+    """
     handed_on = (depend for package in workspace.by_name.get(name, ()) for depend in package.declared if depend.role & _HANDED_ON)
     return not build.FINDS_TESTS.isdisjoint(script.commands.names) and any(depend.name in build.LINTERS for depend in handed_on)
 
 
 def _kind_of_test(name: str) -> str:
-    """Return the kind of tests that use a test dependency, for messages."""
+    """Return the kind of tests that the test dependency ``name`` serves, as text for a message: "launch test" or "test"."""
     return "launch test" if name.startswith(("launch_pytest", "launch_testing")) else "test"
 
 

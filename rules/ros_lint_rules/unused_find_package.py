@@ -21,7 +21,7 @@ Not reported:
 - Another file of the package contains the name.
 - The code uses a type of the package by its bare name.
 - The code includes a header of an unknown package, in a folder whose name begins like that of the package.
-- The script uses more of the package's variables than those for linking.
+- The script uses variables of the package other than those for linking.
 - The package is found for tests, or it is optional.
 - The script cannot be fully evaluated, or code is generated from interfaces that cannot be read or are written in IDL.
 
@@ -30,9 +30,8 @@ Reported with medium confidence:
 - The package is not declared by `<depend>` or `<build_depend>`. If it is not declared at all, see `undeclared-dependency`.
 - The script links or exports it, and a package whose headers the code includes depends on it. The code may use it by other
   names, such as an alias of a type. Packages of interfaces are an exception.
-- Its `find_package()` may be the only one that finds another package that the code uses.
-- Its tag may be the only one that provides a package that this package, or another one of the workspace, uses but does not
-  declare.
+- Only this `find_package()` may find another package, which the code uses.
+- Only its tag may provide a package that is used but not declared, by this package or another one of the workspace.
 - The package has no code of its own, such as a metapackage, whose dependencies are its purpose.
 - A file of the workspace cannot be read.
 """
@@ -87,7 +86,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _call(package: Package, find: Mention) -> str:
-    """Return what to remove: a call of find_package(), or a name from the list of a loop that calls it with each name."""
+    """Return what to remove, as text for a message: a call of find_package(), or a name in the list of a loop around the call."""
     finds = [mention for mention in package.built.mentions if mention.via == "cmake" and mention.span == find.span]
     in_loop = any(mention.name != find.name for mention in finds)
     return f"'{find.name}' from the loop around this find_package()" if in_loop else f"find_package({find.name})"
@@ -108,9 +107,9 @@ def _build_tags(package: Package, name: str) -> tuple[Declared, ...]:
 
 
 def _needed_for_others(package: Package, workspace: Workspace, unused: Mapping[str, Sequence[Declared]]) -> frozenset[str]:
-    """Return the unused packages that may have to stay, because they provide or find another package in use.
+    """Return those packages of ``unused`` that may have to stay, because they provide or find a package that is used.
 
-    ``unused``: the names of the packages, with their tags.
+    ``unused``: the names of the packages, each with the tags that declare the package.
     """
     tags = [declared for declared_tags in unused.values() for declared in declared_tags]
     return dependencies.finding_others(package, workspace, unused).union(
@@ -119,7 +118,10 @@ def _needed_for_others(package: Package, workspace: Workspace, unused: Mapping[s
 
 
 def _also_named(package: Package, find: Mention) -> list[Mention]:
-    """Return the other places where the build script names the package: links and exports fail without find_package()."""
+    """Return the other places where the build script names the package, such as links and exports.
+
+    They have to be removed, too, because they fail without the find_package().
+    """
     places = {
         mention.span: mention
         for mention in package.built.mentions

@@ -5,8 +5,8 @@ A comment such as `# ros-lint: ignore[unused-dependency] loaded by name` that su
 
 ## Why it matters
 
-The finding was fixed, has moved, or never existed. The comment misleads readers, and hides the next finding of that rule on its
-line.
+The finding was fixed, has moved, or never existed. The comment misleads readers, and would hide a new finding of the rule on
+the same line.
 
 ## How to fix it
 

@@ -32,7 +32,10 @@ from collections.abc import Callable, Iterator
 from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace
 
 _Version = tuple[tuple[int, str], ...]
-"""Components as numbers of digits and these digits, because there is no limit to a number in package.xml."""
+"""A version as pairs of the number of digits and the digits of each component: ``((1, "2"), (2, "10"))`` for 2.10.
+
+The components are no integers, because package.xml allows numbers of any length.
+"""
 _TESTS: dict[str, tuple[str, Callable[[_Version, _Version], bool]]] = {
     "version_lt": ("<", operator.lt),
     "version_lte": ("<=", operator.le),
@@ -68,7 +71,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _numbers(version: str) -> _Version:
-    """Return a version as four numbers, missing ones 0; () if it contains anything else."""
+    """Return a version as four components, missing ones 0; () if the version is not numbers with dots."""
     if not re.fullmatch(r"[0-9]+(\.[0-9]+){0,3}", version):
         return ()
     digits = [part.lstrip("0") for part in version.split(".")]

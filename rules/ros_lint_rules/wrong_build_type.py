@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-A `<build_type>` whose script does not exist: `ament_cmake` or `cmake` without a `CMakeLists.txt`, `ament_python` without a
-`setup.py`.
+A `<build_type>` whose build script does not exist: `ament_cmake` or `cmake` without a `CMakeLists.txt`, `ament_python` without
+a `setup.py`.
 
 ## Why it matters
 

@@ -1,7 +1,7 @@
 """
 ## What it finds
 
-A dependency that is declared in a tag that does not cover its use:
+A dependency that is declared with a tag that does not cover its use:
 
 - `<test_depend>` for what is built or run outside tests;
 - `<exec_depend>` for what the package is compiled against;
@@ -11,8 +11,10 @@ A dependency that is declared in a tag that does not cover its use:
 ## Why it matters
 
 In a workspace it mostly works, because colcon makes every dependency available, whatever its tag. It fails elsewhere (REP 149):
-where binary packages are built, `exec_depend` is not installed; where they are installed, `build_depend` is not; and without
-tests, `test_depend` is not.
+
+- Where binary packages are built, `exec_depend` is not installed.
+- Where binary packages are installed, `build_depend` is not installed.
+- Where no tests are built, `test_depend` is not installed.
 
 ## How to fix it
 
@@ -26,7 +28,7 @@ Not reported:
 - The use is optional, or is in files that may not be built or installed.
 - Only launch files name the package, because they start, include or look up something of it: see `launch-outside-closure`.
 - Imports of launch files that are satisfied by what is installed with `ros2 launch`.
-- Packages for tests, because their dependencies serve tests anyway.
+- Packages that exist only for tests, because all their dependencies serve tests.
 - A tag has a condition that is false in some ROS 2 environment.
 - A declared dependency is unknown, so that it may provide the package.
 - Headers that are not installed, or only under a condition, because other packages do not include them.
@@ -151,14 +153,15 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
 
 
 def _is_for_all(declared: Declared) -> bool:
-    """Return whether a tag covers every use, or may do so."""
+    """Return whether a tag covers every use, or may do so because of its condition."""
     return declared.depend.tag == "depend" or not declared.always
 
 
 def _exported_uses(package: Package, need: dependencies.Need, *, assume_installed: bool) -> Iterator[Use]:
-    """Yield the uses of a need; uses in headers that no build installs lose the export role.
+    """Yield the uses of a needed package, with roles (``Role``) that fit the headers that are installed.
 
-    Uses in headers that only some builds install are left out. With ``assume_installed`` the role is kept.
+    Uses in headers that no build installs are yielded without the role EXPORT, unless ``assume_installed``. Uses in headers that
+    only some builds install are left out.
     """
     script = package.script
     installed: dict[str, bool] | None = {} if script is None or package.hidden(Facet.LIBRARIES) else None
@@ -185,7 +188,7 @@ def _installed_headers(package: Package) -> dict[str, bool]:
 
 
 class _Lack(NamedTuple):
-    """A use that the tags do not cover."""
+    """A use that no tag of the dependency covers."""
 
     role: Role
     why: str
@@ -194,7 +197,7 @@ class _Lack(NamedTuple):
 
 
 def _once_installed(lacking: _Lack | None) -> _Lack | None:
-    """Return a missing export to report before the headers of the package are installed, with low confidence.
+    """Return ``lacking`` with low confidence, as a problem that appears once the headers of the package are installed.
 
     The result is None if ``lacking`` is None or is not about an export.
     """
@@ -205,7 +208,7 @@ def _once_installed(lacking: _Lack | None) -> _Lack | None:
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
-    """Return the roles that tags cover together: all ``tags``, or with ``name`` only the tags of this name."""
+    """Return the roles (build, run, export, test) that ``tags`` cover together; with ``name`` only its tags count."""
     role = Role(0)
     for declared in tags:
         if name in ("", declared.name):
@@ -214,7 +217,7 @@ def _given(tags: Sequence[Declared], name: str = "") -> Role:
 
 
 def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags: Sequence[Declared]) -> _Lack | None:
-    """Return the first use that neither the tags of a need nor another dependency cover."""
+    """Return the first kind of use that neither the tags of the needed package nor another dependency covers, else None."""
     given = _given(tags)
 
     def is_used(role: Role) -> bool:
