@@ -1,6 +1,6 @@
-"""Calls of CMake commands as written, each with the blocks that enclose it.
+"""The command calls in a CMake file as they are written, each with the names of the blocks around it.
 
-Rules about the order of commands and fixes use these calls. Their effects are computed by
+Rules about the order of commands and fixes use these calls. The effects of the commands are computed by
 :mod:`ros_lint.collectors.cmake.evaluate`.
 """
 
@@ -17,7 +17,7 @@ _BLOCK_WORDS: Final = frozenset({"else", "elseif", "return", "break", "continue"
 
 
 def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
-    """Yield the calls of a CMake file in order, without the commands that begin or end blocks.
+    """Yield the command calls of a CMake file in order, without the commands that begin or end blocks.
 
     ``path`` is the path of the file, relative to the base of the run.
     """
@@ -43,7 +43,7 @@ def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
 
 
 def _enclosing(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
-    """Return the names of the enclosing blocks, outermost first, and whether one of them is ``if(BUILD_TESTING)``."""
+    """Return the names of the open blocks, outermost first, and whether one of them is ``if(BUILD_TESTING)``."""
     return tuple([block for block, _ in blocks]), any(for_tests for _, for_tests in blocks)
 
 

@@ -1,4 +1,4 @@
-"""Static evaluation of a CMakeLists.txt and its includes: targets, installed files and dependencies."""
+"""Static evaluation of a CMakeLists.txt and the files that it includes: targets, installed files and dependencies."""
 
 from __future__ import annotations
 
@@ -77,12 +77,13 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
     ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
-    workspace whose CMake code runs in their dependents (``exports.config_extras`` of their build script). Evaluate the
-    helpers first, each after the helpers that it finds, then the other packages.
+    workspace whose CMake code runs in the packages that find them (``exports.config_extras`` of their build script). Evaluate
+    the helpers first, each after the helpers that it finds, then the other packages.
 
-    - A condition that cannot be decided: both branches are run. Their products are ``conditional``, their mentions ``optional``.
+    - A condition that cannot be decided: both branches are run. Their products are ``conditional``, and the packages that they
+      mention are ``optional``.
     - An option has its default value. The effects of the other branch are reported as conditional.
-    - Code that cannot be evaluated is in ``opaque`` with the facet that it hides.
+    - Code that cannot be evaluated is recorded in ``opaque``, with the kinds of facts that may be incomplete (``Facet``).
     - Problems have the kinds "cmake-syntax", "missing-file", "missing-folder" (add_subdirectory), "missing-script" (include),
       "no-interfaces", "undefined-target", "file-is-directory" and "directory-is-file".
 
@@ -175,9 +176,10 @@ _MAKES_NOTHING: Final = frozenset(
 
 
 def _lost_exports(run: Run) -> Iterator[CommandPlace]:
-    """Yield the calls of ament_export_...() without effect: ament_package() does not read the scope of their variables.
+    """Yield the calls of ament_export_...() without effect, because ament_package() cannot read the variables that they set.
 
-    Nothing is yielded if the package passes the variables of ament on, to the scope of ament_package().
+    The calls are in another scope of variables than ament_package(), such as a subdirectory. Nothing is yielded if the
+    package itself passes the variables of ament on to the scope of ament_package().
     """
     if not run.package_scopes or all(any(scope is seen for seen in run.package_scopes) for scope, _ in run.export_scopes):
         return
@@ -190,14 +192,15 @@ def _lost_exports(run: Run) -> Iterator[CommandPlace]:
 
 
 _OF_AMENT: Final = re.compile(r"_?AMENT_(?:CMAKE_)?E")
-"""Beginning of the variables in which ament keeps exports: ``_AMENT_EXPORT_...``, ``_AMENT_CMAKE_EXPORT_...`` and
+"""Pattern of the start of variables in which ament stores exports: ``_AMENT_EXPORT_...``, ``_AMENT_CMAKE_EXPORT_...`` and
+
 ``AMENT_EXTENSIONS_...``."""
 
 
 def _interpreted_tests(run: Run) -> tuple[str, ...] | None:
-    """Return the files that an interpreter runs as tests.
+    """Return the files and folders with tests that an interpreter runs, such as pytest.
 
-    None if these are unknown: no known command runs tests, or an unknown command seems to run some.
+    The result is None if they are unknown: no known command runs tests, or an unknown command seems to run tests.
     """
     unknown = (call for call in run.command_names if _RUNS_TESTS.search(call) and not _is_known(run, call))
     if run.command_names.isdisjoint(cmake_ros.RUNNERS) or any(unknown):
@@ -224,11 +227,10 @@ def _installed_files(run: Run) -> list[InstalledFile]:
 
 
 def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
-    """Return the mentions of other packages, in which each find_package(X) without REQUIRED is classified.
+    """Return the recorded mentions of other packages, with a classification of each find_package(X) without REQUIRED.
 
     The mention of X becomes optional if a condition tests X_FOUND, unless the script stops when X is not found. It becomes a
-    mention for tests if only tests use the targets, variables or macros of X. ``used`` is the result of
-    :func:`_used_packages`.
+    test dependency if only tests use the targets, variables or macros of X. ``used`` is the result of :func:`_used_packages`.
     """
     if not run.packages.optional_finds:
         return tuple(run.results.mentions)
@@ -258,7 +260,7 @@ def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
 def _used_packages(run: Run) -> dict[str, bool]:
     """Return the packages whose targets, variables or macros the scripts use; the value is True if only tests use them.
 
-    The keys are folded names of packages (see :func:`folded`).
+    The keys are package names in lower case, without ``_`` and ``-`` (see :func:`folded`).
     """
     used: dict[str, bool] = {}
     for mention in run.results.mentions:
@@ -269,7 +271,7 @@ def _used_packages(run: Run) -> dict[str, bool]:
 
 
 def _unused_finds(run: Run, used: Mapping[str, bool]) -> Iterator[Span]:
-    """Yield the places of find_package() calls without REQUIRED whose package is named nowhere else."""
+    """Yield the places of find_package() calls without REQUIRED for packages whose names occur nowhere else."""
     if not run.packages.optional_finds:
         return
     macro_packages = {macro.package for macro in macros().values()}
@@ -279,9 +281,9 @@ def _unused_finds(run: Run, used: Mapping[str, bool]) -> Iterator[Span]:
 
 
 _USED_WITHOUT_NAME: Final = re.compile(r"cmake|rosidl|^PkgConfig$|backward")
-"""Names of packages that a script uses without naming them again.
+"""Pattern of the packages that a script uses without a further mention of their names.
 
-They provide commands, find modules or settings."""
+These packages provide commands, find modules or settings."""
 
 
 def _unmentioned(run: Run, names: Iterable[str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""The packages that the CMake code of a package needs where it runs in other packages."""
+"""The packages that the CMake code of a package needs when this code runs in other packages (CONFIG_EXTRAS)."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from ros_lint.facts.sources import Mention
 
 
 def exported_packages(run: Run) -> Iterator[tuple[Mention, bool]]:
-    """Yield the packages that this package needs in its dependents, each with True if the need does not depend on a condition.
+    """Yield the packages that a package needs when its CMake code runs in other packages, each with its certainty.
 
-    They are found by find_package() and find_dependency() in the files of :func:`_exported_files`. Calls in functions and
-    macros are left out, because they run only if the function or macro is called. ros_environment is needed for
-    ``$ENV{ROS_DISTRO}``, in functions and macros too.
+    The certainty is True if the need does not depend on a condition. The packages are those of find_package() and
+    find_dependency() in the files of :func:`_exported_files`. Calls in functions and macros are omitted, because they run
+    only if the function or macro is called. ros_environment is needed for ``$ENV{ROS_DISTRO}``, also in functions and macros.
     """
     for file in _exported_files(run):
         blocks: list[bool | None] = []  # for each enclosing block, whether it always runs; None for a function or macro
@@ -51,11 +51,10 @@ _PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
 
 
 def _exported_files(run: Run) -> list[str]:
-    """Return the CMake files of the package that run in its dependents.
+    """Return the CMake files of the package that run in the packages that find it.
 
-    They are the files of CONFIG_EXTRAS, templates of CMake configurations, and the installed files that these include from the
-    same folder or register as extensions: ``include("${tools_DIR}/more.cmake")``, ``ament_register_extension(point tools
-    more.cmake)``.
+    These are the files of CONFIG_EXTRAS, templates of CMake config files, and the installed files that are included or
+    registered in the former: ``include("${tools_DIR}/more.cmake")``, ``ament_register_extension(point tools more.cmake)``.
     """
     name = run.results.project.name
     folder = f"share/{name}/cmake/"
@@ -84,9 +83,10 @@ _ENVIRONMENT: Final = re.compile(r"\$ENV\{(ROS_(?:DISTRO|VERSION|PYTHON_VERSION)
 
 
 def _of_environment(path: str, command: Command, tested: set[str]) -> Iterator[Mention]:
-    """Yield ros_environment for each environment variable in a command that it sets, such as ROS_DISTRO.
+    """Yield a mention of ros_environment for each of its variables in a command, e.g. ``$ENV{ROS_DISTRO}``.
 
-    It is optional if a command of the file tests whether the variable exists. ``tested``: all arguments of the file.
+    The mention is optional if a command of the file tests whether the variable exists. ``tested`` has the texts of all
+    arguments of the file.
     """
     for index, argument in enumerate(command.args):
         match = _ENVIRONMENT.search(argument[0])
@@ -96,7 +96,7 @@ def _of_environment(path: str, command: Command, tested: set[str]) -> Iterator[M
 
 
 def _tests_existence(words: Sequence[str]) -> bool:
-    """Return whether a condition only tests whether a target, a package or a policy exists: ``NOT TARGET fmt::fmt``."""
+    """Return whether a condition tests only the existence of a target, package or policy: ``NOT TARGET fmt::fmt``."""
     return len(words) <= 3 and ("TARGET" in words or "POLICY" in words or words[-1].endswith("_FOUND"))
 
 

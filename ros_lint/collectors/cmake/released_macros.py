@@ -1,7 +1,7 @@
 """Variables and macros that CMake and the released packages of ROS 2 provide.
 
-The macros are in ``ros_macros.cmake``, written in CMake and reduced to their effects. The evaluator runs them instead of
-the real macros; the head of that file describes the notation.
+The macros are in ``ros_macros.cmake``, written in CMake and reduced to their effects. The evaluator runs them instead of the
+real macros. The notation is described at the start of this file.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ INSTALL_ARTIFACTS: Final = (
     "ARCHIVE", "LIBRARY", "RUNTIME", "OBJECTS", "FRAMEWORK", "BUNDLE", "PRIVATE_HEADER", "PUBLIC_HEADER", "RESOURCE",
     "INCLUDES", "CXX_MODULES_BMI",
 )  # fmt: skip
-"""Kinds of files that can have their own DESTINATION in install(TARGETS)."""
+"""Kinds of files (artifacts) that can have their own DESTINATION in install(TARGETS)."""
 
 INSTALL_TARGETS_WORDS: Final[Mapping[str, int]] = {
     "EXPORT": 1, "DESTINATION": 1, "PERMISSIONS": -1, "CONFIGURATIONS": -1, "COMPONENT": 1, "NAMELINK_COMPONENT": 1,
     "OPTIONAL": 0, "EXCLUDE_FROM_ALL": 0, "NAMELINK_ONLY": 0, "NAMELINK_SKIP": 0, "RUNTIME_DEPENDENCIES": -1,
     "RUNTIME_DEPENDENCY_SET": 1, "FILE_SET": 1,
 }  # fmt: skip
-"""The other keywords of install(TARGETS), with the number of arguments of each; -1 is any number."""
+"""Keywords of install(TARGETS) other than artifacts, with the number of arguments of each; -1 is any number."""
 
 VISIBILITY: Final = frozenset({"INTERFACE", "PRIVATE", "PUBLIC"})
 """Scope keywords of commands such as target_link_libraries()."""
@@ -64,12 +64,12 @@ VARIABLES: Final[Mapping[str, str]] = {
     "CMAKE_SIZEOF_VOID_P": "8",
     "CMAKE_FILES_DIRECTORY": "/CMakeFiles",
 }
-"""Variables with the same value in every colcon build on Linux.
+"""Variables with equal values in every colcon build on Linux.
 
 - GNUInstallDirs: ``lib``, as on Debian and Ubuntu.
 - PYTHON_INSTALL_DIR: the real value is ``lib/pythonX.Y/site-packages``.
 - PYTHON_MODULE_EXTENSION: the real value is ``.cpython-XY-<machine>.so``.
-- Folders with a mark: see :mod:`ros_lint.collectors.cmake.evaluator.values`."""
+- A value with a control character is a folder at an unknown place, see :mod:`ros_lint.collectors.cmake.evaluator.values`."""
 
 CONFIGURABLE_VARIABLES: Final = frozenset({
     "ANDROID", "APPLE", "BUILD_SHARED_LIBS", "CMAKE_BUILD_TYPE", "CMAKE_CROSSCOMPILING", "CMAKE_C_COMPILER_ID",
@@ -92,20 +92,20 @@ UNKNOWN_VARIABLES: Final = frozenset({
     "CMAKE_DL_LIBS", "CMAKE_SYSROOT", "CMAKE_TOOLCHAIN_FILE", "PYTHON_EXECUTABLE", "Python3_EXECUTABLE",
     "PYTHON_VERSION_MAJOR", "PYTHON_VERSION_MINOR", "PYTHON_VERSION_STRING",
 })  # fmt: skip
-"""Variables whose value differs between machines."""
+"""Variables whose value differs between machines, so that it is unknown."""
 
 
 class Macro(NamedTuple):
-    """A released function or macro: its package, and its definition reduced to its effects."""
+    """A function or macro of a released package, with a definition that is reduced to its effects."""
 
     package: str
     text: str
-    """The text from function() or macro() to endfunction() or endmacro()."""
+    """The CMake code of the definition, from function() or macro() to endfunction() or endmacro()."""
 
 
 @cache
 def macros() -> Mapping[str, Macro]:
-    """Return the known released macros by name in lower case."""
+    """Return the known functions and macros of released packages, by name in lower case."""
     macros_by_name: dict[str, Macro] = {}
     package = ""
     for match in _PIECE.finditer(_source()):
@@ -118,7 +118,7 @@ def macros() -> Mapping[str, Macro]:
 
 @cache
 def opaque_packages() -> frozenset[str]:
-    """Return the OPAQUE packages: their CMake code cannot be evaluated, but all of their macros are known."""
+    """Return the released packages (marked OPAQUE) whose CMake code cannot be evaluated, but whose macros are all known."""
     return frozenset([match[1] for match in _PIECE.finditer(_source()) if match[2]])
 
 

@@ -14,45 +14,46 @@ from ros_lint.facts.cmake import position
 from ros_lint.facts.visibility import Problem
 
 PLAIN = 0
-"""An unquoted argument whose text is its value: it has no reference, escape, semicolon or bracket."""
+"""Kind of an unquoted argument whose text is its value: it has no reference, escape sequence, semicolon or bracket."""
 UNQUOTED = 1
-"""An unquoted argument that is evaluated and split into list elements."""
+"""Kind of an unquoted argument that is evaluated and split into list elements."""
 QUOTED = 2
-"""A quoted argument that is evaluated, but not split."""
+"""Kind of a quoted argument that is evaluated, but not split into list elements."""
 LITERAL = 3
-"""A quoted argument whose text is its value."""
+"""Kind of a quoted argument whose text is its value: it has no reference and no escape sequence."""
 BRACKET = 4
-"""A bracket argument, which is never evaluated."""
+"""Kind of a bracket argument (``[[text]]``), which is never evaluated."""
 OPEN = 5
-"""A parenthesis within the arguments."""
+"""Kind of an opening parenthesis among the arguments."""
 CLOSE = 6
 
 Argument = tuple[str, int, int, int]
-"""Text without quotes or brackets, kind, and the offsets of the whole argument.
+"""An argument: its text without quotes or brackets, its kind (such as PLAIN), and the offsets of its start and end.
 
-A plain tuple, because it is created much faster than a named tuple and a run has very many arguments."""
+The offsets include quotes and brackets. It is a plain tuple because a run creates very many arguments, and a plain tuple is
+created much faster than a named tuple."""
 
 
 class Command(NamedTuple):
-    """A call of a command in a CMake file."""
+    """A command call in a CMake file."""
 
     name: str
     """The name in lower case, because names of CMake commands are case-insensitive."""
     written: str
-    """The name as written."""
+    """The name as it is written in the file."""
     args: tuple[Argument, ...]
     start: int
-    """Offset of the name."""
+    """Offset of the name in the file."""
     end: int
     """Offset after the closing parenthesis."""
     line: int
-    """The line of the name; lines and columns count from 1."""
+    """The line of the name. Lines and columns count from 1."""
     column: int
     breaks: tuple[int, ...]
-    """Offsets of the beginnings of the lines of the command after the first one."""
+    """Offsets of the starts of all lines of the command except the first line."""
 
     def span(self, path: str, start: int, end: int) -> Span:
-        """Return the span between two offsets of the command, in the file ``path``."""
+        """Return the span between two offsets of the command. ``path`` is the path of the file."""
         if not self.breaks:
             shift = self.column - self.start
             # Equals Span(...), but takes half the time; a run creates tens of thousands of spans.
@@ -60,7 +61,7 @@ class Command(NamedTuple):
         return Span(path, *self._position(start), *self._position(end))
 
     def place(self, path: str) -> Span:
-        """Return the span of the name of the command, in the file ``path``."""
+        """Return the span of the command's name. ``path`` is the path of the file."""
         return tuple.__new__(Span, (path, self.line, self.column, self.line, self.column + len(self.written)))
 
     def _position(self, offset: int) -> tuple[int, int]:
@@ -68,13 +69,13 @@ class Command(NamedTuple):
 
 
 class ParsedScript(NamedTuple):
-    """The commands and problems of a CMake file. CMake runs no command of a file that has a problem."""
+    """The commands and syntax errors of a CMake file. CMake runs no command of a file that has a syntax error."""
 
     commands: tuple[Command, ...]
-    """The commands before the first problem."""
+    """The commands before the first syntax error."""
     problems: tuple[Problem, ...]
     set_aside: tuple[str, ...] = ()
-    """Interface files that are named on commented lines, as ``msg/Name``: usually elements of a list."""
+    """Interface files in commented-out lines, as ``msg/Name``, for example ``# "msg/Name.msg"`` in a list of files."""
 
 
 _SET_ASIDE = re.compile(r"""^[ \t]*\#[ \t\#"]*((?:msg|srv|action)/\w+)\.(?:msg|srv|action|idl)\b""", re.MULTILINE)
@@ -98,21 +99,21 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _PLACEHOLDER = re.compile(r"@\w+@\Z")
 _NEW_LINE = re.compile(r"\n")
 _OPENING = re.compile(r"(?:[ \t\r]|#\[(=*)\[(?s:(?!\]\1\]).)*\]\1\])*\(")
-"""The text from the name of a command to its parenthesis: spaces and bracket comments."""
+"""Pattern of the text between the name of a command and its parenthesis: spaces and bracket comments."""
 _MARKS = dict.fromkeys((1, 2, 3), "\ufffd")
 
 
 def is_template(path: str) -> bool:
-    """Return whether a file is a template by its name: CMake configures another file from it."""
+    """Return whether the name of a file is that of a template, from which configure_file() writes another file."""
     return path.endswith((".in", ".in.cmake")) or _OTHER_LANGUAGE.search(path) is not None
 
 
 _OTHER_LANGUAGE = re.compile(r"\.(?:c|cc|cpp|cxx|h|hh|hpp|hxx|json|md|pc|py|sh|txt|xml|yaml|yml)\.cmake\Z")
-"""Names of templates for files of other languages, such as ``config.h.cmake``."""
+"""Pattern of the names of templates for files of other languages, such as ``config.h.cmake``."""
 
 
 def parse(source: Text) -> ParsedScript:
-    """Return the commands of a CMake file, and its first syntax error if it has one."""
+    """Return the commands of a CMake file, and its first syntax error if there is one."""
     return _Reader(source).read()
 
 
@@ -228,11 +229,11 @@ class _Reader:
             self._count_lines()
 
     def _opens(self, offset: int) -> bool:
-        """Return whether a parenthesis follows at an offset, after nothing but spaces and bracket comments."""
+        """Return whether an opening parenthesis follows an offset, after only spaces and bracket comments."""
         return _OPENING.match(self.text, offset) is not None
 
     def _wrong(self, at: int) -> _SyntaxError:
-        """Return the error that explains why no token begins at an offset, such as "a string is not closed"."""
+        """Return the syntax error at an offset where no token begins, with a reason such as "a string is not closed"."""
         letter = self.text[at]
         reasons = {
             '"': "a string is not closed",
@@ -251,5 +252,8 @@ class _Reader:
 
 
 def _cleaned(value: str) -> str:
-    """Return an argument with normalized line ends and without marks of unknown values (``values.py``)."""
+    """Return the text of an argument with normalized line ends, and without the control characters of ``values.py``.
+
+    These control characters are reserved for unknown pieces of values.
+    """
     return value.replace("\r\n", "\n").translate(_MARKS)

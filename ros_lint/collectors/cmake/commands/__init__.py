@@ -1,1 +1,1 @@
-"""The effects of CMake commands, one module for each family."""
+"""The effects of CMake commands, one module for each group of commands."""

@@ -1,4 +1,8 @@
-"""Commands of ROS packages: released macros, and the ``ros_lint_*`` primitives of their definitions."""
+"""Commands of ROS packages: macros of released packages, and the commands ``ros_lint_*`` of their reduced definitions.
+
+``ros_macros.cmake`` has the reduced definitions. The commands ``ros_lint_*`` exist only there and record the effects of a
+macro.
+"""
 
 from __future__ import annotations
 
@@ -23,25 +27,25 @@ from ros_lint.facts.sources import Purpose
 from ros_lint.facts.visibility import ALL_FACETS, Facet
 
 _PRODUCER = re.compile(r"install|program|executable|node|script|package|component|launch|resource|share|deploy|xacro|module")
-"""Names of unknown commands that probably install something."""
+"""Pattern of the names of unknown commands that probably install something."""
 _BUILDER = re.compile(r"librar|executable|target|plugin|component|node|kernel|module|build|(?:\A|_)add(?:_|\Z)")
-"""Names of unknown commands that probably build something."""
+"""Pattern of the names of unknown commands that probably build something."""
 _TESTER = re.compile(
     r"(?:\A|_)(?:\w*test\w*|lint\w*|gmock|pytest|coverage|benchmark\w*|check\w*|cpplint|cppcheck|flake8)(?:_|\Z)"
 )
-"""Names of unknown commands that define tests and install nothing."""
+"""Pattern of the names of unknown commands that define tests and install nothing."""
 _OF_LIBRARY = re.compile(
     r"(?:boost|catch2?|clang|cuda|doctest|doxygen|ecm|flex|bison|gettext|grpc|hip|itk|kde|ki18n|nanobind|protobuf|pybind11"
     r"|python[23]?|qt[4-6]?|sdl|sphinx|swig|vtk|xsdcxx)_"
 )
-"""Names of unknown commands of libraries and tools without ROS, which export nothing by the macros of ament."""
+"""Pattern of the names of unknown commands of libraries and tools without ROS. They do not export with ament macros."""
 _GENERATES: Final = "rosidl_generate_interfaces"
 
 
 def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
     """Run a command that neither CMake nor the package defines, and return its possible exits (None for NEXT).
 
-    A released macro runs in its reduced form. The effects of any other command are recorded as unknown.
+    A macro of a released package runs in its reduced form. The effects of any other command are recorded as unknown.
     """
     macro = released(name)
     if macro is not None:
@@ -70,9 +74,9 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
 
 
 def _is_given_data(run: Run, args: list[str]) -> bool:
-    """Return whether an argument of an unknown command is the path or name of a folder in the package that has no C++ sources.
+    """Return whether an unknown command has an argument that is a folder of the package without C++ sources.
 
-    The command probably installs such a folder, for example ``install_models(meshes)``.
+    The argument is the path or the name of the folder. The command probably installs the folder: ``install_models(meshes)``.
     """
     words = frozenset([plain for arg in args if is_known(plain := strip_mark(arg)[0])])
     below = [file for file in run.paths.files if not words.isdisjoint(_folders(file))]
@@ -86,7 +90,7 @@ def _folders(file: str) -> list[str]:
 
 
 def _component(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_component(class...)``: record classes that a component container can load."""
+    """Run ``ros_lint_component(class...)``: record component classes (rclcpp_components) of the package."""
     for arg in args:
         name, certain = strip_mark(arg)
         if not is_known(name):
@@ -97,7 +101,7 @@ def _component(run: Run, args: list[str]) -> None:
 
 
 def _exported(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_exported(sets...)``: record export sets whose targets are available to all dependents."""
+    """Run ``ros_lint_exported(sets...)``: record export sets with targets that all dependents of the package can use."""
     if not (run.muted or run.conditional or run.testing):
         run.results.exported_sets.update(dict.fromkeys([name for name, certain in map(strip_mark, args) if certain]))
 
@@ -186,7 +190,7 @@ def _scripts(run: Run, args: list[str]) -> None:
 
 
 def console_scripts(text: str) -> list[str]:
-    """Return the names of the console_scripts of a setup.cfg; empty if the file cannot be parsed."""
+    """Return the names of the console_scripts in the text of a setup.cfg; empty if the text cannot be parsed."""
     import configparser  # noqa: PLC0415  (few packages have one)
 
     parser = configparser.ConfigParser(interpolation=None)
@@ -209,7 +213,7 @@ def _provide(run: Run, args: list[str]) -> None:
 def _headers(run: Run, args: list[str]) -> None:
     """Run ``ros_lint_headers(scoped)``: install the folder include/, as ament_auto_package() of ament_cmake_auto does.
 
-    The destination is include/<project> if ``scoped`` is TRUE or if the distribution always uses it, else include/.
+    The destination is include/<project> if ``scoped`` is TRUE or the ROS distribution always uses this folder, else include/.
     """
     scoped = args[:1] == ["TRUE"]
     if not scoped:
@@ -224,7 +228,7 @@ _UNSCOPED: Final = frozenset({"humble", "jazzy"})
 
 
 def _package(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_package(...)``, the effects of ament_package(): the files for find_package() are installed."""
+    """Run ``ros_lint_package(...)``, the effects of ament_package(): record the installed files that find_package() reads."""
     if run.muted:
         return
     name = run.get("PROJECT_NAME") or ""
@@ -256,9 +260,9 @@ def _package(run: Run, args: list[str]) -> None:
 
 _COMPONENT_INDEX: Final = "share/ament_index/resource_index/rclcpp_components/"
 _REGISTERED: Final = "_RCLCPP_COMPONENTS"
-"""Prefix of the variables with which rclcpp_components passes its resource index to ament_package().
+"""Prefix of the variables with which rclcpp_components passes the registered components to ament_package().
 
-Some packages pass these variables to the scope of ament_package() themselves."""
+Some packages set these variables in the scope of ament_package() themselves."""
 _EXTRAS: Final = ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST")
 
 
@@ -296,9 +300,9 @@ def _extras(run: Run, name: str, files: list[str], conditional: bool) -> None:
 
 
 def _end(run: Run) -> None:
-    """Record the place of ament_package(), before which fixes insert install rules.
+    """Record the place of ament_package(), because fixes insert install rules before it.
 
-    If a blank line precedes ament_package(), the end of the command before it is recorded as well.
+    If a blank line precedes ament_package(), the end of the previous command is recorded as well.
     """
     frame = next(frame for frame in reversed(run.frames) if frame.own)
     top = join_path(run.paths.sources.path, "CMakeLists.txt")
@@ -332,7 +336,7 @@ def _index_variables(run: Run, args: list[str]) -> None:
 
 
 def _package_xml(run: Run, _args: list[str]) -> None:
-    """Run ``ros_lint_package_xml()``: set the variables for the name and the version of the package from package.xml."""
+    """Run ``ros_lint_package_xml()``: set the variables for the name and the version in package.xml."""
     name = run.paths.sources.name
     run.set("_AMENT_PACKAGE_NAME", name)
     run.set(f"{name}_VERSION", run.paths.sources.version or HOLE)
@@ -356,7 +360,7 @@ _TEST_WORDS: Final = {
 
 
 def _vendor(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_vendor(target ...)``, the effects of ament_vendor(): record a target whose files are unknown.
+    """Run ``ros_lint_vendor(target ...)``, the effects of ament_vendor(): record a target with unknown files.
 
     ament_vendor() builds an external project and installs it below opt/.
     """
@@ -366,7 +370,7 @@ def _vendor(run: Run, args: list[str]) -> None:
 
 
 def _tests(run: Run, args: list[str]) -> None:
-    """Run ``add_test()``, or ``ros_lint_runs()``, which stands for it in the macros of released packages.
+    """Run ``add_test()``, or ``ros_lint_runs()``, which replaces add_test() in the reduced macros of released packages.
 
     Files and folders among the arguments are recorded as tests that run without being compiled.
     """
@@ -379,11 +383,11 @@ def _tests(run: Run, args: list[str]) -> None:
 
 
 RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
-"""Commands that run tests without compiling them: add_test(), and the primitive of released macros."""
+"""Commands that run tests without compiling them: add_test(), and its replacement in macros of released packages."""
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
-    """Run the CMake command ``name``; its possible exits are not returned."""
+    """Run the CMake command ``name``. Its possible exits are ignored."""
     HANDLERS[name](run, args)
 
 

@@ -1,4 +1,4 @@
-"""Commands for variables, options, projects and control flow: set(), option(), project(), return() ..."""
+"""Commands for variables, options, projects and control flow: set(), option(), project(), return() and others."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _set(run: Run, args: list[str]) -> None:
 
 
 def _note_test_switch(run: Run, name: str, value: str) -> None:
-    """Record in ``run.test_switches`` that set() makes a variable true, if it does so only when tests are enabled."""
+    """Record in ``run.test_switches`` a variable that set() makes true only when tests are enabled."""
     if is_off(value):
         return
     value_before = run.get(name)
@@ -88,7 +88,10 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
 
 
 def _path(value: str) -> str:
-    """Return a path as CMake stores it in the cache, without a slash at the end. HOLE if its normalization is not modelled."""
+    """Return a path as CMake stores it in the cache, without a slash at the end; HOLE (unknown) in the cases listed here.
+
+    The cases: an unknown part, a double slash, a backslash, a semicolon, ``~`` at the start.
+    """
     not_modelled = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
     return HOLE if not_modelled else value.rstrip("/") or value
 
@@ -128,7 +131,7 @@ def _option(run: Run, args: list[str]) -> None:
 
 
 def _switch(value: str) -> str:
-    """Return the value that option() stores for an initial value: ON or OFF, or HOLE if ``value`` is unknown."""
+    """Return the value that option() stores for an initial value: ON or OFF, HOLE (unknown) if the value is unknown."""
     if not is_fixed(value):
         return HOLE
     return "ON" if value.upper() in TRUE_WORDS else "OFF"
@@ -171,7 +174,7 @@ def _set_policy_version(run: Run, version: str) -> None:
 
 @cached_short(256)
 def _version(text: str) -> tuple[int, int] | None:
-    """Return the version up to which policies have their NEW behaviour: ``3.5...3.20`` -> ``(3, 20)``; None if unknown."""
+    """Return the version up to which policies behave as NEW: ``3.5...3.20`` -> ``(3, 20)``; None if it is unknown."""
     match = re.match(r"([0-9]+)(?:\.([0-9]+))?", text.rpartition("...")[2])
     if match is None or not is_known(text):
         return None
@@ -237,7 +240,7 @@ def _parse_arguments(run: Run, args: list[str]) -> None:
 
 
 def _rest_of_call(run: Run, first: str) -> list[str] | None:
-    """Return the arguments of the current function from index ``first``; None if they are unknown."""
+    """Return the arguments of the current function from index ``first``; None if the arguments are unknown."""
     begin, end = natural(first), natural(run.get("ARGC") or "")
     if begin is None:
         return None
@@ -252,11 +255,11 @@ def _rest_of_call(run: Run, first: str) -> list[str] | None:
 
 
 _NOT_SINGLE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
-"""Characters of values that may be no argument or several arguments, or that a list does not preserve."""
+"""Pattern of values that may be no argument or several arguments, or that change when they are stored in a list."""
 
 
 def _language(run: Run, args: list[str]) -> int | None:
-    """Run ``cmake_language(CALL command args...)`` or ``cmake_language(EVAL CODE text...)``: run the given code."""
+    """Run ``cmake_language(CALL command args...)`` or ``cmake_language(EVAL CODE text...)``; return the possible exits."""
     mode = args[0] if args else ""
     if mode == "CALL" and len(args) > 1 and is_known(args[1]):
         return run_named(run, args[1].lower(), args[2:])
@@ -307,7 +310,7 @@ def _execute_process(run: Run, args: list[str]) -> None:
 
 
 def nothing(_run: Run, _args: list[str]) -> None:
-    """Run a command without effects on the model."""
+    """Run a command that has no effect on the recorded facts."""
 
 
 COMMANDS: Final[dict[str, Handler]] = {

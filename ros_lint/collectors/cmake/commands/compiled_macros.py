@@ -1,6 +1,6 @@
-"""Compiled forms of the released macros, because a workspace calls them very often.
+"""Compiled forms of the macros of released packages, because a workspace calls these macros very often.
 
-Most macros are a cmake_parse_arguments() and a few commands. Such a macro runs in compiled form if its arguments are plain
+Most macros have a cmake_parse_arguments() and a few commands. Such a macro runs in compiled form if its arguments are plain
 text. All other macros, and all functions, are interpreted.
 """
 
@@ -28,32 +28,34 @@ _TESTS: Final = "BUILD_TESTING"
 
 
 _Reference = tuple[str, Template, bool]
-"""An argument with references: a variable, its parts, and whether it is quoted.
+"""An argument with references: the variable, the parsed parts, and whether the argument is quoted.
 
 The variable is "" unless the argument is a single reference."""
 _Conditions = tuple[tuple[str, bool], ...]
-"""Keywords of the call, each with whether it must be present or absent."""
+"""Keywords of a macro call (or BUILD_TESTING), each with True if it must be present, False if it must be absent."""
 _Step = tuple[str, tuple[str | _Reference, ...], _Conditions]
-"""A command with its arguments and the conditions under which it runs."""
+"""A command of a compiled macro: its name, its arguments, and the conditions under which it runs."""
 _Keywords = tuple[str, str, str, str]
-"""Arguments of cmake_parse_arguments(): prefix, options, keywords with one value and with many values."""
+"""The first arguments of cmake_parse_arguments(): prefix, options, one-value keywords and multi-value keywords."""
 
 
 class ReleasedMacros(NamedTuple):
-    """A macro or function of a released package with its compiled form."""
+    """A macro or function of a released package, with its compiled form."""
 
     procedure: Procedure
     direct: tuple[str, list[str]] | None
-    """A primitive and its first arguments, if the macro only passes its arguments on to that primitive."""
+    """A command ``ros_lint_*`` and its first arguments, if the macro only calls it with the arguments of the macro.
+
+    None for any other macro."""
     keywords: _Keywords | None
     steps: tuple[_Step, ...] | None
-    """The commands of the macro, None if it cannot be compiled."""
+    """The commands of the compiled macro, None if the macro cannot be compiled."""
     frame: CallFrame
 
 
 @cache
 def released(name: str) -> ReleasedMacros | None:
-    """Return a released macro by its name in lower case, None if there is none."""
+    """Return the macro or function of a released package with a name in lower case, None if there is none."""
     macro = macros().get(name)
     if macro is None:
         return None
@@ -89,7 +91,7 @@ def _split_keywords(body: Body) -> tuple[_Keywords | None, Body]:
 
 
 def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step | None]:
-    """Yield the commands of a macro with the conditions under which they run; None for a node that cannot be compiled."""
+    """Yield the commands of a macro with the conditions under which they run; None for code that cannot be compiled."""
     for node in body:
         if isinstance(node, Command):
             if node.name == "set" and prefix and node.args[0][0].startswith(f"{prefix}_"):
@@ -116,7 +118,7 @@ def _argument(text: str, kind: int) -> str | _Reference:
 
 
 def run_released(run: Run, macro: ReleasedMacros, args: list[str]) -> Exit:
-    """Run a released macro or function with evaluated arguments."""
+    """Run a macro or function of a released package with evaluated arguments, and return its possible exits."""
     text = "".join(args)
     if macro.direct is not None and ";" not in text:
         primitive, words = macro.direct

@@ -10,23 +10,23 @@ from ros_lint.collectors.cmake.evaluator.values import HOLE, PREFIX, is_known
 from ros_lint.facts.visibility import Facet
 
 _ADDRESS: Final = re.compile(r"(?:/|@|\A)git(?:hub|lab)\.[\w.-]+[/:]([\w.-]+)/([\w.-]+?)(?:\.git)?(?:/|\Z)")
-"""The address of a repository on GitHub or GitLab: groups are its owner and its name."""
+"""Pattern of the address of a repository on GitHub or GitLab. The groups are the owner and the repository name."""
 
 _FETCHED: Final = "_deps"
-"""The folder below the build folder into which FetchContent downloads."""
+"""The folder below the build folder into which FetchContent downloads projects."""
 
 
 def _declare(run: Run, args: list[str]) -> None:
-    """Run ``fetchcontent_declare(name options...)``: record a project and its names.
+    """Run ``fetchcontent_declare(name options...)``: record a project and its possible names.
 
-    Scripts may also use the project under names that are derived from the address of its repository.
+    Scripts may also use the project under a name that is derived from the address of its repository.
     """
     if args and is_known(args[0]):
         run.fetched_projects[args[0].lower()] = _names_from_address(args)
 
 
 def _names_from_address(args: list[str]) -> list[str]:
-    """Return the possible names of a project, from the address of its repository in ``args``.
+    """Return the possible names of a project, given arguments with the address of its repository.
 
     ``https://github.com/owner/repo.git`` -> ``repo``, ``owner_repo``, ``owner/repo``.
     """
@@ -63,7 +63,7 @@ def _fetch(run: Run, projects: list[str], args: list[str]) -> None:
 def _add_external_projects(run: Run, names: list[str], args: list[str]) -> None:
     """Record external projects, whose targets and files are unknown.
 
-    External projects install to lib/<package> or share/<package> only if an argument of the command names such a folder.
+    External projects install to lib/<package> or share/<package> only if an argument of the command contains such a folder.
     """
     run.open_world = True
     if not run.muted:

@@ -53,14 +53,14 @@ def _file(run: Run, args: list[str]) -> None:
 
 
 _SAME_EVERYWHERE: Final = re.compile(rf"[/{ATOM}]?(?:[^/:;\\ \0\2\3]+/)*[^/:;\\ \0\2\3]+")
-"""A path that file(TO_CMAKE_PATH) and file(TO_NATIVE_PATH) do not change."""
+"""Pattern of paths that file(TO_CMAKE_PATH) and file(TO_NATIVE_PATH) do not change on any system."""
 
 
 def _copy(run: Run, copied: list[str], destination: str) -> None:
-    """Run ``file(COPY)``: record the copies as generated files, if ``destination`` is absolute.
+    """Run ``file(COPY)``: record the copies as generated files if ``destination`` is absolute.
 
-    ``copied`` are paths; a path that ends with a slash is copied without its name. A relative destination is in the build
-    folder, whose files are not recorded.
+    ``copied`` are paths. A folder with a slash at the end is copied without its name. A relative destination is in the build
+    folder, where no files are recorded.
     """
     for path in copied if destination.startswith("/") else ():
         source = run.paths.source(path)
@@ -100,7 +100,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
     """Return the absolute paths of the files that a pattern of file(GLOB) matches; ``[HOLE]`` if they are unknown.
 
-    With ``recurse`` it is a pattern of file(GLOB_RECURSE). With ``folders``, matching folders are included.
+    ``recurse`` is True for file(GLOB_RECURSE). With ``folders``, matching folders are included.
     """
     path = pattern if pattern.startswith(TREE) else f"{run.path_variables['CMAKE_CURRENT_SOURCE_DIR']}/{pattern}"
     parts = path.split("/")
@@ -208,7 +208,7 @@ def _configure(run: Run, args: list[str]) -> None:
 
 
 def _configure_config(run: Run, args: list[str]) -> None:
-    """Run ``configure_package_config_file(input output ...)``: record ``input`` as the template of a CMake configuration."""
+    """Run ``configure_package_config_file(input output ...)``: record ``input`` as a template of a CMake config file."""
     path = run.paths.source(args[0]) if args else None
     if path in run.paths.files and not run.uncertain_conditions and not run.testing:
         run.results.config_templates[path] = None

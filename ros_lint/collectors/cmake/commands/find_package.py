@@ -26,14 +26,14 @@ _NAMESPACED_TARGET = re.compile(r"(?<!\w)(?<!::)[A-Za-z_][\w.+-]*::[\w.+:-]*\w")
 
 
 _SHARED_LIBRARIES: Final = frozenset({"ament_cmake_ros", "ament_cmake_ros_core"})
-"""Packages that set BUILD_SHARED_LIBS to ON if found (ament_cmake_ros: build_shared_libs.cmake)."""
+"""Packages that set BUILD_SHARED_LIBS to ON when they are found (ament_cmake_ros: build_shared_libs.cmake)."""
 _BUILD_TOOL: Final = "ament_cmake"
 _OF_ROS_1: Final = frozenset({"catkin", "roscpp"})
-"""Packages of ROS 1 that scripts for both ROS versions search. A build for ROS 2 does not find them."""
+"""Packages of ROS 1 that scripts for both ROS versions search for. A build for ROS 2 does not find them."""
 _FOUND_DECLARED: Final = f"{ATOM}found-build-depends"
-"""A value for all packages that ament_auto_find_build_dependencies() finds.
+"""The value that stands for all packages that ament_auto_find_build_dependencies() finds.
 
-A target that is linked with it does not certainly use any of them."""
+A target that is linked with this value does not certainly use any of these packages."""
 _PYTHON: Final = frozenset({"Python", "Python3"})
 """Packages that find the Python interpreter, which always exists.
 
@@ -41,7 +41,7 @@ Their component Development finds headers and libraries, which need a dependency
 
 
 def find_package(run: Run, args: list[str]) -> int | None:
-    """Run ``find_package(name [version] [QUIET] [REQUIRED] ...)``: record a mention of the package, and mark it as found."""
+    """Run ``find_package(name [version] [QUIET] [REQUIRED] ...)``: record that the package is mentioned and found."""
     name, certain = strip_mark(args[0]) if args else ("", True)
     if not is_known(name):
         run.open_world = True
@@ -90,9 +90,9 @@ def _may_be_package_name(name: str) -> bool:
 
 
 def mark_found(run: Run, name: str, *, required: bool) -> None:
-    """Mark a package as found. Its variables become unknown.
+    """Record that a package is found. The variables of the package become unknown.
 
-    Its CMake code runs if it is a package of the workspace.
+    A package of the workspace runs its CMake code (CONFIG_EXTRAS) in addition.
     """
     if name in _OF_ROS_1 and not required and name not in run.helpers:
         run.set(f"{name}_FOUND", "0")
@@ -148,7 +148,10 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 
 
 def _packages_used(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_uses(for how names...)`` of ros_macros.cmake: record that the package uses the packages ``names``."""
+    """Run ``ros_lint_uses(purpose command names...)`` of ros_macros.cmake: record that the package uses other packages.
+
+    The purpose is "-", "export", "interfaces" or "plugins". The command is a text for messages, see :func:`_quotation`.
+    """
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
     for arg in args[2:]:
@@ -172,7 +175,7 @@ def _packages_used(run: Run, args: list[str]) -> None:
 
 
 def _quotation(how: str, name: str) -> str:
-    """Return the quotation of a command for messages, with the package ``name`` as its last argument; "" if ``how`` is "-".
+    """Return the text of a command for messages, with the package ``name`` as its last argument; "" if ``how`` is "-".
 
     ``("ament_target_dependencies ...", "rclcpp")`` gives ``ament_target_dependencies(... rclcpp)``.
     """
@@ -181,9 +184,9 @@ def _quotation(how: str, name: str) -> str:
 
 
 def _note_impossible_packages(run: Run, command: str, places: Mapping[str, Span]) -> None:
-    """Record an error for each argument that a command such as ament_target_dependencies() rejects as a package.
+    """Record errors for the arguments that a command such as ament_target_dependencies() rejects as packages.
 
-    Such arguments are targets (``a::b``) and the package itself. ``places`` has the place of each argument.
+    These arguments are targets (``a::b``) and the package itself. ``places`` has the place of each argument.
     """
     targets = [name for name in places if "::" in name] if command.startswith("ament_") else []
     if targets:
@@ -207,9 +210,9 @@ def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> No
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages ``names``.
+    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages.
 
-    ``how`` is the beginning of the command for messages, such as ``"ament_target_dependencies ..."``.
+    ``how`` is the start of the command for messages, such as ``"ament_target_dependencies ..."``.
     """
     _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
@@ -220,7 +223,7 @@ def _target_uses(run: Run, args: list[str]) -> None:
 
 
 def _note_modified_target(run: Run, command: str, args: list[str]) -> None:
-    """Record that a command modifies a target, if the command certainly runs, even if tests are disabled."""
+    """Record that a command modifies a target. Nothing is recorded if the command may not run without tests."""
     name, certain = strip_mark(args[0]) if args else ("", False)
     if certain and not (run.muted or run.uncertain_conditions or run.testing) and is_known(name) and "::" not in name:
         run.results.modified_targets.setdefault((name, command), run.current_place())
@@ -235,7 +238,7 @@ def _pkg_config(run: Run, args: list[str]) -> None:
 
 
 def link(run: Run, args: list[str]) -> None:
-    """Record the packages whose targets or variables are arguments of a target command."""
+    """Record the packages whose targets or variables are arguments of a command such as target_link_libraries()."""
     for arg in args[1:]:
         if "::" not in arg:
             continue
@@ -283,13 +286,16 @@ def _include_directories(run: Run, args: list[str]) -> None:
 
 
 def _link_all(run: Run, args: list[str]) -> None:
-    """Run ``link_libraries(names...)``: record the packages of the names, because all later targets are linked to them."""
+    """Run ``link_libraries(names...)``: record the packages of the libraries, because all later targets are linked to them."""
     record_header_sources(run, ALL_TARGETS, args)
     link(run, args)
 
 
 def _is_target_of(run: Run, space: str, target_name: str) -> bool:
-    """Return whether ``space::target_name`` is a target of a bundled project, or of a found package named ``target_name``."""
+    """Return whether ``space::target_name`` is a target of a bundled project, or of a found package named ``target_name``.
+
+    A bundled project is built together with the package.
+    """
     return run.is_bundled(space) or (space not in run.packages.prefixes and target_name in run.packages.prefixes)
 
 
@@ -310,7 +316,10 @@ def _link_libraries(run: Run, args: list[str]) -> None:
 
 
 def _hide(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_hide(facets reason)`` of ros_macros.cmake: record that parts of the package are unknown."""
+    """Run ``ros_lint_hide(facets reason)`` of ros_macros.cmake: record which facts about the package are incomplete.
+
+    ``facets`` has the names of kinds of facts (``Facet``), such as EXECUTABLES; ANYTHING means all.
+    """
     facet = Facet(0)
     for name in split(args[0]):
         facet |= ALL_FACETS if name == "ANYTHING" else Facet[name]

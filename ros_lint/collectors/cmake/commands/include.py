@@ -75,7 +75,10 @@ def include_own(run: Run, path: str) -> int | None:
 
 
 def _run_script(run: Run, path: str, parsed: ParsedScript) -> int | None:
-    """Run a script in the package, or in the tree outside of the package. ``path`` is relative to the package."""
+    """Run a script of the package, or a script of the workspace outside of the package; return its possible exits.
+
+    ``path`` is relative to the package.
+    """
     outside = is_outside(path)
     if outside:
         run.outside_scripts.append(parsed)
@@ -96,9 +99,9 @@ def _include_installed(run: Run, name: str) -> int | None:
 
 
 def _skip(run: Run, file: str) -> int:
-    """Skip an include() of a file of another package: record that it may use packages and define commands.
+    """Skip an include() of a file of another package: record that the file may use packages and define commands.
 
-    The file probably installs nothing itself, like a CMake module.
+    The file probably installs nothing itself, like a module of CMake.
     """
     run.open_world = run.skipped_include = True
     run.hide(Facet.USES | Facet.EXPORTS, f"include() of {file} cannot be evaluated")
@@ -147,7 +150,7 @@ MODULES: Final = frozenset({
     "CheckStructHasMember", "CheckPIESupported", "CheckSourceCompiles", "DefaultPolicies", "FortranCInterface",
     "CMakePushCheckState", "CheckCXXLinkerFlag",
 })  # fmt: skip
-"""Modules of CMake that only define commands."""
+"""Names of the modules of CMake that only define commands."""
 
 
 def _module(run: Run, name: str) -> None:
@@ -193,7 +196,9 @@ def _add_subdirectory(run: Run, args: list[str]) -> int | None:
 
 _TOP: Final = "CMakeLists.txt"
 _BY_SUBDIRECTORY: Final = ALL_FACETS & ~Facet.EXPORTS
-"""The facets that a subdirectory can hide: ament_package() ignores exports by the macros of ament in a subdirectory."""
+"""The kinds of facts about a package that are incomplete if a subdirectory cannot be evaluated: all but EXPORTS.
+
+EXPORTS are complete because ament_package() ignores ament_export_...() calls in a subdirectory."""
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:

@@ -1,6 +1,7 @@
-"""Packages whose headers a target can include, from its linked libraries and its include directories.
+"""The packages whose headers a target can include, determined by its linked libraries and include directories.
 
-Conditional arguments count as well. So a package that is not listed provides no headers to the target in any build.
+Conditional arguments count, too. Therefore, a package that is not in the result provides no headers to the target in any
+build.
 """
 
 from __future__ import annotations
@@ -22,21 +23,21 @@ if TYPE_CHECKING:
 PACKAGE_VARIABLE: Final = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
 )
-"""A reference to a variable of a found package. The group is the name of the package."""
+"""Pattern of a reference to a variable of a found package, such as ``${foo_LIBRARIES}``. The group is the package."""
 
 ALL_TARGETS: Final = ""
-"""The key for arguments of include_directories() and link_libraries(), which apply to every target."""
+"""The key, instead of a target name, for arguments of include_directories() and link_libraries() (for all targets)."""
 
 _ANYTHING: Final = HOLE
 _NAME = re.compile(r"(?<![\w./+\1-])[A-Za-z_][\w.+-]*(?:::[\w.+-]+)*(?![\w./+:-])")
 _NO_ROS_HEADERS: Final = (TREE, f"/{ATOM}build", f"/{ATOM}prefix", "/usr/")
-"""Folders without headers of other ROS packages."""
+"""Starts of the paths of folders that have no headers of other ROS packages."""
 
 
 def record_header_sources(run: Run, target: str, args: Iterable[str]) -> None:
-    """Record from where a target gets headers. ``args`` are evaluated arguments: targets, libraries and paths.
+    """Record where a target gets headers from: ``args`` are targets, libraries and paths, already evaluated.
 
-    An argument of unknown value is recorded as the packages whose variables it contains, each as ``package::``.
+    For an argument with an unknown value, the packages of its variables are recorded: ``${foo_LIBRARIES}`` as ``foo::``.
     """
     header_sources = run.results.headers.setdefault(target, {})
     is_complete = True
@@ -78,7 +79,7 @@ def _names(run: Run, arg: str) -> tuple[str, ...]:
 def _packages_of_variables(run: Run) -> list[str]:
     """Return the packages whose variables the current command uses: ``${foo_LIBRARIES}`` -> ``foo::``.
 
-    The result contains _ANYTHING if another part of an argument is unknown.
+    The result contains HOLE, which means any package, if another part of an argument is unknown.
     """
     command = run.frames[-1].command
     names: list[str] = []
@@ -91,9 +92,10 @@ def _packages_of_variables(run: Run) -> list[str]:
 
 
 def _package(run: Run, variable: re.Match[str]) -> str:
-    """Return ``foo::`` for the variable ``${foo_LIBRARIES}`` of a found package ``foo``.
+    """Return ``foo::`` for a reference ``${foo_LIBRARIES}`` to a variable of a found package ``foo``.
 
-    The result is _ANYTHING if no found package has the prefix of the variable, or if the script itself sets the variable.
+    The result is HOLE, which means any package, if no found package has the prefix of the variable, or if the script itself
+    sets the variable.
     """
     name = run.packages.with_prefix(variable[1]) if run.normal(variable[0][2:-1]) is None else ""
     return f"{name}::" if name else _ANYTHING
@@ -121,7 +123,7 @@ _PROPERTIES: Final = frozenset(
 
 
 def are_in_flags(run: Run) -> bool:
-    """Return whether the compiler flags for all targets contain include directories."""
+    """Return whether the compiler flags for all targets have include directories (-I, -isystem)."""
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
@@ -132,7 +134,7 @@ _MOST_LINKED: Final = 1_000
 def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
     """Return the names of the packages (and libraries) whose headers the target ``name`` may include, sorted.
 
-    None if the target may include headers of any package, or links too many targets to follow them all.
+    The result is None if the target may include headers of any package, or if it links too many targets to follow all.
     """
     packages: dict[str, None] = {}
     pending = [name, ALL_TARGETS]

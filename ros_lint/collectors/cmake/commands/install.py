@@ -28,7 +28,7 @@ _FILE_WORDS: Final = {
 _WRITES = re.compile(
     r"\bfile\s*\(|symlink|\bcopy|\binstall|\b(?:ln|cp|mv)\b|configure_file|rename|\btar\b|\bmake\b", re.IGNORECASE
 )
-"""Words in install(CODE) that write or copy files."""
+"""Pattern of the words in install(CODE) that write or copy files."""
 
 
 def _install(run: Run, args: list[str]) -> None:
@@ -97,7 +97,7 @@ def _install_file(run: Run, value: str, path: str, program: bool, certain: bool,
 
 
 def _may_exist(run: Run, value: str) -> bool:
-    """Return whether a file may exist at a partly known path. True for a path outside of the package."""
+    """Return whether a file may exist at a partly known path. The result is True for a path outside of the package."""
     home = f"{run.paths.absolute('')}/"
     if value.startswith(home):
         inside = value[len(home) :]

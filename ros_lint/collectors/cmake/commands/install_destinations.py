@@ -1,4 +1,4 @@
-"""Destinations of install() in the install prefix, and the facets of the package that they belong to."""
+"""Destinations of install(), and the kinds of facts about a package (``Facet``) to which the installed files belong."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TYPES: Final = {
 
 
 def facet_of(run: Run, destination: str | None) -> Facet:
-    """Return the facet of files that are installed to a destination, ANYWHERE if the destination is unknown."""
+    """Return the kind of facts to which files at a destination belong, such as SHARE; ANYWHERE if it is unknown."""
     if not destination or destination == ".":
         return ANYWHERE
     if destination == "lib":
@@ -33,15 +33,15 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 
 def hide(run: Run, destination: str | None, reason: str) -> None:
-    """Record that the files installed to a destination are unknown. A ``destination`` of None is unknown, too."""
+    """Record that the files in a destination of install() are incompletely known. A ``destination`` of None is unknown, too."""
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 
 def destination_of(run: Run, parts: Mapping[str, Sequence[str]]) -> str | None:
-    """Return the folder to which a call of install() installs, relative to the prefix.
+    """Return the folder to which a call of install() installs, relative to the install prefix.
 
-    ``parts`` are the arguments of the call by keyword (see ``sections()``). None if the folder is unknown or outside of
-    the prefix.
+    ``parts`` are the arguments of the call by keyword (see ``sections()``). The result is None if the folder is unknown or
+    outside of the install prefix.
     """
     destinations = parts.get("DESTINATION")
     if destinations:

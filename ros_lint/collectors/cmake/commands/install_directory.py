@@ -31,11 +31,11 @@ class _Pattern(NamedTuple):
     matches: re.Pattern[str] | Searcher
     excluded: bool
     executable: bool | None
-    """True if its PERMISSIONS include an execute permission, None if it has no PERMISSIONS."""
+    """True if the PERMISSIONS of the pattern have an execute permission, None if the pattern has no PERMISSIONS."""
 
 
 class _Rule(NamedTuple):
-    """The options of an install(DIRECTORY), which apply to all its folders."""
+    """The options of one install(DIRECTORY). They apply to all of its folders."""
 
     patterns: list[_Pattern]
     only: bool
@@ -46,7 +46,7 @@ class _Rule(NamedTuple):
 
 
 def install_directories(run: Run, args: list[str]) -> None:
-    """Run ``install(DIRECTORY args...)``."""
+    """Run ``install(DIRECTORY args...)``: record the installed files."""
     at = min([args.index(word) for word in ("PATTERN", "REGEX") if word in args], default=len(args))
     parts = sections(args[:at], _WORDS)
     destination = destination_of(run, parts)
@@ -112,7 +112,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
 
 
 def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
-    """Return the files that the build generates below a folder, sorted, and whether it also generates unknown files there."""
+    """Return the files below a folder that the build generates, sorted, and whether it also generates unknown files there."""
     below = f"{folder}/" if folder else ""
     generated = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
     folders = [path[:-1] for path in generated if path[-1] == "/"]
@@ -122,7 +122,7 @@ def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
     """Record as installed the files that configure_file() wrote to ``value``, a folder in the build folder.
 
-    The list may be incomplete, because the build may write further files to the folder.
+    The files may be incomplete, because the build may write further files to the folder.
     """
     plain, certain = strip_mark(value)
     folder = run.paths.build_path(plain)
@@ -138,7 +138,7 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 
 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
-    """Return the files below ``source`` that are not files of the package but are installed by install(DIRECTORY).
+    """Return the files below ``source`` that install(DIRECTORY) installs although they do not belong to the package.
 
     They are in nested packages, or in folders with a COLCON_IGNORE.
     """
@@ -157,7 +157,7 @@ def _selection(file: str, top: str, rule: _Rule) -> tuple[bool, bool | None]:
     """Return whether the patterns of install(DIRECTORY) include a file, and whether they make the file executable.
 
     The second value is None if no pattern with PERMISSIONS matches. ``file`` is relative to ``top``, the path of the
-    installed folder as the script writes it: CMake matches the patterns with ``top/file``.
+    installed folder in the script: CMake matches the patterns with ``top/file``.
     """
     end = -1
     while True:  # the folder itself and the folders between it and the file

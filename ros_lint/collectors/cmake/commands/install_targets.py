@@ -17,7 +17,7 @@ from ros_lint.facts.visibility import Facet, Opaque
 
 
 def install_targets(run: Run, args: list[str]) -> None:
-    """Record the targets of ``install(TARGETS args...)``."""
+    """Run ``install(TARGETS args...)``: record the targets."""
     names: list[str] = []
     destinations: dict[str, str] = {}
     exported_in = ""
@@ -63,7 +63,7 @@ def install_targets(run: Run, args: list[str]) -> None:
 
 
 def _may_be_target(run: Run, name: str) -> bool:
-    """Return whether a command so far has defined a target, or may have done so."""
+    """Return whether a command has defined a target so far, or may have defined it."""
     return (
         name in run.targets
         or run.any_variable_may_be_set
@@ -75,7 +75,7 @@ _PYTHON: Final = f"{VARIABLES['PYTHON_INSTALL_DIR']}/"
 
 
 def installed_targets(run: Run) -> Iterator[InstalledFile]:
-    """Yield the files of the installed targets. Call it after the whole script has run."""
+    """Yield the files of the installed targets. This function must be called after the whole script has run."""
     for installed in run.results.installed_targets:
         name, span, conditional = installed.target, installed.span, installed.conditional
         target = real_target(run, name)
@@ -96,7 +96,7 @@ def installed_targets(run: Run) -> Iterator[InstalledFile]:
 
 
 def _built_files(run: Run, installed: InstalledTarget, target: Properties, unsure: bool) -> Iterator[InstalledFile]:
-    """Yield the installed files of an executable or a library: the file that is built, and its versioned links."""
+    """Yield the installed files of an executable or a library: the built file, and its versioned links."""
     name, span, kind = installed.target, installed.span, target["KIND"]
     destination = {"executable": installed.executables, "static": installed.archives}.get(kind, installed.libraries)
     file = output_name(target)

@@ -1,4 +1,4 @@
-"""Modes of list() (cmake-commands(7))."""
+"""The modes of list(), such as list(APPEND) (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -249,7 +249,7 @@ def _transformed(item: str, action: Callable[[str], str]) -> str:
 
 
 def _selected(items: list[str], selector: list[str], budget: Budget) -> Sequence[int]:
-    """Return the indices that a selector of list(TRANSFORM) selects: ``["AT", "-1", "0"]`` -> the last and the first.
+    """Return the indices that a selector of list(TRANSFORM) selects: ``["AT", "-1", "0"]`` -> the last and the first index.
 
     An index may occur repeatedly. Raises ValueError if CMake stops with an error or the elements are unknown.
     """

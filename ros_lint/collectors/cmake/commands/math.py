@@ -1,4 +1,4 @@
-"""math(EXPR): expressions of 64-bit integers with operators of C (cmake-commands(7))."""
+"""math(EXPR): expressions of 64-bit integers with the operators of C (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ros_lint.collectors.cmake.evaluator.values import ELEMENT, HOLE, is_known
 _TOKEN = re.compile(r"\s*(?:(0[xX][0-9a-fA-F]+|[0-9]+)|(<<|>>|[-+*/%|&^~()]))")
 _BINARY: Final = {"|": 1, "^": 2, "&": 3, "<<": 4, ">>": 4, "+": 5, "-": 5, "*": 6, "/": 6, "%": 6}
 _MOST_DIGITS: Final = 19
-"""Digits of a number of 64 bits."""
+"""Maximum number of digits of a signed 64-bit number."""
 _LOWEST, _HIGHEST = -(1 << 63), (1 << 63) - 1
 
 
 class _MathError(Exception):
-    """CMake rejects the expression, or C does not define its value."""
+    """CMake rejects an expression of math(EXPR), or C does not define the value of the expression."""
 
 
 def _math(run: Run, args: list[str]) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def note_started_programs(run: Run, args: Sequence[str], *, optional: bool = False) -> None:
-    """Record mentions of the packages after ``ros2 run`` or ``ros2 launch`` in the arguments of a command.
+    """Record the packages after ``ros2 run`` or ``ros2 launch`` in the arguments of a command.
 
     ``optional`` is True for a custom target that is not built by default.
     """

@@ -1,4 +1,4 @@
-"""Modes of string() (cmake-commands(7))."""
+"""The modes of string(), such as string(REPLACE) (cmake-commands(7))."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _outputs(mode: str, args: list[str]) -> list[str]:
 def _assign(run: Run, name: str, value: str, *texts: str) -> None:
     """Set the variable ``name`` to ``value``, which string() computed from ``texts``.
 
-    If the value is partly unknown and a text has square brackets, the value may have unpaired brackets; this is recorded.
+    If the value is partly unknown and a text has square brackets, it is recorded that the value may have unpaired brackets.
     """
     if HOLE in value and any("[" in text or "]" in text for text in texts):
         run.has_unpaired_brackets = True
@@ -99,7 +99,7 @@ def ascii_lower(text: str) -> str:
 
 
 def _known(function: Callable[..., str]) -> Callable[..., str]:
-    """Return ``function`` for arguments that may be unknown: the result is HOLE if an argument is not fully known."""
+    """Return a version of ``function`` that accepts unknown arguments: the result is HOLE if an argument is not fully known."""
 
     def guarded(*args: str) -> str:
         return function(*args) if all(map(is_known, args)) else HOLE
@@ -246,7 +246,7 @@ _FUNCTIONS: Final[dict[str, tuple[int, Callable[..., str]]]] = {
     "SHA3_384": (0, _hash("sha3_384")),
     "SHA3_512": (0, _hash("sha3_512")),
 }
-"""The index of the output variable among the arguments of each mode, and the function for its value.
+"""By mode: the index of the output variable among the arguments, and the function that computes its value.
 
 The function takes the other arguments."""
 
@@ -312,7 +312,8 @@ def _regex_replace(run: Run, regex: str, new: str, text: str) -> str:
 def replace_all(regex: str, template: str, text: str, budget: Budget) -> str:
     """Return ``text`` with every match of ``regex`` replaced by ``template``, as string(REGEX REPLACE) does.
 
-    HOLE if the result is too long. Raises RegexError if the expression or the template cannot be evaluated.
+    The result is HOLE (unknown) if it would be too long. Raises RegexError if the expression or the template cannot be
+    evaluated.
     """
     parts = _replacement(template)
     pieces: list[str] = []

@@ -1,4 +1,4 @@
-"""Commands whose output variables become unknown: they query the machine, or properties that ros-lint does not evaluate."""
+"""Commands whose output variables become unknown: queries of the machine, and of properties that are not evaluated."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ def _unknown(run: Run, name: str) -> None:
 
 
 def _first(run: Run, args: list[str]) -> None:
-    """Run a command whose first argument is its output variable: set the variable to an unknown value."""
+    """Run a command with an output variable as its first argument: set the variable to an unknown value."""
     if args:
         _unknown(run, args[0])
 
 
 def _first_in_cache(run: Run, args: list[str]) -> None:
-    """Run a command whose first argument is its output variable in the cache: set the variable to an unknown value.
+    """Run a command with an output variable in the cache as its first argument: set the variable to an unknown value.
 
     The value remains after the end of a function, because it is in the cache.
     """
@@ -29,7 +29,7 @@ def _first_in_cache(run: Run, args: list[str]) -> None:
 
 
 def _last_in_cache(run: Run, args: list[str]) -> None:
-    """Run a command whose last argument is its output variable in the cache: set the variable to an unknown value."""
+    """Run a command with an output variable in the cache as its last argument: set the variable to an unknown value."""
     if args:
         _unknown_in_cache(run, args[-1])
 
@@ -49,7 +49,7 @@ def _host(run: Run, args: list[str]) -> None:
 
 
 def _path(run: Run, args: list[str]) -> None:
-    """Run ``cmake_path()``: set the variable that its mode changes, the input or an output, to an unknown value."""
+    """Run ``cmake_path()``: set the variable that the mode changes, the input or an output, to an unknown value."""
     if len(args) < 2:
         return
     if "OUTPUT_VARIABLE" in args[:-1]:
@@ -73,7 +73,7 @@ _CHANGES_PATH: Final = frozenset(
 def _separate(run: Run, args: list[str]) -> None:
     """Run ``separate_arguments(variable [mode ... text])``.
 
-    Without a mode, the spaces in the value of the variable become semicolons; with a mode, the value becomes unknown.
+    Without a mode, the spaces in the value of the variable become semicolons. With a mode, the value becomes unknown.
     """
     if len(args) != 1:
         _first(run, args)

@@ -1,4 +1,4 @@
-"""Headers that are installed with a target: file sets, and the property PUBLIC_HEADER."""
+"""Headers that are installed with a target: file sets (FILE_SET), and the property PUBLIC_HEADER."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ros_lint.facts.build import InstalledFile
 from ros_lint.facts.visibility import Facet, Opaque
 
 FILE_SET: Final = "FILE_SET "
-"""Prefix of the name of a file set among the names of artifacts."""
+"""Prefix of the keys of file sets among the artifacts of install(TARGETS): ``FILE_SET name``."""
 DESTINATION: Final = "include"
-"""Destination of headers without a DESTINATION in install()."""
+"""Install destination of headers without a DESTINATION in install()."""
 _WORDS: Final = {"FILE_SET": 1, "TYPE": 1, "BASE_DIRS": -1, "FILES": -1}
 
 
 def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
-    """Record the file sets of a target_sources() call, and return all of its sources."""
+    """Record the file sets of a target_sources() call, and return all sources in the call."""
     sources: list[str] = []
     starts = [index for index, arg in enumerate(args) if arg in VISIBILITY or arg == "FILE_SET"]
     for start, end in zip([0, *starts], [*starts, len(args)], strict=True):
@@ -42,9 +42,9 @@ def file_sets(run: Run, target: Properties, args: list[str]) -> list[str]:
 def installed_headers(
     run: Run, name: str, target: Properties, places: tuple[tuple[str, str | None], ...], unsure: bool, span: Span
 ) -> Iterator[InstalledFile]:
-    """Yield the headers that install() installs with a target, given the destination of each artifact.
+    """Yield the headers that install(TARGETS) installs, given the destination of each artifact (such as PUBLIC_HEADER).
 
-    An unknown file set or destination hides the libraries of the package.
+    If a file set or a destination is unknown, the libraries of the package are recorded as incompletely known.
     """
     for artifact, destination in places:
         if artifact.startswith(FILE_SET):

@@ -19,9 +19,9 @@ _LIBRARY_TYPES: Final = ("STATIC", "SHARED", "MODULE", "OBJECT", "INTERFACE", "U
 
 
 SOURCES: Final = (".c", ".C", ".c++", ".cc", ".cpp", ".cxx", ".cu", ".m", ".mm", ".h", ".hh", ".hpp", ".hxx", ".in", ".txx")
-"""Suffixes of sources.
+"""Suffixes of source files.
 
-CMake appends them to the name of a source that does not exist (policy CMP0115)."""
+If a source file does not exist, CMake tries its name with each suffix appended (policy CMP0115)."""
 
 
 def _add_executable(run: Run, args: list[str]) -> None:
@@ -63,7 +63,7 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
 def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
     """Record that a target is built from the sources in the arguments: all except the first argument and ``keywords``.
 
-    ``name`` is the name of the target as far as it is known.
+    ``name`` is the known part of the target's name.
     """
     target["SOURCES"] = ""
     if run.conditional:
@@ -186,7 +186,7 @@ def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> Non
 
 
 def note_generated(run: Run, path: str, *, folder: bool = False) -> None:
-    """Record that the build generates a file, or a folder with unknown files."""
+    """Record that the build generates a file, or a folder with unknown files if ``folder`` is true."""
     place = run.paths.source(path)
     if place is not None:
         run.paths.generated.add(f"{place}/" if folder else place)
@@ -199,7 +199,7 @@ def _custom_target(run: Run, args: list[str]) -> None:
 
 
 def output_name(target: Properties) -> str | None:
-    """Return the name of the file that a target builds, None if it is unknown or the target builds none."""
+    """Return the name of the file that a target builds, None if the name is unknown or the target builds no file."""
     kind = target["KIND"]
     specific = {"executable": "RUNTIME", "shared": "LIBRARY", "module": "LIBRARY", "static": "ARCHIVE"}.get(kind)
     if specific is None:
@@ -237,7 +237,7 @@ _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "e
 
 
 def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
-    """Return the targets of the package that a target is linked with. An alias is replaced by its target."""
+    """Return the targets of the package to which a target is linked, each with the place. An alias is replaced by its target."""
     links: dict[str, Span] = {}
     for library, span in run.results.links[name].items():
         target = real_target(run, library)
@@ -247,7 +247,10 @@ def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
 
 
 def real_target(run: Run, name: str) -> Properties | None:
-    """Return the properties of the target ``name``, or of the target that the alias ``name`` stands for; else None."""
+    """Return the properties of the target ``name``; None if there is no such target.
+
+    If ``name`` is an alias, these are the properties of the aliased target.
+    """
     target = run.targets.get(name)
     if target is not None and target["KIND"] == "alias":
         return run.targets.get(target["ALIASED"])
