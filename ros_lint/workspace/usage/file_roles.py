@@ -1,4 +1,4 @@
-"""Determine the role of each file of a package and whether it is in use.
+"""Determine for each file of a package whether it is needed to build, to run or to test, and whether it is in use.
 
 The order of evidence is: membership in targets, inclusion by files in use, names of folders.
 """
@@ -18,36 +18,39 @@ from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.usage.own_files import OwnFiles
 
 _TEST_FOLDERS = auxiliary_files.TEST_FOLDERS | {"gtest"}
-"""Folders whose files serve tests, unless something else determines their role."""
+"""Names of folders whose files serve tests, unless other evidence determines their role."""
 
 _UNBUILT_FOLDERS = frozenset({"doc", "docs", "example", "examples", "tutorial", "tutorials", "tools", "sphinx"})
-"""Folders whose files are often not part of the build and the installation."""
+"""Names of folders whose files are often neither built nor installed."""
 
 _RESOURCES = (".urdf", ".xacro", ".sdf", ".world", ".rviz", ".yaml", ".yml", ".xml")
 
 _RECIPES = frozenset({"conanfile.py", "noxfile.py"})
-"""Files of tools that are not part of a colcon build."""
+"""File names of Python scripts for tools that are not part of a colcon build (Conan, nox)."""
 
 _DOCUMENTATION_FOLDERS = frozenset({"doc", "docs", "sphinx"})
-"""Folders with documentation: programs in them generate it."""
+"""Names of folders with documentation. Programs in them generate the documentation."""
 
 _TEMPLATE_MARKS = (".jinja.", ".j2.", ".tmpl.", ".template.")
-"""Parts of the names of templates, whose products belong to other packages."""
+"""Parts of the names of template files. The files generated from them belong to other packages."""
 
 _PROJECTS = frozenset({"CMakeLists.txt", "setup.py", "pyproject.toml", "package.xml"})
-"""A folder with one of these files is a separate project."""
+"""File names that make a folder a separate project."""
 
 _PROGRAMS = ("lib/", "bin/")
 
 _EXPORTING_COMMANDS = frozenset({"ament_export_include_directories", "ament_export_interfaces", "ament_export_targets", "export"})
-"""Commands that export headers to other packages: these headers are intended to be installed."""
+"""Commands that export headers to other packages. The exported headers are intended to be installed."""
 
 PRODUCTION = Role.BUILD | Role.EXEC
 PUBLIC = Role.BUILD | Role.EXPORT | Role.EXEC
 
 
 class FileRoles:
-    """The roles of the files of one package. Paths are relative to it; ``launched`` are its launch files."""
+    """The roles of the files of one package: what they are needed for, e.g. ``Role.TEST``.
+
+    Paths are relative to the package. ``launched`` has the paths of its launch files.
+    """
 
     def __init__(self, own_files: OwnFiles, launched: Collection[str]) -> None:
         self._own_files = own_files
@@ -95,15 +98,15 @@ class FileRoles:
         return not (path in self._launched and path in self._installed)
 
     def is_optional(self, path: str) -> bool:
-        """Return whether only some builds compile a file, depending on a condition that may be false."""
+        """Return whether only some builds compile a file, because its target or its inclusion depends on a condition."""
         return path in self._optional and (path not in self._public or _stem(path) in self._optional_stems)
 
     def is_started(self, path: str) -> bool:
-        """Return whether users start a file: a launch file or program that is always installed."""
+        """Return whether users start a file. It is then a program or launch file that every build installs."""
         return path in self._started
 
     def serves_tests(self, path: str) -> bool:
-        """Return whether only tests of this package can include a file: no other target does, and it is not installed."""
+        """Return whether only tests of this package can include a file, because no other target does and it is not installed."""
         return path not in self._production and path not in self._installed_headers
 
     def _role(self, path: str) -> tuple[Role, bool]:
@@ -153,7 +156,7 @@ class FileRoles:
     def _may_be_launched(self, path: str) -> bool:
         """Return whether a file in a folder of tests is a launch file that a test or a user may launch.
 
-        If the build script shows all tests that are run, the file must be installed, because then only users launch it.
+        If the build script shows all tests that are run, the launch file must be installed, because then only users launch it.
         """
         sees_all = self._script.cmake.interpreted_tests is not None or self._has_no_tests
         return path in self._launched and (not sees_all or path in self._installed)
@@ -164,15 +167,15 @@ class FileRoles:
         return any(mention.name.startswith("ros/") and mention.via == "include" and not mention.optional for mention in mentions)
 
     def _is_in_test_subdirectory(self, path: str) -> bool:
-        """Return whether a file is in a folder that is built only for tests, and is not always installed."""
+        """Return whether a file is in a folder that CMake adds only to build tests, and is not installed in every build."""
         of_tests = tuple([f"{folder}/" for folder in self._script.cmake.test_subdirectories])
         return path.startswith(of_tests) and path not in self._always_installed
 
     def _is_of_python_package(self, path: str, *, in_unbuilt_folder: bool) -> bool:
-        """Return whether a Python file is almost certainly installed, although the installation is not visible.
+        """Return whether a Python file is almost certainly installed, although the installation cannot be evaluated.
 
-        False for a standalone script, which may be unrelated to the build, and in a folder that is often not installed
-        (``in_unbuilt_folder``), such as ``docs``.
+        The result is False for a standalone script, which may be unrelated to the build. It is also False if
+        ``in_unbuilt_folder``: the file is in a folder that is often not installed, such as ``docs``.
         """
         folder, _, name = path.rpartition("/")
         if in_unbuilt_folder or name == "conf.py" or self._is_beside_script(path) or self._siblings_are_used(path):
@@ -182,7 +185,7 @@ class FileRoles:
     def _is_beside_script(self, path: str) -> bool:
         """Return whether a file is next to the CMakeLists.txt, in the root folder of a CMake package.
 
-        A Python file there usually works on the sources, for example to release them.
+        A Python file there is usually a development tool, for example to make a release.
         """
         return "/" not in path and self._script.of_cmake
 
@@ -198,24 +201,24 @@ class FileRoles:
 
     @cached_property
     def _started_by_tests(self) -> frozenset[str]:
-        """Python files that tests start by name, if only one file has the name."""
+        """Python files whose name occurs in a string of a test, if only one file of the package has the name."""
         run = [facts for path, facts in self._facts.items() if facts.programs and self._is_run(path)]
         named = {name for facts in run for name in facts.programs}
         return frozenset([files[0] for files in map(self._own_files.by_name.get, named) if files is not None and len(files) == 1])
 
     def _siblings_are_used(self, path: str) -> bool:
-        """Return whether other files of the same folder and suffix are built or installed by name."""
+        """Return whether other files of the folder with the suffix of this file are built or installed by name."""
         folder, _, name = path.rpartition("/")
         return f"{folder}/*{name[name.rfind('.') :]}" in self._used_patterns and (name.endswith(".py") or self._sources_known)
 
     @cached_property
     def _sources_known(self) -> bool:
-        """True if the sources of each target are known."""
+        """True if the sources of every target are known."""
         return all(target.sources_known for target in self._script.products.targets)
 
     @cached_property
     def _used_patterns(self) -> frozenset[str]:
-        """Folders with built or installed files, each with the suffix of such a file."""
+        """Folders with built or installed files, each with the suffix of such a file: ``src/*.cpp``."""
         files = {source for target in self._script.products.targets for source in target.sources}
         files.update(self._installed)
         split = [file.rpartition("/") for file in files]
@@ -232,7 +235,7 @@ class FileRoles:
 
     @cached_property
     def _separate_projects(self) -> frozenset[str]:
-        """Folders with separate projects that are not certainly part of the build of this package."""
+        """Folders of separate projects that are not certainly part of the build of this package."""
         split = (file.rpartition("/") for file in self._files)
         return frozenset([folder for folder, _, name in split if folder and name in _PROJECTS]).difference(
             self._script.cmake.subdirectories
@@ -240,12 +243,12 @@ class FileRoles:
 
     @cached_property
     def _runs_python_tests(self) -> bool:
-        """True if Python tests are run: always in a Python package, in CMake packages if the script says so."""
+        """True if Python tests are run: always in a Python package, and in a CMake package whose script runs them."""
         return self._script.cmake.runs_tests or not self._script.of_cmake
 
     @cached_property
     def _has_no_tests(self) -> bool:
-        """True if CMake builds and runs no tests. Then no test starts the files in the folders of tests."""
+        """True if CMake builds and runs no tests, so that no test starts the files in the folders of tests."""
         return not self._runs_python_tests and not any(target.test for target in self._script.products.targets)
 
     @cached_property
@@ -265,7 +268,7 @@ class FileRoles:
 
     @cached_property
     def _public(self) -> frozenset[str]:
-        """Headers that are installed or in the folder ``include``, and headers that these headers include."""
+        """Headers that are installed or in the folder ``include``, and all headers that they include."""
         return self._own_files.include_closure(self._exported_headers)
 
     @cached_property
@@ -281,7 +284,7 @@ class FileRoles:
 
     @cached_property
     def _unreferenced_headers(self) -> frozenset[str]:
-        """Headers in the folder ``include`` that no installed header, compiled file or other package includes.
+        """Headers in the folder ``include`` that no installed header and no compiled file includes.
 
         Empty unless the package builds only programs and exports nothing.
         """
@@ -309,7 +312,7 @@ class FileRoles:
 
     @cached_property
     def _builds_only_tests(self) -> bool:
-        """True if the package has targets, and builds them only together with tests."""
+        """True if the package has targets and builds all of them only for tests."""
         targets = self._script.products.targets
         return self._targets_known and bool(targets) and all(target.test for target in targets)
 
@@ -319,7 +322,7 @@ class FileRoles:
 
     @cached_property
     def _generates(self) -> frozenset[str] | None:
-        """Interface files from which code is generated, None if unknown."""
+        """Interface files from which code is generated; None if they are unknown."""
         if not self._script_known or self._script.hides(Facet.INTERFACES):
             return None
         files = (file for file in self._files if file.endswith(INTERFACES))
@@ -335,7 +338,7 @@ class FileRoles:
 
     @cached_property
     def _optional(self) -> frozenset[str]:
-        """Files that are compiled, or included by compiled files, in some builds only."""
+        """Files that only some builds compile or include."""
         sources = {source for target in self._script.products.targets for source in target.optional_sources}
         return self._own_files.include_closure(sources) - self._production - self._tests if sources else frozenset()
 
@@ -345,9 +348,10 @@ class FileRoles:
         return frozenset([_stem(file) for file in self._optional if file.endswith(SOURCES)])
 
     def _compiled(self, *, test: bool) -> set[str]:
-        """Return the sources that every build compiles for tests (``test`` true), or for all other targets.
+        """Return the sources that every build compiles: for tests if ``test`` is true, else for all other targets.
 
-        If a target has alternative definitions, a source in all of them counts. If every source is conditional, all count.
+        If a target has alternative definitions, a source that is in all definitions counts. If every source is conditional, all
+        count.
         """
         result: set[str] = set()
         optional_by_target: dict[str, list[set[str]]] = {}
@@ -371,7 +375,7 @@ class FileRoles:
 
     @cached_property
     def _started(self) -> frozenset[str]:
-        """Files that users start: launch files and programs that are always installed, and entry points."""
+        """Files that users start: launch files and programs that every build installs, and modules of entry points."""
         always = [(p.source, p.path) for p in self._script.products.installs if p.source and not p.conditional]
         result = {source for source, path in always if source in self._launched or path.startswith(_PROGRAMS)}
         commands = [entry for entry in self._script.products.entry_points if entry.group in ("console_scripts", "gui_scripts")]
@@ -385,7 +389,7 @@ class FileRoles:
 
     @cached_property
     def _beside_launch_files(self) -> frozenset[str]:
-        """Modules that launch files may import from their own folder, after adding it to ``sys.path``."""
+        """Modules that launch files may import from their own folder, after they add the folder to ``sys.path``."""
         result = set()
         for path in self._launched:
             folder = path[: path.rfind("/") + 1]
@@ -401,7 +405,7 @@ class FileRoles:
 
     @cached_property
     def _in_python_packages(self) -> frozenset[str]:
-        """Files of installed Python packages, as far as Python can import them."""
+        """Files of installed Python packages, without Python files that cannot be imported."""
         if not self._script.products.python_packages:
             return frozenset()
         packages = [name.replace(".", "/") for name in self._script.products.python_packages]
@@ -416,7 +420,10 @@ class FileRoles:
         return modules.intersection(self._files).union(importable)
 
     def _plain_folders(self, modules: Iterable[str], packages: Iterable[str]) -> set[str]:
-        """Return folders of modules that are not Python packages and from which nothing is imported."""
+        """Return the folders of ``modules`` that are not Python packages and from which no file of the package imports.
+
+        ``packages`` are the folders of installed Python packages, which are left out.
+        """
         folders = {module.rpartition("/")[0] for module in modules}.difference([package.rstrip("/") for package in packages])
         plain_folders = {folder for folder in folders if f"{folder}/__init__.py" not in self._facts}
         return plain_folders - self._imported_folders if plain_folders else plain_folders

@@ -1,4 +1,4 @@
-"""The inputs of name resolution for one package."""
+"""The data about one package that the resolution of names (headers, modules) to packages needs."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ros_lint.facts.visibility import Opaque
 
 
 class PackageSource(NamedTuple):
-    """A package with its files, as the resolution of names needs it."""
+    """A package with its files and the facts in them, in the form that the resolution of names to packages needs."""
 
     name: str
     path: str
     files: tuple[str, ...]
-    """Paths relative to the package."""
+    """Paths of all files, relative to the package."""
     script: BuildScript | None
     facts: Mapping[str, FileFacts]
-    """Facts by path relative to the package."""
+    """The facts (data that collectors extract from one file), by path relative to the package."""
     launch: tuple[LaunchFile, ...]
     builds_with: str
 
@@ -32,7 +32,7 @@ class PackageSource(NamedTuple):
 
 
 def include_index(sources: Iterable[PackageSource]) -> dict[str, tuple[str, ...]]:
-    """Return the packages that have each header below an ``include`` folder, by include path."""
+    """Return the names of the packages that have each header below a folder ``include``, by the path written in an include."""
     index: dict[str, tuple[str, ...]] = {}
     for source in sources:
         for file in source.files:
@@ -50,7 +50,7 @@ def include_index(sources: Iterable[PackageSource]) -> dict[str, tuple[str, ...]
 
 
 def opaque_of(source: PackageSource) -> tuple[Opaque, ...]:
-    """Return all places that hide a facet of the package."""
+    """Return all places of a package that could not be evaluated, sorted."""
     places: list[Opaque] = list(source.built.opaque)
     for facts in source.facts.values():
         places += facts.opaque

@@ -1,4 +1,4 @@
-"""Find the Python distributions that a package leaves to pip: in its requirement files and in its setup.py."""
+"""Find the Python distributions that a package requires from pip: in its requirement files and in its setup.py."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LINE = re.compile(r"^[ \t]*([A-Za-z][\w.-]*)", re.MULTILINE)
 
 
 def pip_requirements(tree: Tree, folder: str, files: Iterable[str]) -> frozenset[str]:
-    """Return the distributions that ``requirements*.txt`` files and setup.py of a package name, as normalized names.
+    """Return the normalized names of the distributions in the ``requirements*.txt`` files and the setup.py of a package.
 
     ``files`` are the files of the package, relative to its ``folder``.
     """
@@ -22,7 +22,7 @@ def pip_requirements(tree: Tree, folder: str, files: Iterable[str]) -> frozenset
 
 
 def normalized(name: str) -> str:
-    """Return the name of a distribution in lower case and with underscores, so that it may equal the name of its module."""
+    """Return the name of a distribution in lower case and with underscores, the usual form of a module name."""
     return re.sub(r"[-_.]+", "_", name).lower()
 
 

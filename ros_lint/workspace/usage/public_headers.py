@@ -1,4 +1,4 @@
-"""Find installed headers that dependents cannot include."""
+"""Find installed headers that dependents cannot compile."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""From mentions to uses: resolve each name to the package to declare, with its role.
+"""From mentions to uses: resolve each name in a file to the package to declare, and to the role (build, run, test).
 
-Names are not packages: a header path, a Python module, the argument of find_package and a package name are in four
-name spaces. Only this module translates between them.
+A mention is a place with a name that may belong to another package. There are several name spaces: header paths, Python
+modules, arguments of find_package(), package names and others. Only this module translates names to packages.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class ProviderLookup(Protocol):
-    """The look-ups that resolution needs; :class:`ros_lint.knowledge.world.World` implements them."""
+    """The look-ups that the resolution of names needs; :class:`ros_lint.knowledge.world.World` implements them."""
 
     def by_cmake(self, name: str) -> Providers: ...
     def by_macro(self, package: str) -> Providers: ...
@@ -52,26 +52,26 @@ _BUILD_MODULES = frozenset({"setuptools", "distutils", "pkg_resources", "pip"})
 
 _TEST = Role.TEST
 _LOOK_UP_ROLE = Role.EXEC
-"""Role of a package whose files are looked up at run time: nothing is compiled against it."""
+"""Role of a package whose files are looked up at run time, because nothing is compiled against it."""
 
 
 class ProviderMatch(NamedTuple):
-    """The packages that a mentioned name may belong to."""
+    """The packages to which a name in a file may belong."""
 
     providers: tuple[str, ...]
-    """Each name whose declaration satisfies the mention, the best first; empty if none is known."""
+    """Names of packages or rosdep keys, each of which may be declared for the mention, the best first; () if none is known."""
     sure: bool = True
     what: str = ""
-    """Quotation of the mention for a message."""
+    """Text for a message that quotes the place, e.g. ``find_package(rclcpp)``."""
 
 
 _NO_MATCH = ProviderMatch(())
 _INTERFACES = re.compile(r"[a-z][a-z0-9_]*[./](?:msg|srv|action)(?:[./]|\Z)")
-"""Headers and modules of interfaces: only ROS packages have them, even if the package is unknown."""
+"""Matches headers and modules of interfaces. They belong to a ROS package even if it is unknown."""
 _ROS_1_HEADER = re.compile(r"[a-z][a-z0-9_]*_(?:msgs|srvs)/[A-Z]\w*\.h")
-"""Headers of messages as ROS 1 generates them; headers of ROS 2 are in a folder ``msg``."""
+"""Matches headers of messages as ROS 1 generates them. Headers of ROS 2 are in a folder ``msg`` or ``srv``."""
 _TEST_PREFIXES = ("gtest/", "gmock/")
-"""Include prefixes that only tests use when they are in a header without a source."""
+"""Include prefixes for which a header without a source is assumed to serve tests only."""
 
 
 class Resolver:
@@ -97,9 +97,9 @@ class Resolver:
         self._matches: Mapping[Via, dict[str, ProviderMatch]] = {via: {} for via in self._matchers}
 
     def match(self, via: Via, name: str) -> ProviderMatch:
-        """Return the packages that may provide a name of the name space ``via``, for a mention in any package.
+        """Return the packages that may provide ``name``, e.g. a header path. ``via`` is the kind of the name, e.g. "include".
 
-        The package that contains the mention is not left out.
+        The result does not depend on the package that contains the name, and may contain this package.
         """
         matches = self._matches[via]
         match = matches.get(name)
@@ -132,9 +132,9 @@ class Resolver:
         return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> ProviderMatch:
-        """Return ``name`` as an uncertain provider, for code that looks up an unknown package of this name.
+        """Return a match with ``name`` as an uncertain provider, for code that looks up files in an unknown package of this name.
 
-        There is no provider if the name exists in any distribution, may belong to a package that ros-lint cannot read, or is
+        The match is empty if the name exists in any distribution, may belong to a package that ros-lint cannot read, or is
         not a valid package name.
         """
         is_unknown = self.names.resolution(name) == "unknown" and may_be_package(name)
@@ -153,7 +153,7 @@ class Resolver:
     def _unresolved(self, name: str, is_interface: bool = False) -> ProviderMatch:
         """Return the match for a name that neither the workspace nor the target distribution provides.
 
-        The provider is a package of another or a former distribution, or (``is_interface``) the package of an interface.
+        The provider is a package of another or a former distribution, or, with ``is_interface``, the package of an interface.
         The package of an interface is certain only if the workspace declares it.
         """
         resolution = self.names.resolution(name) if name else "unknowable"
@@ -185,9 +185,9 @@ _QUOTATIONS: Mapping[Via, str] = {
 
 
 def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> tuple[Use, ...]:
-    """Return each use of another package, sorted by place.
+    """Return each use of another package, sorted by position.
 
-    ``own_files`` resolves names of the package's own files.
+    ``own_files`` resolves includes and imports of files of the package itself.
     """
     launched = frozenset(strip_folder(source.path, launch.path) for launch in source.launch)
     tests = frozenset(strip_folder(source.path, launch.path) for launch in source.launch if launch.test)
@@ -216,7 +216,7 @@ def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> t
 
 
 def _add_script(source: PackageSource, uses: _Uses) -> None:
-    """Add the uses that result from the build script: names in its commands, and packages that it exports to dependents."""
+    """Add the uses in the build script: names in its commands, and packages that it exports to dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
     unused_finds = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:
@@ -234,9 +234,9 @@ def _add_script(source: PackageSource, uses: _Uses) -> None:
 
 
 class _Uses:
-    """The uses collected in a package.
+    """The uses of other packages that are collected in one package.
 
-    The last of several uses with equal place, package and name space counts.
+    If several uses have equal place, package and kind of name, the last one replaces the others.
     """
 
     def __init__(self, source: PackageSource, own_files: OwnFiles, roles: FileRoles, resolver: Resolver) -> None:
@@ -267,9 +267,10 @@ class _Uses:
         return tuple([use for _, use in sorted(self._by_place.items())])
 
     def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, in_use: bool) -> None:
-        """Add the uses that result from the mentions in a file.
+        """Add the uses for the mentions in a file.
 
-        ``looked_up`` is the role of packages whose files are looked up at run time.
+        A mention is a place with a name that may belong to another package. ``role`` is the role of the file, ``looked_up`` the
+        role of packages whose files are looked up at run time.
         """
         package, match, uses = self.package, self.resolver.match, self._by_place
         own_headers = self._own_files.included(path)
@@ -317,13 +318,16 @@ class _Uses:
             )
 
     def _is_available(self, name: str, provider: str) -> bool:
-        """Return False if a submodule that is not cloned may provide a header or a library."""
+        """Return whether a header or library ``name`` is certainly available from its ``provider``.
+
+        The result is False if a git submodule that is not cloned may contain the header or library instead.
+        """
         if REPOSITORIES.get(name.partition("/")[0]) in self._uncloned:
             return False
         return self.resolver.names.is_package(provider) or self._uncloned.isdisjoint(_WORD.findall(name))
 
     def _may_be_missing(self, name: str, span: Span, provider: str) -> bool:
-        """Return whether an import may fail, so that it requires no declaration.
+        """Return whether an import may fail without harm, so that it requires no declaration.
 
         Either the package imports the module elsewhere as optional, or the file adds a folder of the module's name to
         ``sys.path`` and no package ``provider`` exists.
@@ -348,12 +352,12 @@ class _Uses:
 
 
 def _files_with_optional_imports(source: PackageSource, roles: FileRoles) -> list[str]:
-    """Return the files of the package, except for tests, that contain optional imports."""
+    """Return the files of the package, except for tests, that contain optional imports (``try`` with ``except ImportError``)."""
     return [path for path, facts in source.facts.items() if facts.optional_modules and roles.role(path)[0] is not _TEST]
 
 
 def _add_implicit_uses(source: PackageSource, uses: _Uses) -> None:
-    """Add the implicit use of action_msgs: rosidl generates actions with its types."""
+    """Add the implicit use of action_msgs, because rosidl generates code for actions with types of action_msgs."""
     if source.name == _ACTIONS or not any(interface.startswith("action/") for interface in source.built.products.interfaces):
         return
     for mention in source.built.mentions:
@@ -394,12 +398,12 @@ def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, in_use: bool) -> N
 
 
 def satisfying(uses: Iterable[Use]) -> frozenset[str]:
-    """Return each name whose declaration satisfies a use."""
+    """Return each name of a package or rosdep key that may be declared for one of the uses."""
     return frozenset([name for match in {use.providers for use in uses} for name in match])
 
 
 def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
-    """Return the declared names that satisfy a use: for each use, only the best declared provider."""
+    """Return the declared names that are needed for a use. For each use, only the best declared provider counts."""
     names = frozenset(declared)
     alternatives = {use.providers for use in uses}
     return frozenset([name for match in alternatives for name in [provider for provider in match if provider in names][:1]])

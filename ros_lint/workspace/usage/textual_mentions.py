@@ -1,6 +1,6 @@
-"""Find mentions, in texts of a package, of names that its code does not seem to use.
+"""Search the files of a package as plain text for names of dependencies that its code does not seem to use.
 
-A name with such a mention is not reported as unused.
+A name that occurs in such a file is not reported as unused.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _SKIPPED_PREFIXES = ("changelog", "readme", "license", "licence", "contributing"
 
 
 def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, world: World, types: Types) -> Mapping[str, Span]:
-    """Return a place for each declared name that a text of the package contains and no code uses."""
+    """Return a place for each declared name that no code uses, but that occurs in the text of a file of the package."""
     if not is_build_visible(package):
         return {}
     declared = [d.name for d in package.declared if d.always and _needs_a_trace(world, d)]
@@ -63,7 +63,10 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
 
 
 def _needs_a_trace(world: World, declared: Declared) -> bool:
-    """Return whether a rule asks for traces of a dependency: for the build, or messages for tests."""
+    """Return whether a rule reports a dependency of which it finds no occurrence.
+
+    These are dependencies for the build, and test dependencies on message packages.
+    """
     tag = declared.depend.tag
     if tag == "test_depend":
         released = world.released(declared.name)
@@ -72,7 +75,7 @@ def _needs_a_trace(world: World, declared: Declared) -> bool:
 
 
 def _find_commands_in_pages(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
-    """Return a place for each package from which ``ros2 run`` or ``ros2 launch`` starts something in a documentation page.
+    """Return a place for each package that occurs in a ``ros2 run`` or ``ros2 launch`` command in a documentation page.
 
     If a page cannot be read, its start is the place for every name, because the page may contain the commands.
     """
@@ -91,7 +94,7 @@ def _find_commands_in_pages(names: Sequence[str], tree: Tree, package: Package) 
 
 _PAGES = (".md", ".rst")
 _START = re.compile(rb"ros2 +(?:run|launch) +([a-z][a-z0-9_]*)")
-"""A command line in a documentation page."""
+"""Matches ``ros2 run PACKAGE`` and ``ros2 launch PACKAGE`` in a documentation page."""
 
 
 def possibly_used(tree: Tree, package: Package, source: PackageSource, world: World, types: Types) -> frozenset[str]:
@@ -99,11 +102,11 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
 
     Each of these suffices:
 
-    * A text other than a build script contains the name: a namespace is often available through a header of another
-      package.
+    * The text of a file other than a build script contains the name: a namespace is often available through a header of
+      another package.
     * C or C++ code contains a type, function or macro that begins with the name: ``rmw_request_id_t``, ``RCUTILS_LOG_INFO(``.
-    * The script uses a variable of the package for more than linking.
-    * A header of an unknown package may be one of its headers.
+    * The script uses a CMake variable of the package for more than linking.
+    * An included header of an unknown package may belong to the package.
     """
     unused = [mention.name for mention in unused_finds(package) if not is_traceless_by_name(world, mention.name)]
     if not unused:
@@ -125,7 +128,7 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
 
 
 def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> frozenset[str]:
-    """Return the names with which a type, function or macro of C begins, outside comments."""
+    """Return those of the names with which a type, function or macro in C code begins, outside comments."""
     result: set[str] = set()
     for path, data in files if names else ():
         for name in names:
@@ -139,7 +142,7 @@ def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -
 
 
 _OF_C = rb"\b(?:%(name)s_(?:\w+_t\b|\w*[a-z0-9][ \t]*\()|%(NAME)s_[A-Z0-9_]+[ \t]*\()"
-"""A name of a C library, which has no namespaces: a type, a function or macro that is called."""
+"""Matches a name of a C library, which has no namespaces: a type, or a function or macro that is called."""
 _C_SUFFIXES = (".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx")
 
 
@@ -164,7 +167,7 @@ def find_unwritten_classes(tree: Tree, package: Package) -> frozenset[str]:
 
 
 _COMPOSING_MACRO = re.compile(rb"#[ \t]*define\b(?:[^\n]|\\\n)*(?:PLUGINLIB_EXPORT_|CLASS_LOADER_REGISTER_)CLASS")
-"""A definition of a macro that exports classes: it may also compose their names."""
+"""Matches the definition of a macro that exports classes, because it may also compose their names."""
 
 _CODE_SUFFIXES = (".c", ".cc", ".cpp", ".cu", ".cxx", ".em", ".h", ".hh", ".hpp", ".hxx", ".in", ".inl", ".ipp", ".jinja", ".py")
 """Suffixes of sources and of templates of sources."""
@@ -173,7 +176,7 @@ _CODE_SUFFIXES = (".c", ".cc", ".cpp", ".cu", ".cxx", ".em", ".h", ".hh", ".hpp"
 def _unknown_folders(package: Package, source: PackageSource) -> frozenset[str]:
     """Return the first folder of each included header that no known package provides.
 
-    The name of its package often begins with this folder: ``moveit_core`` provides ``moveit/planning_scene.h``.
+    The name of the package with the header often begins with this folder: ``moveit_core`` provides ``moveit/planning_scene.h``.
     """
     used = {use.span for use in package.uses if use.via == "include"}
     headers = {
@@ -187,7 +190,10 @@ def _unknown_folders(package: Package, source: PackageSource) -> frozenset[str]:
 
 
 _VARIABLE = rb"\$\{%s_(?!(?:TARGETS|LIBRAR|INCLUDE_DIR|DEFINITIONS|FOUND|VERSION)\w*\})"
-"""A variable of a found package that is used for more than linking, for example its list of files."""
+"""Matches a CMake variable of a found package that is used for more than linking, for example its list of files.
+
+Example: ``${robot_MESHES}``, but not ``${robot_LIBRARIES}``.
+"""
 
 _SCRIPT_SUFFIXES = ("CMakeLists.txt", ".cmake")
 
@@ -211,11 +217,11 @@ def find_mentions(
     *,
     whole_names: bool = False,
 ) -> dict[str, Span]:
-    """Return a place for each name that is a word in one of the files, outside comments; dashes equal underscores.
+    """Return a place for each name that is a word in one of the files, outside comments. Dashes equal underscores.
 
     ``files`` are paths with contents. Several files are searched at once and undecoded, because few contain a name.
-    ``words`` replaces some of the names by other texts, which are searched for anywhere and case-insensitively.
-    With ``whole_names`` a part of a longer name does not count: ``tf2`` is not in ``tf2_ros``.
+    ``words`` maps some of the names to other texts to search for. These texts match anywhere and case-insensitively.
+    With ``whole_names``, a part of a longer name does not count: ``tf2`` is not in ``tf2_ros``.
     """
     places: dict[str, Span] = {}
     for batch in _batches(files):
@@ -226,11 +232,11 @@ def find_mentions(
 
 
 _BATCH = 1 << 24
-"""Bytes of texts that are searched together; most packages have less."""
+"""Number of bytes that are searched together; most packages have less."""
 
 
 def _batches(files: Iterable[tuple[str, bytes]]) -> Iterator[list[tuple[str, bytes]]]:
-    """Yield the files in batches. A batch ends with the file that reaches the size limit."""
+    """Yield the files in batches. A batch ends with the file that reaches the size limit ``_BATCH``."""
     batch: list[tuple[str, bytes]] = []
     size = 0
     for path, data in files:
@@ -275,7 +281,8 @@ def _search_words(words: Sequence[str], data: bytes) -> tuple[int, bytes]:
 def _search_spellings(name: str, whole_names: bool, data: bytes) -> tuple[int, bytes]:
     """Return the offset of a package name in ``data`` and its spelling there, -1 and b"" if no spelling of the name occurs.
 
-    ``whole_names`` ignores the name where it is joined to another word by ``-`` or ``_``.
+    A spelling is a form of the name in code: ``nav_core``, ``nav-core``, ``nav::core``. ``whole_names`` ignores the name where it
+    is joined to another word by ``-`` or ``_``.
     """
     joining = _WORD_JOINERS if whole_names else b""
     places = ((_find_word(data, spelling, joining), spelling) for spelling in _present_spellings(name, data))
@@ -296,9 +303,9 @@ def _without_comments(path: str, data: bytes) -> bytes:
 def find_code_mentions(
     names: Sequence[str], source: PackageSource, words: Mapping[str, Sequence[str]], is_searched: Callable[[str], bool]
 ) -> dict[str, Span]:
-    """Return a place for each name in includes and imports, from the collected facts, without reading texts.
+    """Return a place for each name that occurs in an include or import, from the collected facts, without reading files.
 
-    ``names`` and ``words`` are those of :func:`find_mentions`; ``is_searched`` decides which files are searched.
+    ``names`` and ``words`` have the meaning as in :func:`find_mentions`. ``is_searched`` decides which files count.
     """
     mentions = [
         mention
@@ -312,11 +319,11 @@ def find_code_mentions(
 
 
 _LITERAL_SPACES: frozenset[Via] = frozenset({"include", "import", "symbol"})
-"""Name spaces of mentions whose name is literally in the source."""
+"""Kinds of names that are literally in the source."""
 
 
 def _present_spellings(name: str, data: bytes) -> Iterator[bytes]:
-    """Yield the spellings of a name whose last part is in ``data``.
+    """Yield the spellings of a package name (``nav_core``, ``nav::core``) whose last part is in ``data``.
 
     The last parts are searched first because they are rarer than the first parts.
     """
@@ -334,7 +341,7 @@ _SEPARATOR = re.compile(rb"[-_/]|::")
 
 
 def _spellings(name: str) -> tuple[str, ...]:
-    """Return the spellings of a package name: with dashes, as a nested namespace, as an include folder.
+    """Return the forms of a package name in code: with dashes, as a nested namespace, as an include folder.
 
     Code in the outer namespace omits it, and libraries omit the prefix ``lib``. Conversions of tf2 are selected by
     the types of their arguments, so only ``tf2`` is in the code.
@@ -355,7 +362,7 @@ _WORD_JOINERS = b"-_"
 
 
 def _find_word(data: bytes, word: bytes, joining: bytes) -> int:
-    """Return the offset of a word, -1 if there is none. This is many times faster than a pattern.
+    """Return the offset of a word, -1 if there is none. This is many times faster than a regular expression.
 
     ``joining`` are the bytes that belong to a word besides letters and digits. If ``word`` ends with neither a letter nor a
     digit (``tf2::``), any byte may follow it.

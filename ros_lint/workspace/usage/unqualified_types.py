@@ -1,6 +1,6 @@
 """Find types of other packages that C++ code uses by unqualified names.
 
-The code contains neither an include of the package nor its name. Examples:
+The code contains neither an include of the other package nor its name. Examples:
 
 * `route_handler::RouteHandler` inside the outer namespace of both packages,
 * a class, through a using-declaration of a third package,
@@ -31,7 +31,7 @@ _CODE = (*HEADERS, *SOURCES)
 
 
 class _TypeNames(NamedTuple):
-    """The names of a package's types and namespaces, by which C++ code shows that it uses the package."""
+    """The names of a package's types and namespaces. Their occurrence in C++ code shows that the code uses the package."""
 
     types: frozenset[bytes]
     spaces: frozenset[bytes]
@@ -58,7 +58,7 @@ class Types:
         self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
 
     def used(self, source: PackageSource, names: Iterable[str]) -> Mapping[str, Span]:
-        """Return a place for each name of a package whose types ``source`` uses unqualified.
+        """Return a place for each of the packages ``names`` whose types ``source`` uses by unqualified names.
 
         For a package of the workspace, the types are those that its public headers declare. For a package of
         interfaces, they are the names that public headers of transitive dependencies give to its messages.
@@ -102,7 +102,7 @@ class Types:
         return self._public[source.name]
 
     def _message_aliases(self, name: str, package: str, file: str) -> Set[bytes]:
-        """Return the names that a header gives to messages of a package. The header is read once."""
+        """Return the names that a header gives to messages of a package (``using pkg::msg::Type;``). The header is read once."""
         source = self._by_name[package]
         key = join(source.path, file)
         if key not in self._introduced:
@@ -111,7 +111,7 @@ class Types:
 
     @cached_property
     def _headers_by_package(self) -> Mapping[str, Sequence[tuple[str, str]]]:
-        """The public headers that mention each package, by package name: pairs of the package with the header, and its path."""
+        """The public headers that mention each package, by package name: the package with the header, and the header's path."""
         headers: dict[str, dict[tuple[str, str], None]] = {}
         for source in self._by_name.values():
             for file in filter(_is_public, source.files):

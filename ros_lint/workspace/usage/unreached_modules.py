@@ -15,13 +15,13 @@ _PROGRAMS = ("lib/", "bin/")
 
 
 def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], others: Sequence[PackageSource]) -> frozenset[str]:
-    """Return the modules with imports of ``uses`` that no started file of the package imports, directly or indirectly.
+    """Return the modules that contain an import of ``uses``, but that no started file of the package imports, even indirectly.
 
     Paths are relative to the package. Started files are entry points, installed programs, launch files, tests, and Python
     files outside of the installed Python packages. Modules that the packages ``others`` import count as reached. The result is
     empty if:
 
-    - nothing is started by name, as in a library,
+    - no file is started by name, as in a library,
     - a reached file computes names of imported modules,
     - a reached file cannot be read.
     """
@@ -42,7 +42,7 @@ def _top(file: str) -> str:
 
 
 def _started(source: PackageSource, modules: Sequence[str]) -> Iterator[str]:
-    """Yield the modules that are started by name: entry points, programs, launch files, tests and modules that texts name."""
+    """Yield the modules that are started: entry points, programs, launch files, tests, and modules with their file name in code."""
     script = source.built
     yield from (module.path for module in script.python.entry_point_modules)
     yield from (file.source for file in script.products.installs if file.path.startswith(_PROGRAMS) and not file.importable)
@@ -69,7 +69,7 @@ def _imported_elsewhere(modules: Iterable[str], tops: frozenset[str], others: It
 
 
 def _reached(tree: Tree, source: PackageSource, starts: Iterable[str]) -> frozenset[str] | None:
-    """Return the files ``starts`` with all Python files that they import, directly or indirectly; None if that is unknown."""
+    """Return the files ``starts`` with all Python files that they import, even indirectly; None if the imports are not known."""
     files = frozenset([file for file in source.files if file.endswith(".py")])
     by_import = _by_import(files)
     reached: set[str] = set()
@@ -89,7 +89,7 @@ def _reached(tree: Tree, source: PackageSource, starts: Iterable[str]) -> frozen
 
 
 def _by_import(files: Iterable[str]) -> Mapping[str, Sequence[str]]:
-    """Return the files that an import may mean, by the imported path from any folder.
+    """Return, for each path that an import may contain, the files to which the import may refer.
 
     ``src/robot/arm.py`` is the file of ``robot/arm``, of ``arm`` and of ``robot/*``.
     """

@@ -12,14 +12,14 @@ from ros_lint.workspace.usage.visibility import problems_hide_uses
 
 
 def unused_finds(package: Package) -> Iterator[Mention]:
-    """Yield the first required find_package() of each name that no code uses; calls for tests are left out.
+    """Yield, for each package that no code uses, its first required find_package() call. Calls for tests are left out.
 
-    A target that is linked or exported is not a use by code. These count as uses:
+    To link or export a target of the package is not a use by code. These count as uses:
 
     * plugins that a macro gets by name,
     * packages of interfaces, unless all interface files are read and no field has a type of the package.
 
-    Nothing is yielded if something hides uses of the package.
+    The result is empty if parts of the package that may use other packages could not be evaluated.
     """
     script = package.script
     if script is None or problems_hide_uses(script) or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):

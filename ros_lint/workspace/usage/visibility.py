@@ -1,4 +1,4 @@
-"""Predicates about whether ros-lint can find all uses of a package: nothing in its build or launch files hides a use."""
+"""Predicates about whether ros-lint can find all uses of other packages in a package: no unknown value hides a use."""
 
 from __future__ import annotations
 
@@ -13,24 +13,26 @@ if TYPE_CHECKING:
 
 
 def is_traceless_by_name(world: World, name: str) -> bool:
-    """Return whether a name alone suggests that its uses leave no trace.
+    """Return whether the name of a package suggests that no file of its dependents mentions it.
 
-    True for a name that is not a package of the workspace or of ROS, a rosdep key, a linter, a generator or similar.
+    The result is True for a name that is not a package of the workspace or of ROS, a rosdep key, a linter, a generator or
+    similar.
     """
     return not world.is_package(name) or world.is_key(name) or name_suggests_no_trace(world, name)
 
 
 def name_suggests_no_trace(world: World, name: str) -> bool:
-    """Return whether the name of a package is typical of packages whose uses leave no trace, such as linters.
+    """Return whether a package is one that dependents use without mentioning it in any file, such as a linter.
 
-    False for a package of the workspace that provides macros: the macros are evaluated, so its use is visible.
+    The name decides. The result is False for a package of the workspace that provides macros, because ros-lint evaluates the
+    macros and so finds its uses.
     """
     names = world.knowledge.names
     return names.leaves_no_trace(name) and not (world.layer(name) == "workspace" and names.provides_macros(name))
 
 
 def problems_hide_uses(script: BuildScript) -> bool:
-    """Return whether an error of a build script leaves uses of packages unknown.
+    """Return whether an error in a build script leaves unknown which packages the script uses.
 
     A missing folder, mesh or page hides no use: Git keeps no empty folders, so a missing folder is mostly an empty folder.
     """
@@ -46,19 +48,19 @@ _HIDING_NOTHING: Final = frozenset({
 })  # fmt: skip
 """Kinds of problems in commands and options whose effect on the used packages is known."""
 _WITHOUT_USES: Final = ("/", ".dae", ".md", ".obj", ".pcd", ".pgm", ".png", ".rst", ".stl", ".STL")
-"""Endings of missing folders and of files that can name no package."""
+"""Ends of the paths of missing files and folders that cannot contain the name of a package."""
 
 
 def is_fully_visible(package: Package) -> bool:
-    """Return whether nothing in the build and the launch files of a package hides a use of another package."""
+    """Return whether ros-lint can evaluate everything in the build and the launch files that may use another package."""
     return is_build_visible(package) and not package.hidden(Facet.USES)
 
 
 def is_build_visible(package: Package) -> bool:
-    """Return whether nothing in the build of a package hides a use of a library.
+    """Return whether ros-lint can evaluate everything in the build of a package that may use a library.
 
-    False if the package builds nothing, or not with ament_cmake or ament_python. Launch files use no libraries, so they are
-    ignored.
+    The result is False if the package builds nothing, or not with ament_cmake or ament_python. Launch files use no libraries, so
+    they are ignored.
     """
     manifest, script = package.manifest, package.script
     if manifest is None or manifest.problems or script is None or problems_hide_uses(script):
@@ -70,7 +72,7 @@ def is_build_visible(package: Package) -> bool:
 
 
 def makes_something(package: Package) -> bool:
-    """Return whether a package builds or installs something of its own, unlike a metapackage."""
+    """Return whether a package builds or installs files of its own, unlike a metapackage."""
     script = package.script
     if script is None or package.opaque or builds_something(package):
         return True
