@@ -29,9 +29,9 @@ class Confidence(IntEnum):
     LOW = 1
     """A hint: the finding is often wrong."""
     MEDIUM = 2
-    """Probably right, but a doubt remains."""
+    """The finding is probably right, but a doubt remains."""
     HIGH = 3
-    """Right in at least 99 of 100 cases."""
+    """The finding is right in at least 99 of 100 cases."""
 
     def __str__(self) -> str:
         return self.name.lower()
@@ -51,19 +51,19 @@ class Fix(NamedTuple):
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
         """Return the fix that makes ``edits``; None if there are no edits, or if an edit is None.
 
-        The functions of the module ``edits`` return None if a file has no place for an edit.
+        Functions that make edits return None if a file has no place for an edit.
         """
         present = tuple([edit for edit in edits if edit is not None])
         return cls(title, present, safe) if present and len(present) == len(edits) else None
 
 
 class Related(NamedTuple):
-    """Another place that matters to a finding."""
+    """A place, besides that of the finding, that matters to the finding."""
 
     message: str
     """Text in lower case without a final full stop."""
     span: Span
-    """The place."""
+    """Position of the place."""
 
 
 class Consequence(NamedTuple):
@@ -79,28 +79,28 @@ class Finding(NamedTuple):
     """A problem at a place. The engine adds the rule and the package."""
 
     message: str
-    """Text in lower case without a final full stop: what is wrong, why it matters, what to write."""
+    """Text in lower case without a final full stop: the problem, why it matters, what to write instead."""
     span: Span
     """Place of the problem."""
     subject: str
-    """The dependency, file or executable concerned.
+    """The dependency, file or executable that the finding is about.
 
     Rule, package and subject identify a finding when lines move, for example in a baseline.
     """
     related: tuple[Related, ...] = ()
-    """Other places that matter."""
+    """Other places that matter to the finding."""
     fix: Fix | None = None
     """The fix of the problem, None if there is none. A rule whose findings have fixes is ``fixable``."""
     confidence: Confidence = Confidence.HIGH
     """Probability that the finding is right. Only HIGH is shown without ``--pedantic``."""
     severity: Severity | None = None
-    """Overrides the severity of the rule for a milder or graver case."""
+    """Severity of this finding if it differs from that of the rule, else None."""
     package: str = ""
-    """Name of the package that has to change. Only checks of a workspace set it."""
+    """Name of the package that has to change. Only rules that check the whole workspace set it."""
     steps: bool = False
     """True if the related places are the steps of a path, such as a cycle or a dependency chain."""
     explains: tuple[Consequence, ...] = ()
     """Findings that probably disappear, or become milder, once this finding is fixed.
 
-    They are not shown beside it if their confidence is not greater.
+    They are not shown beside this finding if their confidence is not greater.
     """

@@ -1,4 +1,4 @@
-"""Build types of packages."""
+"""The build types that package.xml files declare."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def build_types(workspace: Workspace) -> Iterator[tuple[Package, list[Element]]]:
-    """Yield each package whose manifest has no problems, with the ``<build_type>`` elements whose condition is certainly true.
+    """Yield each package whose package.xml has no errors, with its ``<build_type>`` elements whose condition is certainly true.
 
     Packages that colcon cannot use (``workspace.unusable``) are included.
     """

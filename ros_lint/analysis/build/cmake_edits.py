@@ -1,4 +1,4 @@
-"""Edits of CMakeLists.txt in the style of the file. A function returns None if there is no place for the edit."""
+"""Edits of CMakeLists.txt in the style of the file. A function returns None if the file has no place for the edit."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ install(TARGETS {}
 
 
 def at_end(script: BuildScript, code: str) -> Edit | None:
-    """Return the edit that adds commands before ament_package().
+    """Return the edit that adds commands before ament_package(), None if the script has no place for further commands.
 
     Blank lines surround the added commands if a blank line is before ament_package().
     """
@@ -39,25 +39,31 @@ def install_library(script: BuildScript, name: str) -> Edit | None:
 
 
 def install_program(script: BuildScript, kind: str, *names: str) -> Edit | None:
-    """Return the edit that installs programs into ``lib/<package>``. ``kind`` is TARGETS or PROGRAMS."""
+    """Return the edit that installs programs into ``lib/<package>``. ``kind`` is "TARGETS" or "PROGRAMS".
+
+    The result is None if the script has no place for further commands.
+    """
     return at_end(script, f"install({kind} {' '.join(map(_word, names))} DESTINATION lib/${{PROJECT_NAME}})")
 
 
 def install_files(script: BuildScript, paths: Sequence[str], folder: str) -> Edit | None:
-    """Return the edit that installs files into ``share/<package>/<folder>``, or into ``share/<package>`` if ``folder`` is ""."""
+    """Return the edit that installs files into ``share/<package>/<folder>``, or into ``share/<package>`` if ``folder`` is "".
+
+    The result is None if the script has no place for further commands.
+    """
     words = " ".join([*map(_word, paths), "DESTINATION", _word(join("share/${PROJECT_NAME}", folder))])
     return at_end(script, f"install(FILES {words})")
 
 
 def _word(path: str) -> str:
-    """Return a path as an argument, quoted if it contains blanks, parentheses or the like."""
+    """Return a path as an argument of a CMake command, quoted if it contains a blank, "(", ")", "#" or ";"."""
     return f'"{path}"' if re.search(r"[\s()#;]", path) else path
 
 
 def install_folder(package: Package, folder: str) -> Edit | None:
-    """Return the edit that installs a folder to ``share/<package>``.
+    """Return the edit that installs a folder to ``share/<package>``, None if the script has no place for further commands.
 
-    It extends the command that installs other folders there, or else adds a command.
+    The edit extends the install() command that installs other folders to ``share/<package>``, or else adds a command.
     """
     call = _beside(package)
     if call is not None:
@@ -72,7 +78,10 @@ def install_folder_place(package: Package) -> Span | None:
 
 
 def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
-    """Return the edit that adds ``names`` to an existing call of ament_export_dependencies(), or else adds a new call."""
+    """Return the edit that adds ``names`` to an existing call of ament_export_dependencies(), or else adds a new call.
+
+    The result is None if the script has no place for further commands.
+    """
     call = next((call for call in package.calls("ament_export_dependencies") if call.args and not call.blocks), None)
     if call is not None:
         return add_argument(call, *names)
@@ -80,7 +89,7 @@ def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
 
 
 LINKED = "link to the targets of the packages"
-"""The title of the fix by :func:`link_to_targets`."""
+"""Title of the fix that :func:`link_to_targets` makes."""
 
 _NAME = re.compile(r"[A-Za-z]\w*")
 
@@ -102,7 +111,7 @@ def link_to_targets(calls: Iterable[Call], workspace: Workspace) -> Iterator[Edi
 def exports_targets(name: str, workspace: Workspace) -> bool:
     """Return whether a package certainly exports CMake targets, so that ``<package>_TARGETS`` is set.
 
-    Every package of the workspace with this name has to export targets. A package outside of the workspace counts if the
+    Every package of the workspace called ``name`` has to export targets. A package outside of the workspace counts if the
     data about released packages list its exported targets.
     """
     local_packages = workspace.by_name.get(name)
@@ -120,7 +129,7 @@ def add_argument(call: Call, *texts: str) -> Edit:
 
 
 def _append(call: Call, last: int, *texts: str) -> Edit:
-    """Return the edit that adds arguments after argument number ``last`` of a call.
+    """Return the edit that adds arguments after argument number ``last`` of a call, counted from 0.
 
     Each new argument gets its own line if argument ``last`` is not on the line of the argument before it.
     """
@@ -131,7 +140,10 @@ def _append(call: Call, last: int, *texts: str) -> Edit:
 
 
 def _beside(package: Package) -> Call | None:
-    """Return an unconditional ``install(DIRECTORY a b DESTINATION share/<package>)`` without variables and options, or None."""
+    """Return the first plain ``install(DIRECTORY a b DESTINATION share/<package>)``, None if there is none.
+
+    A plain call has no variables and options, and is not inside of a block such as if().
+    """
     for call in package.calls("install"):
         texts = call.texts
         if texts[:1] != ("DIRECTORY",) or call.blocks or texts[-2:-1] != ("DESTINATION",):
@@ -144,9 +156,9 @@ def _beside(package: Package) -> Call | None:
 
 
 def keep_permissions(call: Call) -> Edit:
-    """Return the edit that adds USE_SOURCE_PERMISSIONS to install(DIRECTORY).
+    """Return the edit that adds USE_SOURCE_PERMISSIONS to a call of install(DIRECTORY).
 
-    The keyword comes after the destination, because patterns have to come later.
+    The keyword is added after the destination, because patterns have to follow it.
     """
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")

@@ -1,4 +1,4 @@
-"""Questions of several rules about the commands of a package's build script."""
+"""Look-ups of commands in the build script of a package, for several rules."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from ros_lint.workspace.model import Package
 FINDS_TESTS = frozenset({
     "ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies", "autoware_package",
 })  # fmt: skip
-"""Commands that find all declared test dependencies, including linters, which then run."""
+"""Commands that find all declared test dependencies. If linters are among them, the linters run as tests."""
 
 LINTERS = {
     f"ament_cmake_{linter}": f"ament_{linter}"
     for linter in ("clang_format", "clang_tidy", "copyright", "cppcheck", "cpplint", "flake8", "lint_cmake", "mypy", "pclint",
                    "pep257", "pycodestyle", "pyflakes", "uncrustify", "xmllint")
 }  # fmt: skip
-"""Packages that run linters as tests, each with the command of its linter."""
+"""Packages that run linters as tests, each with the command-line program of its linter."""
 
 
 def stops_early(script: BuildScript) -> bool:
-    """Return whether CMake stops at a syntax error, or at a script or folder that does not exist."""
+    """Return whether CMake stops before the end of a build script, at a syntax error or at a missing script or folder."""
     return any(problem.kind in _STOPS for problem in script.problems)
 
 
@@ -44,12 +44,12 @@ _STOPS = ("cmake-syntax", "missing-folder", "missing-script")
 
 
 def config_names(name: str) -> tuple[str, str]:
-    """Return the two files that find_package() looks for: ``MyLibConfig.cmake`` and ``mylib-config.cmake`` for ``MyLib``."""
+    """Return the two file names that find_package() looks for: ``MyLib`` -> ``MyLibConfig.cmake`` and ``mylib-config.cmake``."""
     return f"{name}Config.cmake", f"{name.lower()}-config.cmake"
 
 
 def has_extras(package: Package) -> bool:
-    """Return whether find_package() of the package runs CMake code of the package (CONFIG_EXTRAS)."""
+    """Return whether find_package() of the package runs CMake code that the package provides (CONFIG_EXTRAS)."""
     if package.built.exports.config_extras:
         return True
     return any("CONFIG_EXTRAS" in text for call in package.calls(*ENDS, anywhere=True) for text in call.texts)
@@ -65,21 +65,21 @@ def installed_targets(call: Call) -> tuple[int, ...]:
 
 
 ENDS = ("ament_package", "ament_auto_package")
-"""Commands that write the CMake configuration and the exports of a package; they come last."""
+"""Commands that write the CMake configuration and the exports of a package. They come last in a CMakeLists.txt."""
 
 REGISTERING = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
-"""Commands that register components; the first argument is the library that contains them."""
+"""Commands that register components. Their first argument is the library that contains the components."""
 
 EXPORTING_PLUGINS = "pluginlib_export_plugin_description_file"
 """The command that installs and exports a plugin description (pluginlib)."""
 
 
 _OWN_TARGET = re.compile(r"[^:\s]+")
-"""The name of a target of this package: one without a namespace."""
+"""Matches the name of a target of the analysed package: a name without a namespace."""
 
 
 def opaque_except_undefined_targets(package: Package, facet: Facet) -> tuple[Opaque, ...]:
-    """Return the places that cannot be evaluated and may therefore hide parts of the package in ``facet``.
+    """Return the places that could not be evaluated and may therefore hide ``facet``, a part of the package.
 
     Left out is an install() of an undefined target of this package: it hides nothing, because CMake rejects it.
     """

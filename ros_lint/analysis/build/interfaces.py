@@ -1,4 +1,4 @@
-"""Generation of code for messages, services and actions."""
+"""How a package generates code for its messages, services and actions."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ class InterfaceGeneration(NamedTuple):
     """The call of rosidl_generate_interfaces() in a package that installs interfaces."""
 
     span: Span
-    """The name of the command."""
+    """Span of the command name."""
     certain: bool
     """True if every build runs the call."""
     reads_manifest: bool
-    """False if the CMake file is in a folder with a package.xml of its own, which CMake reads instead."""
+    """False if the CMake file is in a subfolder with its own package.xml, because CMake reads that package.xml instead."""
 
 
 GENERATING = "rosidl_generate_interfaces"
@@ -25,7 +25,10 @@ GENERATING = "rosidl_generate_interfaces"
 
 
 def interface_generation(package: Package) -> InterfaceGeneration | None:
-    """Return how a package generates its interfaces; None if it installs none or its manifest has errors."""
+    """Return the call by which a package generates its interfaces.
+
+    The result is None if the package installs no interfaces, or if its package.xml has errors.
+    """
     script, manifest = package.script, package.manifest
     if script is None or manifest is None or manifest.problems or GENERATING not in script.commands.names:
         return None

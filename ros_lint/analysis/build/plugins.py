@@ -1,4 +1,4 @@
-"""Plugins of pluginlib: registrations in the sources, descriptions, and the loaders that search for them."""
+"""Plugins of pluginlib: their registrations in C++ sources, their descriptions, and the loaders that search for them."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ class Plugins(NamedTuple):
     """The plugins that a package registers in its sources, and the plugin descriptions (XML files) that it contains."""
 
     macros: Sequence[Registration]
-    """All registrations in the sources."""
+    """All registrations of plugins in the sources."""
     registered: Sequence[Registration]
-    """Registrations of plugins that need a description, without tests and examples."""
+    """Registrations of plugins that need a description. Registrations in tests and examples are left out."""
     installed: Sequence[PluginFile]
-    """Descriptions that are installed."""
+    """Plugin descriptions that are installed."""
     uninstalled: Sequence[PluginFile]
-    """Descriptions that are not installed, except for descriptions of tests and examples."""
+    """Plugin descriptions that are not installed. Descriptions for tests and examples are left out."""
     exports: bool
-    """True if the build script exports descriptions."""
+    """True if the build script exports plugin descriptions."""
 
 
 _NEEDED = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
@@ -54,15 +54,15 @@ def plugins(package: Package) -> Plugins | None:
 def _needs_no_description(macro: Registration) -> bool:
     """Return whether a registered class needs no plugin description.
 
-    True for nodelets of ROS 1, which are not built in ROS 2, and for components, which ROS 2 Crystal registered by
-    ``PLUGINLIB_EXPORT_CLASS`` too.
+    The result is True for nodelets of ROS 1, which are not built in ROS 2, and for components, which ROS 2 Crystal registered by
+    ``PLUGINLIB_EXPORT_CLASS``, too.
     """
     return macro.base.startswith("nodelet::") or macro.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
 
 
 @cached_by_workspace
 def plugin_loaders(workspace: Workspace) -> Mapping[str, Sequence[PluginLoader]]:
-    """Return the plugin loaders in all packages. The keys are the base classes of the plugins that they load."""
+    """Return the plugin loaders in all packages, by the base class of the plugins that they load."""
     loaders: dict[str, list[PluginLoader]] = {}
     for package in workspace.packages:
         for loader in package.loaders:

@@ -1,4 +1,4 @@
-"""Targets and programs of a build script: how they are built, installed and run."""
+"""Targets and programs of a build script: whether they are built, installed and run."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def is_optional_target(package: Package, target: BuildTarget) -> bool:
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
-    """Return whether a program that is missing in ``lib/<package>`` exists elsewhere, so that another rule reports it.
+    """Return whether a program that is missing in ``lib/<package>`` is built or installed to another folder.
 
-    True if CMake builds a program of this name, or if a Python package installs ``bin/<name>``. Callers check before that
-    ``lib/<package>`` does not contain the program.
+    The result is True if CMake builds a program called ``name``, or if a Python package installs ``bin/<name>``. Another rule
+    then reports the program. Callers check before that ``lib/<package>`` does not contain the program.
     """
     script = package.script
     if script is None:
@@ -55,7 +55,7 @@ _RUNS = frozenset({"add_custom_command", "add_custom_target"})
 def may_run_built(script: BuildScript) -> bool:
     """Return whether a custom command of the build may run a program that the package builds.
 
-    The commands that rosidl generates for interfaces do not count.
+    The custom commands that rosidl generates for interfaces do not count.
     """
     calls = (
         [call.name for call in script.commands.calls]
@@ -66,14 +66,14 @@ def may_run_built(script: BuildScript) -> bool:
 
 
 def files_using_client_library(package: Package) -> frozenset[str]:
-    """Return the C++ files that include rclcpp or a library that extends it, relative to the package."""
+    """Return the C++ files that include rclcpp or a library that extends it. Paths are relative to the package."""
     return frozenset(package.relative(use.span.path) for use in package.uses if use.via == "include" and use.package in _CLIENTS)
 
 
 def node_targets(package: Package) -> frozenset[str]:
     """Return the names of the executables that are nodes: one of their files includes rclcpp or a library that extends it.
 
-    The files of an executable are its sources, and headers of the package with the file stem of a source.
+    The files of an executable are its sources, and each header of the package with the file stem of a source.
     """
     files = files_using_client_library(package)
     return frozenset(
@@ -105,15 +105,15 @@ def library_calls(package: Package, _: Workspace) -> Mapping[str, Sequence[Call]
 
 
 def is_declared_shared(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether the command that creates a library contains SHARED or MODULE, unconditionally."""
+    """Return whether an unconditional command that creates the library ``name`` contains SHARED or MODULE."""
     calls = library_calls(package, workspace).get(name, ())
     return any(not call.blocks and not {"SHARED", "MODULE"}.isdisjoint(call.texts) for call in calls)
 
 
 def library_registering(package: Package, registration: Registration) -> str:
-    """Return the name of the library target whose sources register a class.
+    """Return the name of the library target whose sources register a class, "" if no library compiles the source.
 
-    Libraries that are only built for tests do not count. The result is "" if no library compiles the source.
+    Libraries that are only built for tests do not count.
     """
     path = package.relative(registration.span.path)
     for target in package.built.products.targets:
@@ -144,7 +144,7 @@ def install_arguments(package: Package) -> frozenset[str]:
 
 
 def libraries_elsewhere(package: Package, endings: tuple[str, ...]) -> dict[str, InstalledFile]:
-    """Return the libraries that every build installs into ``lib/<package>`` or outside of ``lib``, and nowhere else.
+    """Return the libraries that every build installs only into ``lib/<package>`` or outside of ``lib``.
 
     The keys are the names of the targets, the values are the first installed file of each target. Only installed files
     with one of the endings, such as ".so", count.
@@ -182,7 +182,7 @@ def never_installed_nodes(package: Package) -> frozenset[str]:
 
 
 def partly_installed_nodes(package: Package) -> frozenset[str]:
-    """Return the names of the node executables that are not installed although another node of the package is.
+    """Return the names of the node executables that are not installed although another node of the package is installed.
 
     Left out are:
     - tests, examples and benchmarks, by the name of the target or the folder of a source,

@@ -1,4 +1,4 @@
-"""Determine whether the tests of a package run ament_xmllint, which validates its manifest."""
+"""Determine whether the tests of a package run ament_xmllint, which validates package.xml."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ _EXCLUDED = "AMENT_LINT_AUTO_EXCLUDE"
 
 
 def runs_xmllint(package: Package, workspace: Workspace) -> bool:
-    """Return whether a test of every build certainly runs ament_xmllint on the manifest.
+    """Return whether a test of every build certainly runs ament_xmllint on package.xml.
 
-    CMake calls ``ament_xmllint()``, or finds the test dependencies, and one of them provides the linter. In a package of
-    type ament_python, a test imports ``ament_xmllint``.
+    In an ament_cmake package, CMake calls ``ament_xmllint()``, or finds all test dependencies and one of them provides the
+    linter. In an ament_python package, a test imports ``ament_xmllint``.
     """
     if package.builds_with == "ament_python":
         return any(use.name.partition(".")[0] == "ament_xmllint" and _is_test(use.span.path) for use in package.uses)
@@ -29,7 +29,7 @@ def runs_xmllint(package: Package, workspace: Workspace) -> bool:
 
 
 def _is_test(path: str) -> bool:
-    """Return whether pytest collects a file."""
+    """Return whether pytest collects a file as a test."""
     return path.rpartition("/")[2].startswith("test_") and path.endswith(".py")
 
 
@@ -46,15 +46,15 @@ def _in_every_test_build(call: Call) -> bool:
 def _may_exclude(call: Call) -> bool:
     """Return whether a set() or list() command may exclude ament_cmake_xmllint from the linters that are run.
 
-    True if an argument contains the name of the linter, or if AMENT_LINT_AUTO_EXCLUDE gets the value of a variable.
+    The result is True if an argument contains the name of the linter, or if AMENT_LINT_AUTO_EXCLUDE gets the value of a variable.
     """
     named = any(_LINTER in text for text in call.texts)
     return named or (_EXCLUDED in call.texts and any("$" in text for text in call.texts))
 
 
 def _brings_linter(workspace: Workspace, name: str) -> bool:
-    """Return whether a test dependency makes CMake run ament_xmllint: the linter itself or a package ``*_lint_common``.
+    """Return whether a test dependency makes CMake run ament_xmllint: ament_cmake_xmllint or a package ``*_lint_common``.
 
-    A ``*_lint_common`` package exports its linters. Other packages that depend on the linter at run time do not.
+    A ``*_lint_common`` package exports its linters. Other packages that depend on ament_cmake_xmllint at run time do not.
     """
     return name == _LINTER or (name.endswith("_lint_common") and _LINTER in (workspace.world.depends(name, "x") or ()))

@@ -1,4 +1,4 @@
-"""Packages that the declared dependencies of a package provide transitively."""
+"""The packages that the declared dependencies of a package provide transitively."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
 
 
 def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
-    """Return declared dependencies of a package together with everything that they provide transitively.
+    """Return declared dependencies of a package with their transitive dependencies.
 
     The closure starts from the dependencies declared for any role in ``role``, the packages ``others``, and the
     members of the groups that the package depends on.

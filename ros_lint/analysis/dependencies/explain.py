@@ -20,13 +20,13 @@ _MOST = 5
 
 
 RULES = ("undeclared-dependency", "unused-dependency")
-"""The rules that are explained here."""
+"""Names of the rules whose results are explained."""
 
 
 def explain(package: Package, workspace: Workspace, name: str, confidences: Mapping[str, Confidence]) -> Iterator[str]:
-    """Yield lines: the uses of the dependency, its tags, and for each rule why it reports nothing.
+    """Yield lines of text: the uses of the dependency ``name``, its tags, and for each of the ``RULES`` why it reports nothing.
 
-    ``confidences`` maps the names of the rules that report the dependency to their confidence.
+    ``confidences`` has the rules that report the dependency, each with the confidence of its finding.
     """
     uses = [use for use in package.uses if name in use.providers]
     yield from used_in(uses)

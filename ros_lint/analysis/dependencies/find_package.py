@@ -1,4 +1,4 @@
-"""The packages that a CMake script finds, names and exports."""
+"""The packages that a CMake script searches by find_package(), names and exports."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _AT_BUILD = ("depend", "build_depend", "buildtool_depend")
 
 
 def names_searched(package: Package, script: BuildScript) -> frozenset[str]:
-    """Return the names that CMake searches by find_package(), called directly or by a macro."""
+    """Return the names that CMake searches by find_package(), which the script calls directly or through a macro."""
     names = {mention.name for mention in script.mentions if mention.via == "cmake"}
     calls = frozenset(script.commands.names)
     if calls & _FIND_DECLARED:
@@ -106,7 +106,7 @@ _BUILT = Role.BUILD | Role.EXPORT | Role.TEST
 
 
 def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
-    """Yield the packages that macros such as ament_export_dependencies() name for one of the purposes."""
+    """Yield the places where a macro such as ament_export_dependencies() gets the name of a package, for one of ``purposes``."""
     for mention in script.mentions:
         if mention.via == "target" and mention.purpose in purposes:
             yield mention

@@ -22,20 +22,20 @@ _TEST: Role = Role.TEST
 
 
 class LostProvision(NamedTuple):
-    """A used but undeclared package that no declared dependency provides after a tag is removed."""
+    """A used but undeclared package that no declared dependency provides after the removal of a tag."""
 
     name: str
-    """The undeclared package."""
+    """Name of the undeclared package."""
     package: str
-    """The package that uses the undeclared package."""
+    """Name of the package that uses the undeclared package."""
 
 
 def needed_transitively(package: Package, workspace: Workspace, unused: Sequence[Declared]) -> Mapping[str, LostProvision]:
     """Return the names of unused dependencies that must not be removed, each with a package that would no longer be provided.
 
     Example: this package uses ``b`` without declaring it, and only its unused dependency ``a`` depends on ``b``. Then the
-    result is ``{"a": b}``. Packages of the workspace that get ``b`` through this package count, too. If several unused
-    dependencies provide ``b``, only the last of them is returned.
+    result has the key ``a`` with ``b`` as the lost package. Packages of the workspace that get ``b`` through this package count,
+    too. If several unused dependencies provide ``b``, only the last of them is returned.
     """
     result: dict[str, LostProvision] = {}
     if not _lost(package, workspace, unused):  # common case: if all can be removed, each can
@@ -56,7 +56,7 @@ def needed_transitively(package: Package, workspace: Workspace, unused: Sequence
 
 
 def _lost(package: Package, workspace: Workspace, removed: Sequence[Declared]) -> LostProvision | None:
-    """Return a package that is used but not declared, and no longer provided without the tags ``removed``, or None."""
+    """Return a package that is used but undeclared, and that only the tags ``removed`` provide; None if there is none."""
     spans = {declared.depend.span for declared in removed}
     remaining = [declared for declared in package.declared if declared.depend.span not in spans]
     return _lost_here(package, workspace, remaining, removed) or _lost_above(package, workspace, remaining, removed)
@@ -111,7 +111,7 @@ def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
 def _undeclared_uses_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
     """Return the uses of :func:`undeclared_uses` in all packages of the workspace, by the name of each possible provider.
 
-    Each item has the package that contains the use, and the use. Of several uses in one package with the same providers,
+    Each item has the package that contains the use, and the use. Of several uses in one package with equal providers,
     only the last is listed.
     """
     result: dict[str, list[tuple[Package, Use]]] = {}
@@ -127,7 +127,7 @@ def _undeclared_uses_by_name(workspace: Workspace) -> Mapping[str, Sequence[tupl
 def unused_find_packages(package: Package, workspace: Workspace) -> tuple[Mention, ...]:
     """Return the calls of find_package() for packages that the package does not use.
 
-    Left out are packages whose use may leave no trace in the sources.
+    Left out are packages that can be used without any mention in the sources.
     """
     return tuple(
         [

@@ -3,7 +3,7 @@
 Where a package is built, only its ``build_depend``, ``buildtool_depend`` and ``depend`` are certainly installed; where it
 runs, only its ``exec_depend``, ``build_export_depend`` and ``depend`` (REP 149; bloom/generators/debian/generator.py).
 The run-time and export dependencies of an installed package are always installed with it, because bloom writes them
-into ``Depends`` of its binary package. So only the tag in the manifest of the analysed package matters.
+into ``Depends`` of its binary package. So only the tag in the package.xml of the analysed package matters.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ if TYPE_CHECKING:
 
 
 class Misplaced(NamedTuple):
-    """A need that only dependencies with the wrong tag provide."""
+    """A needed package that only dependencies with the wrong tag provide."""
 
     need: Need
-    """The need with all of its uses."""
+    """The needed package with all of its uses."""
     uses: tuple[Use, ...]
     """The uses that no dependency with the right tag satisfies, best evidence first; never empty."""
     depend: Depend
-    """The tag of the dependency that satisfies the need, but is not installed for this purpose."""
+    """Tag of the dependency that provides the needed package, but is not installed for ``purpose``."""
     purpose: str
-    """The purpose for which the dependency is not installed: "to build this package"."""
+    """Purpose for which the dependency is not installed: "to build this package"."""
 
 
 class _Phase(NamedTuple):
@@ -62,19 +62,19 @@ _PHASES = (
     ),
     _Phase("with this package", Role.EXEC, frozenset({"import", "package"}), Role.EXEC | Role.EXPORT),
 )
-"""Launch files are left out, because another rule reports what they need at run time."""
+"""The situations that are checked. Uses in launch files are left out, because another rule reports them."""
 
 
 @cached_by_package
 def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
-    """Return the undeclared needs that only dependencies with the wrong tag provide.
+    """Return the needed but undeclared packages that only dependencies with the wrong tag provide.
 
     Left out are:
-    - all needs of packages for tests, because all of their dependencies serve tests,
-    - needs of unguarded tests, because the tests have to be guarded,
+    - all packages that are needed by a package for tests, because all of its dependencies serve tests,
+    - packages needed by tests outside of ``if(BUILD_TESTING)``, because the tests have to be moved into it,
     - parts of launch that only launch files import, because ``ros2 launch`` provides them,
-    - needs that another declared dependency provides once its own wrong tag is corrected, because that tag is reported,
-    - needs that a dependency with the right tag may provide: its dependencies are unknown, or it provides the need in
+    - packages that another declared dependency provides once its own wrong tag is corrected, because that tag is reported,
+    - packages that a dependency with the right tag may provide: its dependencies are unknown, or it provides the package in
       another distribution and the user chose no distribution.
     """
     every = needs(package, workspace)
@@ -123,7 +123,7 @@ def _may_provide(closure: Closure, name: str, workspace: Workspace) -> bool:
 
 
 def _of_phase(phase: _Phase, uses: Iterable[Use]) -> list[Use]:
-    """Return the certain uses that belong to a phase."""
+    """Return the certain uses that belong to a phase (build or execution)."""
     return [use for use in uses if use.certain and use.via in phase.vias and use.role & phase.uses]
 
 

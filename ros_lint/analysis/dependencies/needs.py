@@ -1,6 +1,6 @@
-"""The needs of a package: all uses of a name together, and the declared names that satisfy them.
+"""The needs of a package: for each package or rosdep key, all uses together with the declared names that satisfy them.
 
-The rules about dependencies share this module, so that each need is judged once and reported by one rule.
+The rules about dependencies share this module, so that only one of them reports each need.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ class Need(NamedTuple):
     """A package or rosdep key that a package needs, with all its uses."""
 
     name: str
-    """The name to declare."""
+    """Name of the package or rosdep key to declare."""
     uses: tuple[Use, ...]
-    """The places where the name is needed, best evidence first; never empty."""
+    """Places where the name is needed, best evidence first; never empty."""
     declared: tuple[str, ...]
-    """Declared names that satisfy the need, in any tag. () if the need is not declared."""
+    """Declared names that satisfy the need, with any tag. () if the need is not declared."""
     is_transitive: bool
-    """True if a declared dependency provides the need transitively."""
+    """True if a declared dependency provides the needed package transitively."""
 
     @property
     def sure(self) -> bool:
@@ -54,7 +54,7 @@ _TEST = Role.TEST
 
 @cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return the needs that result from the required uses of a package, by the place of their first use.
+    """Return the needs that result from the required uses of a package, sorted by the position of their first use.
 
     A package of ROS 1 has no needs, because its dependencies are not analysed.
     """
@@ -63,7 +63,7 @@ def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 
 @cached_by_package
 def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return the undeclared needs of a package that result only from optional uses, by the place of their first use.
+    """Return the undeclared needs of a package that result only from optional uses, sorted by the position of their first use.
 
     An optional use is, for example, an import in a ``try`` block. Left out are:
     - uses of C++ symbols, because a header of another package may define the symbol,
@@ -110,7 +110,7 @@ def _needs(
     closure_of: Callable[[tuple[str, ...]], Closure],
     is_runtime_library: Callable[[str], bool],
 ) -> Iterator[Need]:
-    """Yield one or two needs that result from ``uses``, the uses of the package ``name``: the declared and the undeclared part.
+    """Yield one or two needs for the ``uses`` of the package ``name``: one for the declared uses, one for the undeclared uses.
 
     Each use has to be satisfied by one of its own providers. Examples: find_package(Eigen3) needs the find module, but a
     header of Eigen only needs the library. A rosdep key of a runtime library (``is_runtime_library``) satisfies no build use.

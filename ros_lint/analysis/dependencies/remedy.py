@@ -1,4 +1,4 @@
-"""Remedies for undeclared dependencies: the tag to write, or why a name cannot be declared."""
+"""Remedies for undeclared dependencies: the tag to write, or the reason why a name cannot be declared."""
 
 from __future__ import annotations
 
@@ -19,32 +19,33 @@ if TYPE_CHECKING:
 
 
 class Remedy(NamedTuple):
-    """The remedy for an undeclared dependency, if one exists."""
+    """The remedy for an undeclared dependency: a tag to add, or the reason why there is none."""
 
     written: str
-    """The element to add, followed by remarks."""
+    """The element to add, followed by remarks: "<depend>x</depend> (only in humble)"."""
     fix: Fix | None
-    """None if the name cannot be declared, if the tag needs a condition, or if colcon rejects the manifest.
+    """The fix that adds the element.
 
-    Such a manifest has to be fixed first.
+    None if the name cannot be declared, if the tag needs a condition, or if colcon rejects the package.xml, which must be
+    corrected first.
     """
     obstacle: str
-    """The reason why the name cannot be declared, which completes "cannot be declared: ", or ""."""
+    """Reason why the name cannot be declared, to complete the message "cannot be declared: ..."; "" if it can be declared."""
     circular: bool
-    """True if the obstacle is that the needed package depends on this package."""
+    """True if the reason is that the needed package depends on this package."""
     certain: bool = True
-    """False if the remedy is circular or colcon rejects the manifest, whatever the evidence is."""
+    """False if the needed package depends on this package, or if colcon rejects the package.xml."""
     conditional: bool = False
     """True if the tag needs a condition, because a distribution to check for lacks the package. Then there is no fix."""
 
     @property
     def ending(self) -> str:
-        """End of a message: ": add <depend>x</depend>", or why the name cannot be declared."""
+        """End of a message: ": add <depend>x</depend>", or the reason why the name cannot be declared."""
         return f", and it cannot be declared: {self.obstacle}" if self.obstacle else f": add {self.written}"
 
 
 def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Remedy:
-    """Return the remedy for a needed package or key that is not declared. The package must have a manifest."""
+    """Return the remedy for a needed package or rosdep key that is not declared. The package must have a package.xml."""
     tag = tag_for(package, workspace, name, role)
     availability = _availability(workspace, name)
     only_in = availability.only_in
@@ -86,25 +87,25 @@ def _condition(distros: Sequence[str], active: Sequence[str]) -> str:
 
 
 def condition_format(package: Package) -> str:
-    """Return the remark that the manifest needs format 3 for a condition (REP 149), with a leading space; "" if it has it."""
+    """Return the remark that a condition (REP 149) needs format 3 of package.xml, with a leading space; "" for format 3."""
     manifest = package.manifest
     return " (a condition needs format 3 of package.xml)" if manifest and manifest.format < 3 else ""
 
 
 def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: bool = True) -> Fix | None:
-    """Return the fix that writes a name into a dependency tag, or None if there are no edits.
+    """Return the fix that makes ``edits``, which write ``name`` into a dependency tag; None if there are no edits.
 
-    Call this for every such fix. The fix is safe only if rosdep resolves the name in every distribution in which the
-    workspace has to build, see :func:`availability_remark`.
+    Every such fix must be made by this function. The fix is safe only if rosdep resolves the name in every distribution for
+    which the workspace has to build, see :func:`availability_remark`.
     """
     return Fix.of(title, *edits, safe=safe and not availability_remark(workspace, name))
 
 
 def availability_remark(workspace: Workspace, name: str) -> str:
-    """Return a remark if a name does not resolve everywhere, such as " (only in humble)", else "".
+    """Return a remark if a name does not resolve in every needed distribution, such as " (only in humble)", else "".
 
     The name has to resolve in the distributions that the user chose, or in every active one if the user chose none.
-    Packages of the workspace and of underlays resolve in all of them.
+    Packages of the workspace and of underlays resolve in all distributions.
     """
     return _availability(workspace, name).remark
 
@@ -112,9 +113,9 @@ def availability_remark(workspace: Workspace, name: str) -> str:
 class _Availability(NamedTuple):
     remark: str = ""
     only_in: tuple[str, ...] = ()
-    """The active distributions with the name, if a distribution to check for lacks it; else empty."""
+    """Active distributions that have the name, if a distribution to check for lacks it; else ()."""
     without: tuple[str, ...] = ()
-    """The distributions to check for that lack the name, if others have it."""
+    """Distributions to check for that lack the name, if other active distributions have it; else ()."""
 
 
 def _availability(workspace: Workspace, name: str) -> _Availability:
@@ -173,7 +174,7 @@ def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[st
 
 
 def _is_exported(package: Package, name: str) -> bool:
-    """Return whether a dependency tag with the name is in <export>, where catkin_pkg ignores it."""
+    """Return whether a dependency tag with the name is inside of <export>, where catkin_pkg ignores it."""
     exports = package.manifest.exports if package.manifest else ()
     return any(element.tag.endswith("depend") and element.text.strip() == name for element in exports)
 

@@ -1,4 +1,4 @@
-"""Choice of the dependency tag for a need, and edits of the manifest, for several rules."""
+"""Choose the dependency tag for a needed package, and make the edits of package.xml, for several rules."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
     """Return the tag that covers all roles of a dependency (REP 149), such as "depend" or "exec_depend".
 
     Exceptions:
-    - "depend" takes the place of "exec_depend" if the manifest declares even run-time dependencies by ``<depend>``, unless
+    - The result is "depend" instead of "exec_depend" if package.xml declares even run-time dependencies by ``<depend>``, unless
       CMake finds and links all declared dependencies.
     - Format 1 has no tag for building and running. The result is "build_depend", and :func:`add_dependency` adds the
       ``<run_depend>``.
@@ -36,15 +36,15 @@ def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> st
 
 
 def _always_depend(package: Package) -> bool:
-    """Return whether the manifest uses ``<depend>`` for all of its build and run dependencies."""
+    """Return whether package.xml uses ``<depend>`` for all of its build and run dependencies, of which there are at least two."""
     tags = [declared.depend.tag for declared in package.declared if declared.role & (Role.BUILD | Role.EXEC | Role.EXPORT)]
     return len(tags) > 1 and set(tags) == {"depend"}
 
 
 def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
-    """Return whether the manifest contains a ``<depend>`` tag for a dependency that is only needed at run time.
+    """Return whether package.xml contains a ``<depend>`` tag for a dependency that is only needed at run time.
 
-    The uses of the dependency decide; without uses, the tags that released packages mostly use for it.
+    The uses of the dependency decide; without uses, the tags that released packages mostly use for the dependency.
     """
     roles: dict[str, Role] = {}
     for use in package.uses:
@@ -66,19 +66,19 @@ def _without(role: Role, part: Role) -> Role:
 
 
 def tags_for(package: Package, tag: str) -> tuple[str, ...]:
-    """Return the tags to write: format 1 needs a ``run_depend`` with each ``build_depend``."""
+    """Return the tags to write instead of ``tag``: in format 1, each ``build_depend`` needs a ``run_depend``, too."""
     assert package.manifest is not None
     return (tag, "run_depend") if package.manifest.format == 1 and tag == "build_depend" else (tag,)
 
 
 def add_dependency(package: Package, tag: str, name: str) -> tuple[Edit, ...]:
-    """Return the edits that declare a dependency. The package must have a manifest."""
+    """Return the edits that declare a dependency. The package must have a package.xml."""
     assert package.manifest is not None
     return tuple(manifest_edits.add(package.manifest, needed_tag, name) for needed_tag in tags_for(package, tag))
 
 
 def change_dependency(package: Package, depends: Sequence[Depend], tag: str, alike: Collection[Depend]) -> tuple[Edit, ...]:
-    """Return the edits that replace all tags of a dependency by one ``tag``. The package must have a manifest.
+    """Return the edits that replace all tags of a dependency by one ``tag``. The package must have a package.xml.
 
     ``depends`` are the tags of the dependency, ``alike`` the tags of all dependencies that the fix changes to ``tag``.
     """
@@ -89,7 +89,7 @@ def change_dependency(package: Package, depends: Sequence[Depend], tag: str, ali
 
 
 def remove_dependency(package: Package, depend: Depend) -> tuple[Edit, ...]:
-    """Return the edits that remove a dependency. The package must have a manifest."""
+    """Return the edits that remove a dependency tag. The package must have a package.xml."""
     assert package.manifest is not None
     return (manifest_edits.remove(package.manifest, depend),)
 
@@ -111,7 +111,7 @@ def _is_only_run(workspace: Workspace, name: str) -> bool:
 
 
 _FEW = 40
-"""Smallest number of released packages that shows a habit."""
+"""The choice of released packages counts only if more than half this number of them made it."""
 
 
 def _is_only_for_building(workspace: Workspace, name: str) -> bool:
@@ -124,12 +124,12 @@ TEST_LIBRARIES = frozenset({
     "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest", "benchmark", "gmock_vendor", "google-mock",
     "google_benchmark_vendor", "gtest", "gtest_vendor", "libgmock-dev", "libgtest-dev",
 })  # fmt: skip
-"""Packages and keys that provide test libraries for C++."""
+"""Packages and rosdep keys that provide test libraries for C++."""
 
 TEST_TOOLS = TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
-"""Packages and keys that run tests. Build tools and packages for a kind of tests provide them."""
+"""Packages and rosdep keys that run tests."""
 
 TEST_MODULES = TEST_TOOLS | {
     "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
 }  # fmt: skip
-"""Packages and keys that tests use. Packages for a kind of tests provide them."""
+"""Packages and rosdep keys that only tests use: test libraries, test runners and the test modules of launch."""

@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 def is_library(world: World, name: str) -> bool:
-    """Return whether a name is a rosdep key other than ``python*``. Such a key is a compiled library, useless to launch files."""
+    """Return whether a name is a rosdep key of a compiled library. Every key counts whose name does not begin with ``python``."""
     return world.is_key(name) and not name.startswith("python")
 
 
 def may_be_used_without_trace(package: Package, workspace: Workspace, name: str) -> bool:
     """Return whether a package can use a dependency without naming it in its sources.
 
-    True for:
+    The result is True for:
     - names that are no known package, and rosdep keys,
     - packages whose name suggests it, such as linters and generators,
     - packages with plugins, and packages of the workspace with CMake macros or without any content,
@@ -54,7 +54,7 @@ def is_metapackage(package: Package, workspace: Workspace, name: str) -> bool:
 def only_brings(world: World, name: str) -> bool:
     """Return whether a released package is a metapackage, which only installs other packages.
 
-    Its manifest says so, or it has only run-time dependencies and no known content.
+    Its package.xml says so, or it has only run-time dependencies and no known content.
     """
     released = world.released(name)
     if released is None or "m" in released.flags[1:]:
@@ -87,8 +87,8 @@ def _offers_nothing(world: World, released: Released) -> bool:
 def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
     """Return whether most released packages that declare a name declare it without a build tag.
 
-    The use of such a package may leave no trace in the sources. False for packages of the workspace, and for packages
-    with interfaces but no programs, because code has to name interfaces.
+    Code may use such a package without a mention in the sources. The result is False for packages of the workspace, and for
+    packages with interfaces but no programs, because code has to name interfaces.
     """
     world = workspace.world
     if name in workspace.by_name or not world.is_package(name):
@@ -101,7 +101,7 @@ def is_mostly_runtime(workspace: Workspace, name: str) -> bool:
 
 
 def has_programs(world: World, name: str) -> bool:
-    """Return whether a package has executables, launch files, components or plugins, as far as its content is known."""
+    """Return whether a package is known to have executables, launch files, components or plugins."""
     offers = (world.executables, world.programs, world.launch_files, world.components, world.plugins)
     return any(offer(name).names for offer in offers)
 
@@ -109,8 +109,8 @@ def has_programs(world: World, name: str) -> bool:
 def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
     """Return whether the sources of a package must name the dependency ``name`` if they use it.
 
-    True if ``name`` is a released package with interfaces, or if it has Python modules but no programs and this package has
-    no file that can contain Python code.
+    The result is True if ``name`` is a released package with interfaces, or if it has Python modules but no programs and
+    ``package`` has no file that can contain Python code.
     """
     world = workspace.world
     released = world.released(name)
@@ -121,11 +121,11 @@ def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
 
 
 PYTHON_LIKE = (".py", ".py.in", ".launch", ".launch.xml", ".launch.yaml")
-"""Endings of files that can contain or run Python code."""
+"""Ends of the names of files that can contain or run Python code."""
 
 
 def _lacks_parts(package: Package, world: World) -> bool:
-    """Return whether the package contains a submodule that is not cloned: its contents are unknown."""
+    """Return whether the package contains a git submodule that is not cloned, so that its contents are unknown."""
     return any(folder.rpartition("/")[2] in world.awaited.uncloned for folder in package.unvisited_folders)
 
 

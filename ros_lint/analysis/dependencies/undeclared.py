@@ -1,4 +1,4 @@
-"""Needs that no declared dependency covers."""
+"""The packages that a package needs, but that no declared dependency is or provides."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def manifest_is_complete(package: Package) -> bool:
-    """Return whether the manifest was read to its end, even if colcon rejects it."""
+    """Return whether package.xml was read to its end, even if colcon rejects it."""
     manifest = package.manifest
     return manifest is not None and all(problem.kind not in _CUT_SHORT for problem in manifest.problems)
 
 
 _CUT_SHORT = frozenset({"bare-ampersand", "encoding", "entity", "invalid-xml", "merge-conflict", "no-package", "too-deep"})
-"""Manifest problems after which the rest of the file is unread or unreliable."""
+"""Kinds of errors in package.xml after which the rest of the file is unread or unreliable."""
 
 
 @cached_by_package
 def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool], ...]:
-    """Return the needs that no declared dependency provides, each with True if the need is certain.
+    """Return the needed packages that no declared dependency provides, each with True if the need is certain.
 
     Left out are:
     - packages named only in launch files outside of tests, because another rule reports them,
@@ -43,7 +43,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     - metapackages whose files are looked up, because a metapackage has no files, so the name is probably wrong,
     - packages that package.xml probably declares by a misspelled name, because another rule reports that name,
     - packages that a declared dependency may provide, because its own dependencies are unknown,
-    - packages whose headers are included without find_package(), if the script finds such a dependency.
+    - packages whose headers are included without find_package(), if the script finds a dependency with unknown dependencies.
     """
     unknown = all_declared(package, workspace).unknown
     result = []
@@ -76,8 +76,8 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
 def _must_come_with(unknown: Iterable[str], package: Package, workspace: Workspace, need: Need) -> bool:
     """Return whether one of the packages ``unknown`` must provide the needed package.
 
-    That is so if the package only includes its headers in compiled files: the compiler finds the headers of a ROS package only
-    after find_package() of it or of a package that exports it. ``unknown`` are declared packages with unknown dependencies.
+    ``unknown`` are declared packages with unknown dependencies. The result is True if compiled files only include headers of the
+    needed package: the compiler finds them only after find_package() of the package or of another package that exports it.
     """
     name = need.name
     if not workspace.world.is_package(name) or any(use.via != "include" for use in need.uses if use.certain):
@@ -113,7 +113,7 @@ def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bo
 
 
 def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
-    """Return whether a package exists in the target distribution; if the user chose none, in any distribution."""
+    """Return whether a package exists in the target distribution or, if the user chose no distribution, in any distribution."""
     world = workspace.world
     return world.is_package(name) or (not workspace.target.explicit and bool(world.where_else(name)))
 
@@ -129,7 +129,9 @@ def distros_providing(package: Package, workspace: Workspace, name: str) -> tupl
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:
-    """Return the needs, with two needs joined into one if find_package() and #include name the needed package differently."""
+    """Return the needs, with two needs for one package joined into one need.
+
+    Example: find_package(Eigen3) and an include of ``Eigen/Dense`` give two needs for one package."""
     result: list[Need] = []
     common: list[frozenset[str]] = []  # the packages that provide all uses of a need of the result
     places: dict[str, list[int]] = {}  # indexes of the needs that have, or had, a name or a common provider
@@ -155,7 +157,7 @@ def _joined(missing: Sequence[Need]) -> list[Need]:
 
 
 def _names(use: Use, name: str) -> bool:
-    """Return whether a use names the package itself and not a package that it provides."""
+    """Return whether the text of a use contains ``name`` itself, rather than the name of something that ``name`` provides."""
     return name in (use.package, use.name.partition("/")[0])
 
 
@@ -191,7 +193,7 @@ def only_launched(package: Package, uses: Sequence[Use]) -> bool:
 def is_part_of_launch(package: Package, workspace: Workspace, uses: Iterable[Use]) -> bool:
     """Return whether all uses are imports, in launch files, of packages that are installed together with ``ros2 launch``.
 
-    They are the libraries of launch and, outside tests, their dependencies, such as ``python3-yaml`` and ``lifecycle_msgs``.
+    These packages are the libraries of launch and, outside tests, their dependencies, such as ``python3-yaml``.
     """
     launched = {launch.path for launch in package.launch}
     installed = workspace.world.closure(LAUNCH_RUNTIME)

@@ -13,9 +13,7 @@ from ros_lint.workspace.model import Workspace
 def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, improbable: bool = False) -> bool:
     """Return whether one of the declared names ``unknown``, about which there are no data, could provide the package ``name``.
 
-    ``improbable`` is True if a package must provide it, so the last assumption does not hold.
-
-    The answer follows from these assumptions:
+    ``improbable`` is true if one of them must provide ``name``. The last of these assumptions is then not made:
     - Unknown packages do not depend on packages of this workspace, because repositories do not depend on each other in
       a cycle.
     - Unknown packages that are named like packages of interfaces provide only interfaces.
@@ -52,12 +50,12 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, impr
 
 
 def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
-    """Return whether it is unlikely that one of the unknown names provides a package. True if all of these hold:
+    """Return whether it is unlikely that one of the unknown names provides the package ``name``. All of these must hold:
 
-    - Few released packages provide it.
-    - The target distribution has it.
-    - No other package of this workspace provides it.
-    - Its name has no word in common with the unknown names.
+    - Few released packages provide ``name``.
+    - The target distribution has ``name``.
+    - No other package of this workspace provides ``name``.
+    - ``name`` has no word in common with the unknown names.
     """
     words = _words(name)
     if any(words & _words(unknown_name) for unknown_name in unknown):
@@ -74,9 +72,10 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
 _CHANCE = 0.05
 """Share of released packages up to which it is unlikely that an unknown name provides a package.
 
-Measured on packages without unknown dependencies, each dependency in turn treated as unknown. Below this share it
-provided an undeclared package in 0 of 180 cases (build tools aside); up to twice the share in 10 of 268 cases, mostly
-launch."""
+Measured on packages without unknown dependencies, each dependency in turn treated as unknown. For a package that fewer
+released packages provide, the dependency provided an undeclared package in 0 of 180 cases (build tools aside); up to twice the
+share in 10 of 268 cases, mostly launch.
+"""
 
 _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", "common", "utils", "tools"})
 
@@ -100,7 +99,7 @@ def _found(workspace: Workspace) -> frozenset[str]:
 
 
 def _is_no_package(name: str, workspace: Workspace) -> bool:
-    """Return whether an unknown name is probably not the name of a ROS 2 package. It is one of these:
+    """Return whether an unknown name is probably not the name of a ROS 2 package. The name is then one of these:
 
     - a name that is not valid for a package, such as that of a rosdep key,
     - the build type ament_python,

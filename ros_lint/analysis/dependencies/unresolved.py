@@ -24,7 +24,7 @@ class UnresolvedDependency(NamedTuple):
     tags: tuple[Depend, ...]
     """All tags with the name."""
     matching_uses: tuple[Use, ...]
-    """Uses whose name is this name or a part of it."""
+    """Uses of the declared name or of a module in it (``name.module``)."""
 
     @property
     def name(self) -> str:
@@ -48,7 +48,7 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
     Left out, because other rules report them, are:
     - packages of ROS 1 (catkin),
-    - packages with an unusable manifest,
+    - packages with an unusable package.xml,
     - packages of the workspace that colcon does not find.
     """
     hidden = {package.name for package in workspace.unusable}
@@ -87,9 +87,9 @@ def resembles_ament_package(name: str, workspace: Workspace) -> bool:
 
 @cached_by_package
 def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the packages that the unresolved names in a package's manifest probably mean: ``rclcpp`` for ``rclcp``.
+    """Return the packages that the unresolved names in package.xml probably mean: ``rclcpp`` for ``rclcp``.
 
-    The packages are not reported as undeclared, because the unresolved name is reported.
+    These packages are not reported as undeclared, because the unresolved name is reported.
     """
     result = (
         workspace.world.meant(unresolved_dependency.name, python=unresolved_dependency.runs_python)
@@ -119,7 +119,7 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
     """Return the package that an unresolved name probably means, or "" if there is no such package or more than one.
 
     The result has a similar name, and is used but not declared. If both names have the same words (``robot-talk``,
-    ``talk_robot``), the build script must not contain the unresolved name. Otherwise no file except the manifest may contain it.
+    ``talk_robot``), the build script must not contain the unresolved name. Otherwise no file except package.xml may contain it.
     """
     package, name = dependency.package, dependency.name
     near = [use.package for use in package.uses if _is_same(use.package, name)]
@@ -132,16 +132,16 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
 
 
 def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...]:
-    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or is removed if that is "".
+    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or removed if ``intended`` is "".
 
-    Until then nothing uses the wrong name, and ``intended`` is used but not declared.
+    Until then no code uses the wrong name, and ``intended`` is used but not declared.
     """
     lacking = ("undeclared-dependency", "launch-outside-closure") if intended else ()
     return (Consequence("unused-dependency", name), *(Consequence(rule, intended) for rule in lacking))
 
 
 def is_used_in_sources(dependency: UnresolvedDependency) -> bool:
-    """Return whether a file other than the manifest names the package, which may thus exist."""
+    """Return whether a file other than package.xml contains the name of the dependency, which may thus exist."""
     package, name = dependency.package, dependency.name
     return name in _mentioned(package) or name in package.textual_mentions or any(name in use.providers for use in package.uses)
 

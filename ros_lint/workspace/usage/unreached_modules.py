@@ -42,7 +42,7 @@ def _top(file: str) -> str:
 
 
 def _started(source: PackageSource, modules: Sequence[str]) -> Iterator[str]:
-    """Yield the modules that are started: entry points, programs, launch files, tests, and modules with their file name in code."""
+    """Yield the started modules: entry points, programs, launch files, tests, and modules whose file name is in code."""
     script = source.built
     yield from (module.path for module in script.python.entry_point_modules)
     yield from (file.source for file in script.products.installs if file.path.startswith(_PROGRAMS) and not file.importable)
