@@ -1,1 +1,1 @@
-"""The type of a rule, and the questions that several rules ask of a package and its workspace."""
+"""The type of a rule, and analyses of a package and its workspace that several rules share."""

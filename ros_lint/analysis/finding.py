@@ -51,7 +51,7 @@ class Fix(NamedTuple):
     def of(cls, title: str, *edits: Edit | None, safe: bool = True) -> Fix | None:
         """Return the fix that makes ``edits``; None if there are no edits, or if an edit is None.
 
-        Functions that make edits return None if a file has no place for an edit.
+        The functions of :mod:`ros_lint.api.edits` return None if a file has no place for an edit.
         """
         present = tuple([edit for edit in edits if edit is not None])
         return cls(title, present, safe) if present and len(present) == len(edits) else None

@@ -21,7 +21,7 @@ from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
 
 Includes = Sequence[tuple[Package, Use]]
-"""Includes, each with the package whose source contains it."""
+"""Places that include a header, each with the package whose source contains the include."""
 
 
 class OwnHeaders(NamedTuple):
@@ -30,7 +30,7 @@ class OwnHeaders(NamedTuple):
     files: Sequence[str]
     """Paths relative to the package, at least one."""
     installed: bool
-    """True if headers of the package are installed, in ``include/`` or elsewhere. Those of third-party code do not count."""
+    """True if headers of the package are installed, in ``include/`` or elsewhere. Headers of third-party code do not count."""
     included: Includes
     """The includes of these headers in other packages of the workspace."""
     exports: Sequence[Call]
@@ -44,7 +44,7 @@ class OwnHeaders(NamedTuple):
 
 
 EXPORTING_LIBRARIES = ("ament_export_interfaces", "ament_export_libraries", "ament_export_targets")
-"""Commands that export libraries for other packages to link."""
+"""Commands that export libraries, so that other packages can link to them."""
 _FOLDERS = ("include_directories", "target_include_directories")
 
 
@@ -72,12 +72,12 @@ def own_headers(package: Package, workspace: Workspace) -> OwnHeaders | None:
 
 
 def related_includes(includes: Includes) -> tuple[Related, ...]:
-    """Return the places of the first includes for a finding."""
+    """Return the places of the first four includes, as related places of a finding."""
     return first_related(Related(f"included in '{other.name}'", use.span) for other, use in includes)
 
 
 _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)
-"""Names of packages that a package finds to build plugins of Gazebo."""
+"""Matches names in find_package() that show that a package builds plugins of Gazebo."""
 
 
 def _is_loaded(package: Package, script: BuildScript) -> bool:

@@ -1,4 +1,4 @@
-"""The validation of a manifest by the XML schema of its format."""
+"""The validation of a package.xml by the XML schema of its format."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from ros_lint.facts.manifest import Manifest
 
 
 def violations(manifest: Manifest) -> tuple[validate.Violation, ...]:
-    """Return the violations of a manifest against the schema of its format. catkin_pkg has to accept the manifest."""
+    """Return the violations of a package.xml against the schema of its format. catkin_pkg has to accept the package.xml."""
     return validate.violations(_source(manifest), manifest.format) or ()
 
 
 def named_schema(manifest: Manifest) -> named.NamedSchema | None:
-    """Return the published schema that a manifest names for ament_xmllint, None if it names no published schema."""
+    """Return the published schema that a package.xml names for ament_xmllint, None if it names no published schema."""
     return named.named_schema(_source(manifest))
 
 

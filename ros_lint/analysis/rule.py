@@ -28,7 +28,7 @@ class Rule(NamedTuple):
     4xx install, 5xx launch, 9xx ros-lint itself.
     """
     summary: str
-    """Completes "checks that", lower case, no full stop: "used packages are declared"."""
+    """The end of a sentence that begins with "checks that", in lower case, without a full stop: "used packages are declared"."""
     severity: Severity
     """Severity of the findings of the rule, unless a finding overrides it."""
     since: str
@@ -42,7 +42,7 @@ class Rule(NamedTuple):
     default: bool = True
     """True if the rule runs unless it is deselected; false if it must be selected."""
     fixable: bool = False
-    """True if some of its findings have a fix."""
+    """True if some of the rule's findings have a fix."""
     package: Callable[[Package, Workspace], Iterable[Finding]] | None = None
     """The check of a package. It is called once for each package."""
     workspace: Callable[[Workspace], Iterable[Finding]] | None = None

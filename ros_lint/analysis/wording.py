@@ -1,4 +1,4 @@
-"""Shared parts of messages: shortened lists of names, and related places."""
+"""Limit the number of related places in a finding."""
 
 from __future__ import annotations
 
@@ -11,5 +11,5 @@ _MOST_RELATED = 4
 
 
 def first_related(places: Iterable[Related]) -> tuple[Related, ...]:
-    """Return the first four related places. More do not help the reader."""
+    """Return the first four related places, because more places do not help the user."""
     return tuple(islice(places, _MOST_RELATED))

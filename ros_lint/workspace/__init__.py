@@ -1,1 +1,1 @@
-"""From a tree of files to the model: discover, collect, evaluate and join."""
+"""Load a workspace, from files to the objects that rules read: discover packages, collect facts, evaluate build scripts, join."""

@@ -1,1 +1,1 @@
-"""Questions about build scripts: targets, commands and edits of CMakeLists.txt."""
+"""Analyses of build scripts for rules: targets, commands and edits of CMakeLists.txt."""

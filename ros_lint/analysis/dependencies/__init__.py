@@ -1,1 +1,1 @@
-"""Questions about dependencies: what a package needs, declares and provides transitively."""
+"""Analyses of dependencies for rules: what a package needs, declares and provides transitively."""

@@ -131,7 +131,8 @@ def distros_providing(package: Package, workspace: Workspace, name: str) -> tupl
 def _joined(missing: Sequence[Need]) -> list[Need]:
     """Return the needs, with two needs for one package joined into one need.
 
-    Example: find_package(Eigen3) and an include of ``Eigen/Dense`` give two needs for one package."""
+    Example: find_package(Eigen3) and an include of ``Eigen/Dense`` give two needs for one package.
+    """
     result: list[Need] = []
     common: list[frozenset[str]] = []  # the packages that provide all uses of a need of the result
     places: dict[str, list[int]] = {}  # indexes of the needs that have, or had, a name or a common provider

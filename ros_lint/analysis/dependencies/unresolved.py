@@ -132,7 +132,7 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
 
 
 def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...]:
-    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or removed if ``intended`` is "".
+    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or removed ("").
 
     Until then no code uses the wrong name, and ``intended`` is used but not declared.
     """

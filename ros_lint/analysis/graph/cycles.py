@@ -10,22 +10,22 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 _MOST_EXACT = 12
-"""Largest number of nodes for which all orders are compared; the time grows with n * 2**n."""
+"""Largest number of nodes for which all orders are compared. The time grows with n * 2**n."""
 _MOST_CUTS = 2
-"""Largest number of edges in a cut for which larger components are searched exhaustively."""
+"""Largest number of edges in a cut for which components of more than ``_MOST_EXACT`` nodes are searched exhaustively."""
 
 
 class Cycle(NamedTuple):
     """A strongly connected component: packages that all depend on each other, directly or indirectly."""
 
     names: tuple[str, ...]
-    """The packages, sorted."""
+    """Names of the packages, sorted."""
     cycle: tuple[str, ...]
-    """A shortest cycle among the packages; it begins with the first name in alphabetical order."""
+    """A shortest cycle among the packages. It begins with the alphabetically first package on the cycle."""
     cut: tuple[Edge, ...]
     """The cheapest edges whose removal breaks all cycles. At least one of them lies on ``cycle``."""
     certain: bool
-    """False if the cycle exists only under a condition that cannot be evaluated here."""
+    """False if the cycle exists only under a condition that cannot be evaluated."""
 
 
 def cycles(graph: Graph) -> Iterator[Cycle]:
@@ -37,7 +37,7 @@ def cycles(graph: Graph) -> Iterator[Cycle]:
 
 
 def arcs_within(arcs: Mapping[str, Collection[str]], nodes: Collection[str]) -> Edges:
-    """Return the subgraph of ``nodes``."""
+    """Return the part of a graph that consists of ``nodes`` and the edges between them."""
     return {name: frozenset(arcs[name]).intersection(nodes) for name in sorted(nodes)}
 
 
@@ -55,7 +55,7 @@ def shortest_cycle(arcs: Mapping[str, Collection[str]]) -> tuple[str, ...]:
 
 
 def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) -> tuple[str, ...]:
-    """Return a shortest cycle of less than ``below`` nodes in which ``start`` is the first name, or ()."""
+    """Return a shortest cycle of less than ``below`` nodes in which ``start`` is the first name, or () if there is none."""
     predecessor: dict[str, str] = {}
     level = [start]
     for _ in range(below - 1):
@@ -72,7 +72,7 @@ def _cycle_through(arcs: Mapping[str, Collection[str]], start: str, below: int) 
 
 
 def _way(predecessor: Mapping[str, str], start: str, end: str) -> tuple[str, ...]:
-    """Return the path from ``start`` to ``end``, both included, from the predecessor of each node."""
+    """Return the path from ``start`` to ``end``, both included. ``predecessor`` has the node before each node of the path."""
     path = [end]
     while path[-1] != start:
         path.append(predecessor[path[-1]])
@@ -82,7 +82,7 @@ def _way(predecessor: Mapping[str, str], start: str, end: str) -> tuple[str, ...
 def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edge, ...]:
     """Return the fewest edges whose removal breaks all cycles of ``arcs``, a subgraph of ``graph``.
 
-    Among cuts of the same size, the cheapest wins. From cheap to expensive:
+    Among cuts of equal size, the cheapest is returned. From cheap to expensive:
     - edges that are uncertain,
     - test dependencies,
     - dependencies that are only needed at run time,

@@ -1,11 +1,11 @@
 """The dependency graph of a workspace, with the edges by which colcon orders packages.
 
 An edge leads from a package to a package that has to be built first. There is an edge for build, run and test
-dependencies, members of groups, and the dependencies that colcon.pkg or the script of a plain package adds.
+dependencies, members of groups, and the dependencies that colcon.pkg, or the build script of a package without package.xml, adds.
 Documentation dependencies, conflicts and false conditions give no edge.
 
 The nodes are the names that colcon uses (:attr:`Package.colcon_name`). A dependency on the name in package.xml gives no
-edge if colcon uses another name. Packages of the same name are one node.
+edge if colcon uses another name. Packages with equal names are one node.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Package, Workspace
 
 Edge = tuple[str, str]
-"""The dependent package and its dependency."""
+"""A dependent package and its dependency."""
 
 Edges = dict[str, frozenset[str]]
-"""For each package, the packages that its edges lead to."""
+"""For each package, the packages to which its edges lead."""
 
 
 class Reason(NamedTuple):
-    """A reason why a package has to be built before another."""
+    """A reason why one package has to be built before another package, e.g. a ``<depend>`` tag."""
 
     tag: str
-    """A dependency tag, or the name of the file from which colcon takes the edge."""
+    """Name of the dependency tag, or name of the file (colcon.pkg, CMakeLists.txt) from which colcon takes the edge."""
     categories: tuple[str, ...]
-    """Phases in which colcon considers it: "build", "run", "test"; "group" for a member of a group."""
+    """Phases for which colcon reads the tag: "build", "run", "test"; "group" for a member of a group."""
     span: Span
     """Place of the tag."""
     certain: bool = True
@@ -53,16 +53,16 @@ class Order(NamedTuple):
 
 
 class Graph:
-    """The packages of a workspace by the name that colcon uses, with their dependencies. Names are sorted."""
+    """The dependencies between the packages of a workspace. Packages have the names that colcon uses. Names are sorted."""
 
     def __init__(self, places: Mapping[str, Sequence[Package]], needs: Mapping[str, Mapping[str, Sequence[Reason]]]) -> None:
         self.places = {name: tuple(places[name]) for name in sorted(places)}
-        """Packages by name; several if packages have the same name."""
+        """Packages by name; several for a name if packages have equal names."""
         self.needs = {
             name: {dependency: tuple(needs[name][dependency]) for dependency in sorted(needs.get(name, ()))}
             for name in self.places
         }
-        """For each package, its dependencies with the reasons."""
+        """For each package, its dependencies, each with the reasons for it."""
         self._closures: dict[str, frozenset[str]] = {}
 
     @property
@@ -76,7 +76,7 @@ class Graph:
         return ((name, dependency) for name, dependencies in self.needs.items() for dependency in dependencies)
 
     def reasons(self, edge: Edge) -> tuple[Reason, ...]:
-        """Return the reasons of an edge. Raises KeyError if there is no such edge."""
+        """Return the reasons for an edge. Raises KeyError if there is no such edge."""
         return self.needs[edge[0]][edge[1]]
 
     @cached_property
@@ -101,7 +101,7 @@ class Graph:
 
     @cached_property
     def order(self) -> Order:
-        """A build order: of all packages that can be built next, the first by name comes next.
+        """A build order: of all packages that can be built next, the alphabetically first comes next.
 
         The order respects uncertain edges, too, unless they close a cycle.
         """
@@ -118,7 +118,7 @@ class Graph:
 
     @cached_property
     def cycles(self) -> tuple[tuple[str, ...], ...]:
-        """The strongly connected components for which colcon rejects the workspace, each sorted."""
+        """The strongly connected components because of which colcon rejects the workspace, each sorted."""
         return components(self.certain_arcs) if self.order.stuck else ()
 
     @cached_property
@@ -130,7 +130,7 @@ class Graph:
         return tuple(component for component in components(self.arcs) if not any(cycle <= set(component) for cycle in certain))
 
     def closure(self, name: str) -> frozenset[str]:
-        """Return all direct and indirect dependencies of a package; itself only if it is on a cycle."""
+        """Return all direct and indirect dependencies of a package. It contains the package itself only if that is on a cycle."""
         if name not in self._closures:
             self._closures[name] = reachable(self.arcs, name)
         return self._closures[name]
@@ -138,7 +138,7 @@ class Graph:
 
 @cached_by_workspace
 def dependency_graph(workspace: Workspace) -> Graph:
-    """Return the dependency graph of the workspace's packages."""
+    """Return the dependency graph of all packages of the workspace."""
     return build(workspace.packages)
 
 
@@ -220,7 +220,7 @@ def is_acyclic(arcs: Mapping[str, Collection[str]]) -> bool:
 
 
 def sort(arcs: Mapping[str, Collection[str]]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the nodes with dependencies first, and separately the nodes that cannot be ordered.
+    """Return the nodes in an order in which dependencies come first, and the nodes that cannot be ordered.
 
     Nodes on a cycle, and nodes that depend on such a node, cannot be ordered. Of several possible orders, the
     alphabetically first is returned.

@@ -1,4 +1,4 @@
-"""Metrics of the packages of a graph. For speed, a set of packages is an integer with one bit for each package."""
+"""Metrics of the packages of a dependency graph. For speed, a set of packages is an integer with one bit for each package."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Metrics(NamedTuple):
     reach: int
     """Number of packages that are rebuilt when the package changes: all direct and indirect dependents."""
     redundant: tuple[tuple[str, ...], ...]
-    """Redundant edges, each as a shortest longer path from the package to the same dependency."""
+    """Direct dependencies that are also indirect dependencies, each with a shortest longer path from the package to it."""
 
 
 def measure(graph: Graph) -> Mapping[str, Metrics]:

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 
 class PackageSelection(NamedTuple):
-    """The names and patterns of the options. An empty option selects all packages, ``skip`` no package."""
+    """The values of the options ``--packages-select``, ``--packages-up-to`` and so on. An empty ``skip`` skips no package.
+
+    Any other empty option selects all packages.
+    """
 
     select: tuple[str, ...] = ()
     up_to: tuple[str, ...] = ()
@@ -23,10 +26,11 @@ class PackageSelection(NamedTuple):
     skip: tuple[str, ...] = ()
 
     def names(self, graph: Graph) -> frozenset[str]:
-        """Return the names of the packages that all options select.
+        """Return the names of the packages that all options together select.
 
         ``up_to`` selects packages with their direct and indirect dependencies, ``above`` packages with their direct and
-        indirect dependents, and ``select_regex`` packages whose name begins with a match. ``select`` and ``select_regex`` add up.
+        indirect dependents, and ``select_regex`` packages whose name begins with a match. A package that ``select`` or
+        ``select_regex`` selects need not be selected by the other of the two.
         """
         names = frozenset(graph.names) - frozenset(self.skip)
         if self.select or self.select_regex:
@@ -38,7 +42,7 @@ class PackageSelection(NamedTuple):
         return names
 
     def named(self) -> Iterator[tuple[str, str]]:
-        """Yield each name that has to exist, with its option: "packages-up-to", "talker"."""
+        """Yield each name that has to exist, with its option: ("packages-up-to", "talker")."""
         for option, names in (("select", self.select), ("up-to", self.up_to), ("above", self.above)):
             yield from ((f"packages-{option}", name) for name in names)
 

@@ -1,1 +1,1 @@
-"""Questions about launch files: includes, configurations, and the programs that they start."""
+"""Analyses of launch files for rules: includes, configurations, and the programs that launch files start."""

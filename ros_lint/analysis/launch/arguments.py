@@ -1,4 +1,4 @@
-"""Launch arguments compared with the launch configurations that are read."""
+"""Compare the launch arguments that a launch file declares with the launch configurations that launch files read."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class ArgumentUse(NamedTuple):
     declared: Mapping[str, Span]
     """All arguments that the file declares."""
     undeclared: Mapping[str, Span]
-    """Configurations that the file reads without a default, although nothing declares or sets them."""
+    """Configurations that the file reads without a default, although no launch file declares or sets them."""
     similar: Mapping[str, SimilarRead]
     """Undeclared configurations that the file reads with a default, if it declares an argument with a similar name."""
     unused: frozenset[str]
@@ -39,7 +39,7 @@ class ArgumentUse(NamedTuple):
 
 
 def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
-    """Return the launch arguments that a launch file declares and reads.
+    """Return the launch arguments that a launch file declares, and the launch configurations that it reads.
 
     None if further arguments may be declared or read: by an unreadable file, by a file that the launch file includes, or
     by a file that includes the launch file.
@@ -59,7 +59,7 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
 
 
 def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Span]) -> Iterator[tuple[str, SimilarRead]]:
-    """Yield the elements of ``names`` that resemble a declared argument, although the file reads them with a default.
+    """Yield those elements of ``names`` that resemble a declared argument and that the file reads with a default.
 
     Names with different digits are not similar: ``camera1`` and ``camera2``.
     """

@@ -1,4 +1,4 @@
-"""Packages that a launch file starts in every branch of its conditions."""
+"""Packages from which a launch file starts a node whether its conditions are true or false."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ Branch = frozenset[LaunchCondition]
 
 
 def packages_of_every_branch(file: LaunchFile) -> frozenset[str]:
-    """Return the packages of which the file certainly starts or loads a node, whatever its conditions are.
+    """Return the packages from which the file certainly starts or loads a node, whether its conditions are true or false.
 
-    Such a node has no condition, or further nodes of the package start under the negated condition.
+    A node of such a package has no condition, or further nodes of the package start under the negated condition.
     """
     branches: dict[str, set[Branch]] = {}
     for package, conditions in _started(file.actions, frozenset()):
@@ -36,10 +36,10 @@ def _normalized(condition: LaunchCondition) -> LaunchCondition:
 
 
 def _are_exhaustive(given: Iterable[Branch]) -> bool:
-    """Return whether one of the branches always holds.
+    """Return whether in every case all conditions of at least one branch hold.
 
-    Two branches that differ only in the negation of a condition are replaced by a branch without this condition. One branch
-    always holds if a branch without conditions remains.
+    A branch is a set of conditions. Two branches that differ only in the negation of a condition are replaced by a branch without
+    this condition. The result is True if a branch without conditions remains.
     """
     branches = set(given)
     pending = list(branches)

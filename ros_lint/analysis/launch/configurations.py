@@ -14,18 +14,18 @@ from ros_lint.workspace.model import Workspace
 
 
 class FileConfigurations(NamedTuple):
-    """The launch configurations of one file."""
+    """The launch configurations of one launch file."""
 
     declared: Mapping[str, Span]
-    """The launch arguments of the file, with the place of each declaration."""
+    """The launch arguments that the file declares, with the place of each declaration."""
     set_or_passed: frozenset[str]
-    """Configurations that the file sets in other ways, or passes to an included file, so that they stay set."""
+    """Configurations that the file sets without a declaration, or passes to an included file, so that they stay set."""
     read: frozenset[str]
     """Configurations that the file reads."""
     complete: bool
-    """True if all names are known."""
+    """True if all names of configurations in the file are known."""
     may_read_any: bool
-    """True if parameter files, which users can replace, may read any configuration."""
+    """True if the file substitutes configurations in parameter files: users can replace these to read any configuration."""
 
 
 def names_of(file: LaunchFile) -> FileConfigurations:
@@ -48,7 +48,7 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
     """Return the elements of ``names`` that callers have to set, because the file reads them without a default.
 
-    Each has the place where the file first reads it.
+    The value is the place where the file first reads the configuration.
     """
     return {name: span for (name, has_default), span in read_sites(file, names).items() if not has_default}
 
@@ -65,7 +65,7 @@ def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool]
 
 
 class IncludeTree:
-    """The include relation between the launch files of a workspace."""
+    """The include relation between the launch files of a workspace: the files that each launch file includes."""
 
     def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
         self._names = {file.path: names_of(file) for file in files}

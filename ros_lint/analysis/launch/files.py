@@ -1,4 +1,4 @@
-"""Questions about the launch files of a package, the files they use and the programs they start."""
+"""The launch files of a package, the files that they refer to and the programs that they start."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 class PackageLaunchFile(NamedTuple):
-    """A launch file of a package, with its path and with whether it is installed and launched."""
+    """A launch file of a package, with its path, and whether it is installed and launched."""
 
     file: LaunchFile
     """The launch file."""
     path: str
-    """The path relative to the package."""
+    """Path relative to the package."""
     installed: bool
     """True if the package installs the launch file."""
     run: bool = True
@@ -57,12 +57,12 @@ def package_launch_files(package: Package, *, apart: bool = False) -> Iterator[P
 
 
 def run_launch_files(package: Package) -> Iterator[PackageLaunchFile]:
-    """Yield the launch files of a package that users launch, and those that its tests start."""
+    """Yield the launch files of a package that users launch, and the launch files that its tests start."""
     return (file for file in package_launch_files(package, apart=True) if file.run)
 
 
 def _is_aside(path: str, subdirectories: Container[str]) -> bool:
-    """Return whether an installed launch file is a test, an example or discarded, judging by its folders.
+    """Return whether an installed launch file is a test, an example or a discarded file, judging by its folders.
 
     A folder of documentation or examples counts as a part of the package if its CMakeLists.txt is part of every build.
     """
@@ -72,7 +72,7 @@ def _is_aside(path: str, subdirectories: Container[str]) -> bool:
 
 
 def is_launch_file(package: Package, path: str) -> bool:
-    """Return whether a file of the package, by its path relative to the base, is a ROS 2 launch file."""
+    """Return whether a file of the package is a ROS 2 launch file. ``path`` is relative to the base folder of the run."""
     return any(launch.path == path for launch in package.launch)
 
 
@@ -122,9 +122,9 @@ class InstalledPrograms(NamedTuple):
     """The programs that a package of the workspace installs."""
 
     names: frozenset[str]
-    """Names in lib/<package>, where ``ros2 run`` and launch look (ament_index, launch_ros)."""
+    """Names of programs in lib/<package>, where ``ros2 run`` and launch search for programs (ament_index, launch_ros)."""
     elsewhere: dict[str, str]
-    """Names in other folders, each with its install path."""
+    """Names of programs in other folders, each with its install path."""
 
 
 def installed_programs(package: Package) -> InstalledPrograms | None:
@@ -147,15 +147,15 @@ _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")
 
 
 def launch_suffix(path: str) -> str:
-    """Return the ending that marks a launch file, such as ".launch.py" or "_launch.xml", or ""."""
+    """Return the end of a file name that marks a launch file, such as ".launch.py" or "_launch.xml"; "" if there is none."""
     match = _SUFFIX.search(path.rpartition("/")[2])
     return match[0] if match else ""
 
 
 def is_excluded_from_install(package: Package, path: str) -> bool:
-    """Return whether an install rule deliberately leaves out a launch file.
+    """Return whether the build script deliberately does not install a launch file.
 
-    The rule installs other launch files of the same folder and suffix. ``path`` is relative to the package.
+    A command in it then installs other launch files of the same folder and suffix. ``path`` is relative to the package.
     """
     folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.products.installs
     if not suffix:

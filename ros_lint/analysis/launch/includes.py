@@ -24,22 +24,22 @@ class InstalledLaunchFile(NamedTuple):
     file: LaunchFile
     """The launch file."""
     path: str
-    """The path below share/<package>."""
+    """Path below share/<package>."""
 
 
 class AcceptedArguments(NamedTuple):
-    """The launch configurations that a launch file and its includes accept."""
+    """The launch configurations that a launch file and its included files accept."""
 
     required: Mapping[str, Span]
-    """Arguments that the file itself declares unconditionally and without a default, with their places."""
+    """Arguments that the file itself declares unconditionally and without a default, with the places of the declarations."""
     known: frozenset[str]
-    """Names that are declared, set or read."""
+    """Names of all configurations that the file or an included file declares, sets or reads."""
     complete: bool
     """True if every include could be resolved, so that no other name is accepted."""
 
 
 class _Own(NamedTuple):
-    """The configurations of one file, without its includes, and the files that it includes."""
+    """The configurations of one launch file, without those of its included files, and the files that it includes."""
 
     required: Mapping[str, Span]
     known: set[str]
@@ -48,7 +48,7 @@ class _Own(NamedTuple):
 
 
 def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[tuple[File, str]]:
-    """Yield the files that the package installs below share/<package>, each with its path there."""
+    """Yield the files that the package installs below share/<package>, each with its path below that folder."""
     by_source = {strip_folder(package.path, file.path): file for file in files}
     share = f"share/{package.name}/"
     for provided in package.built.products.installs if by_source else ():
@@ -73,9 +73,10 @@ class IncludeResolver:
                 self._places.setdefault(file.path, linked)
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> InstalledLaunchFile | None:
-        """Return the launch file of the workspace that an include in ``source`` refers to.
+        """Return the launch file of the workspace to which an include in ``source`` refers.
 
-        None if the path is unknown, or if not exactly one launch file of the workspace is installed there.
+        ``value`` is the path in the include. The result is None if the path is unknown, or if not exactly one launch file of the
+        workspace is installed there.
         """
         texts = (
             () if value is None else value.texts if all(map(is_settled, value.texts)) else substitute(value, self._set_in(source))
@@ -100,9 +101,10 @@ class IncludeResolver:
         return done
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
-        """Return where the path ``text`` in the launch file ``source`` leads: a package, and the path below its share folder.
+        """Return the installed file to which the path ``text`` in the launch file ``source`` leads.
 
-        None if the path is not completely known or leads to no share folder.
+        The result is a package and the path below its share folder, or None if the path is not completely known or is not in a
+        share folder.
         """
         if not is_settled(text):
             return None
@@ -119,7 +121,7 @@ class IncludeResolver:
         return self._places.get(file.path)
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return the launch file of the workspace that is installed at ``path``; None if no file or several files are."""
+        """Return the launch file of the workspace that is installed at ``path``; None if there are none or several."""
         place = installed_place(path)
         candidates = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
         return candidates[0].file if len(candidates) == 1 else None
@@ -129,7 +131,7 @@ class IncludeResolver:
         return self._own(file).includes
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
-        """Return the launch configurations that a file and its includes accept."""
+        """Return the launch configurations that a file and its included files accept."""
         done = self._takes.get(file.path)
         if done is not None:
             return done
@@ -202,7 +204,7 @@ def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
     """Return the possible values of a launch text after replacing launch configurations by their values in ``defaults``.
 
-    () if there is no text.
+    The result is () if ``value`` is None.
     """
     if value is None:
         return ()
@@ -213,7 +215,7 @@ def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]
 
 
 def _required(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, Span]]:
-    """Yield the unconditional top-level arguments without default, with their places."""
+    """Yield the arguments that are declared at the top level, unconditionally and without a default, with their places."""
     for action in actions:
         if action.kind == "argument" and action.value is None and not action.conditions and action.target is not None:
             yield from ((text, action.span) for text in action.target.texts if is_plain(text))

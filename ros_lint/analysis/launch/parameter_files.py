@@ -1,4 +1,4 @@
-"""Parameter files that launch files of the workspace pass to nodes when arguments have their defaults."""
+"""Parameter files that launch files of the workspace pass to nodes if launch arguments have their defaults."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class NodeParameterFile(NamedTuple):
     """A parameter file of the workspace that a launch file passes to a node or component."""
 
     action: LaunchAction
-    """The node or component."""
+    """The action that starts the node or component."""
     value: LaunchValue
-    """The value that names the file."""
+    """The value in the launch file that is the path of the parameter file."""
     file: ParameterFile
     """The parameter file."""
     names: tuple[str, ...]
@@ -44,7 +44,7 @@ class ParameterFiles:
     def given(self, file: LaunchFile) -> Iterator[NodeParameterFile]:
         """Yield the parameter files of the workspace that a launch file passes to nodes.
 
-        Files with an unknown path are left out.
+        Parameter files with an unknown path are left out.
         """
         defaults: Mapping[str, tuple[str, ...]] | None = None
         for action in walk_actions(file.actions):

@@ -1,4 +1,4 @@
-"""The processes that a launch file of the workspace starts if it is launched without arguments."""
+"""The processes that a launch file of the workspace starts, and the files that it uses, if launch arguments have defaults."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class PassedFile(NamedTuple):
-    """A launch or parameter file that an included launch file names when it gets the arguments of the include."""
+    """A launch or parameter file to which an included launch file refers when it gets the arguments of the include."""
 
     package: str
     """Package whose share folder contains the file."""
     path: str
-    """The path below share/<package>."""
+    """Path below share/<package>."""
     kind: Literal["include", "file"]
     """"include" for an included launch file, "file" for a parameter file."""
     span: Span
@@ -51,9 +51,9 @@ class PassedFile(NamedTuple):
 def expand_defaults(
     file: LaunchFile, workspace: Workspace, follow: Callable[[LaunchFile], bool], arguments: Mapping[str, str] = _NOTHING
 ) -> Expansion:
-    """Return the processes and includes that result from launching a file with ``arguments``; others have their defaults.
+    """Return the processes and includes that result from launching a file with ``arguments``.
 
-    ``follow`` returns True for each included file that is to be expanded.
+    Other launch arguments have their defaults. ``follow`` returns True for each included file that is to be launched, too.
     """
     from ros_lint.collectors.launch.expand import expand  # noqa: PLC0415  (few runs need it)
 
@@ -91,14 +91,14 @@ def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = Fals
 
 
 class FailingExpression(NamedTuple):
-    """A Python expression (``$(eval ...)``) that fails if an argument has its default."""
+    """A Python expression (``$(eval ...)``) that fails if a launch argument has its default."""
 
     argument: str
-    """The launch configuration with that default."""
+    """Name of the launch argument or configuration with that default."""
     expression: str
     """The expression with the defaults filled in, for a message."""
     name: str
-    """The undefined name; "" if the text is not a Python expression."""
+    """The undefined name in the expression; "" if the text is not a Python expression."""
     span: Span
     """Place of the expression."""
     conditional: bool
@@ -106,7 +106,7 @@ class FailingExpression(NamedTuple):
 
 
 def failing_expressions(file: LaunchFile) -> Iterator[FailingExpression]:
-    """Yield the Python expressions of a launch file that fail if arguments have their defaults."""
+    """Yield the Python expressions of a launch file that fail if launch arguments have their defaults."""
     sites = list(_with_expressions(file))
     defaults = assigned_configurations(file) if sites else {}
     for text, span, conditional in sites:
@@ -134,7 +134,7 @@ def _with_expressions(file: LaunchFile) -> Iterator[tuple[str, Span, bool]]:
 
 
 def _broken(text: str, defaults: Mapping[str, tuple[str, ...]]) -> Iterator[tuple[str, str, str]]:
-    """Yield each Python expression in a launch text that fails because an argument has its default.
+    """Yield each Python expression in a launch text that fails because a launch argument has its default.
 
     Each result has the argument, the expression, and the undefined name ("" if the expression is no valid Python).
     """
@@ -170,7 +170,7 @@ _TRUTHS = frozenset({"true", "false"})
 
 
 def _expressions(text: str, values_of: Callable[[str], tuple[str, ...] | None]) -> list[str]:
-    """Return the Python expressions in a launch text, in which ``values_of`` replaces the names of configurations by values.
+    """Return the Python expressions in a launch text. ``values_of`` returns the values that replace a launch configuration.
 
     Nested expressions are included.
     """

@@ -22,11 +22,11 @@ class PlacedInclude(NamedTuple):
     later: int
     """The index in ``scope`` of the first action after the include."""
     leaves: bool
-    """True if the configurations of the include are still set at the end of the file."""
+    """True if the configurations that the include sets are still set at the end of the file."""
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
-    """Yield the includes of a launch file in the order of the file, including includes in groups."""
+    """Yield the includes of a launch file in the order of the file, also includes in groups."""
     return _includes(file.actions, tuple(walk_actions(file.actions)), 0, leaves=True)
 
 
@@ -46,12 +46,12 @@ def _includes(
 
 
 class _Taker(NamedTuple):
-    """An include that may read launch configurations which were set before."""
+    """An include whose launch file may read launch configurations that were set before the include."""
 
     position: int
-    """Its index in the scope."""
+    """Index of the include in the scope."""
     passed: frozenset[str]
-    """The arguments that it passes, which replace values that were set before."""
+    """The arguments that the include passes. They replace values that were set before the include."""
 
 
 class _Readers:
@@ -61,12 +61,12 @@ class _Readers:
         self.scope = scope  # the owner finds this object by the id of the scope
         self._last: dict[str, int] = {}
         self._known: dict[str, int] = {}
-        """The answers for the names that were asked."""
+        """Results of :meth:`last` by name of the configuration."""
         self._of_any: list[_Taker] = []
         """Includes that may read any configuration."""
         self._by_file: dict[str, list[_Taker]] = {}
         self._files: dict[str, list[str]] = {}
-        """The paths of the included files that read a configuration, by its name."""
+        """Paths of the included files that read a configuration, by the name of the configuration."""
         for position, action in enumerate(scope):
             for text, _ in values_of_action(action):
                 self._last.update({name: position for name, _, _ in configurations(text)})
@@ -133,6 +133,6 @@ class ScopeLeaks:
 
 @cached_by_workspace
 def scope_leaks(workspace: Workspace) -> ScopeLeaks:
-    """Return the object that answers, for this workspace, whether a configuration left set by an include is read later."""
+    """Return the finder of configurations in this workspace that an include leaves set and that are read later."""
     files = [file for package in workspace.packages for file in package.launch]
     return ScopeLeaks(files, include_resolver(workspace))

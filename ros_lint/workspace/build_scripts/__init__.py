@@ -1,1 +1,1 @@
-"""Evaluate the build scripts of packages, and collect the files that belong to them."""
+"""Evaluate the build scripts of packages, and collect the files that belong to them: plugin descriptions, programs, resources."""

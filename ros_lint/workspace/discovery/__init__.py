@@ -1,1 +1,1 @@
-"""Find packages as colcon does."""
+"""Find the packages of a workspace as colcon does."""

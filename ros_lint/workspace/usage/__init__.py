@@ -1,1 +1,1 @@
-"""The uses of other packages in the files of a package, and how certain each use is."""
+"""Find the places in a package that use other packages, and determine how certain each use is."""
