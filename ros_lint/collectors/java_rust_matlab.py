@@ -55,7 +55,7 @@ def java(source: Text) -> FileFacts:
 def rust(source: Text) -> FileFacts:
     """Return mentions of the packages whose interfaces a Rust source names, and of rclrs and rosidl_runtime_rs.
 
-    Names in the unit tests of the source count for tests only.
+    Mentions in the unit tests of the source are marked with ``test``, so that a test dependency on the package suffices.
     """
     if not any(word in source.text for word in _RUST_MARKS):
         return FileFacts()

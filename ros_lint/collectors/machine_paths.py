@@ -27,7 +27,7 @@ _SOURCE_PATH = re.compile(
     r"""(?P<path>(?:\./)?src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?P=quote)"""
 )
 _CLIMBING_PATH = re.compile(r"""(?<=["')}])/?(?P<path>(?:\.\./){3,}src/[\w.+-]+/[^\s"'`<>|;:,()\[\]{}&$\\*?#%]+)(?=["'])""")
-"""Matches a path that climbs at least three folders to ``src``: a share folder is three or four folders below the workspace."""
+"""Matches a path that goes up at least three folders to ``src``: a share folder is three or four folders below the workspace."""
 _WITH_BLANKS = re.compile(r"""(?:[ ]+(?![-/~+])[^\s"'`<>|;,()\[\]{}&$\\*?#%=]+)+""")
 """Matches the rest of a quoted path with blanks. The rest has no options, absolute paths or operators of a shell command."""
 _SUFFIX = re.compile(r"[^/]\.[a-z]\w*\Z")

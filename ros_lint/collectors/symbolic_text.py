@@ -103,7 +103,10 @@ def share(package: str) -> str:
 
 
 def configuration(name: str, default: str | None = None) -> str:
-    """Return the mark for the value of a launch configuration. ``default`` is the value if nothing sets the configuration."""
+    """Return a text in special characters (marks) that represents the value of a launch configuration.
+
+    ``default`` is the value if nothing sets the configuration, None if there is no default.
+    """
     inner = name if default is None else f"{name}{_DEFAULT}{default}"
     return f"{_CONFIGURATION[0]}{inner}{_CONFIGURATION[1]}"
 
@@ -116,12 +119,12 @@ def named_in(text: str) -> tuple[str, ...] | None:
 
 
 def expression(text: str) -> str:
-    """Return the mark for the value of the Python expression ``text``, as ``$(eval ...)`` computes it."""
+    """Return a text in special characters (marks) that represents the value of the Python expression ``text``."""
     return f"{_EXPRESSION[0]}{text}{_EXPRESSION[1]}"
 
 
 def has_expression(text: str) -> bool:
-    """Return whether a text contains the mark of a Python expression, made by :func:`expression`."""
+    """Return whether a text contains a Python expression that is known only at launch, made by :func:`expression`."""
     return _EXPRESSION[0] in text
 
 
@@ -144,7 +147,7 @@ def _escaped(text: str) -> str:
 
 
 def command(text: str) -> str:
-    """Return the mark for the output of the command line ``text``, as ``$(command ...)`` computes it."""
+    """Return a text in special characters (marks) that represents the output of the command line ``text``."""
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
 
 
@@ -380,7 +383,7 @@ def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: C
 
 
 class _Filling:
-    """Replaces launch configurations in a text by their values. The steps are limited, because each can double the text."""
+    """Replaces launch configurations in a text by their values. Each step can double the text, so their number is limited."""
 
     __slots__ = ("_remaining", "_values")
 

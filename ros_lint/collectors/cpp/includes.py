@@ -77,9 +77,9 @@ class Include(NamedTuple):
     """An include directive that the preprocessor may reach."""
 
     start: int
-    """The offset of the name."""
+    """The offset of the name of the header."""
     name: str
-    """The name without quotes or brackets, or the macro that expands to it."""
+    """The name of the header without quotes or brackets, or the macro that expands to the name."""
     quote: str
     """``"`` or ``<``, or "" if a macro expands to the name."""
     optional: bool
@@ -89,7 +89,7 @@ class IncludeScan(NamedTuple):
     """The result of scanning the directives of a source."""
 
     mentions: list[Mention]
-    """The includes in order."""
+    """The includes of headers that are named without a macro, in order."""
     code: list[int]
     """The offsets of the includes, which are certainly code: neither in a comment nor in a string."""
     computed: list[Include]
@@ -101,8 +101,8 @@ class IncludeScan(NamedTuple):
 def scan_includes(source: Text) -> IncludeScan:
     """Return the includes of a C or C++ source, without standard headers and without includes in ``#if 0``.
 
-    An include in a conditional is optional, unless each branch includes a header from the same folder. A condition that holds
-    in every build, such as an include guard, does not make an include optional.
+    An include between ``#if`` and ``#endif`` is optional, unless each branch includes a header from the same folder. A condition
+    that holds in every build, such as an include guard, does not make an include optional.
     """
     return _scan_fast(source) or scan_exactly(source)
 
@@ -261,7 +261,7 @@ def _without_comments(line: str) -> str:
 def _may_be_directive(text: str, at: int) -> bool | None:
     """Return whether the ``#`` at an offset begins a directive, because only blanks precede it in its line.
 
-    None if a comment or a continued line precedes the ``#``, so that an exact scan must decide.
+    The result is None if a comment or a continued line precedes the ``#``, so that an exact scan must decide.
     """
     before = _before(text, at)
     if before and not before.isspace():
@@ -272,7 +272,7 @@ def _may_be_directive(text: str, at: int) -> bool | None:
 
 
 def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
-    """Return whether a file has no conditional, or only an include guard or a condition that always holds."""
+    """Return whether a file has no ``#if`` and the like, or only an include guard or a condition that always holds."""
     conditionals = [match for match in directives if match.lastindex == _CONDITIONAL]
     if len(conditionals) != 2:
         return not conditionals
@@ -281,7 +281,7 @@ def _is_guarded(text: str, directives: list[re.Match[str]]) -> bool:
 
 
 def _may_hide(text: str, starts: Sequence[int]) -> bool:
-    """Return whether one of the offsets may be in a comment or a raw string."""
+    """Return whether any of the offsets ``starts`` may be in a comment or a raw string."""
     if not starts:
         return False
     last = starts[-1]
@@ -318,13 +318,13 @@ class _Conditional:
         self.complete = value is True  # whether a branch is always taken
 
     def branch(self, value: bool | None) -> None:
-        """Begin the next branch at ``#elif`` or ``#else``. ``value`` is None if its condition depends on the build."""
+        """Begin the next branch at ``#elif`` or ``#else``. ``value`` is that of its condition, None if the build decides."""
         self._close()
         self.live = value is not False and not self.complete
         self.complete |= value is True
 
     def end(self) -> set[str]:
-        """End the conditional, and return the folders from which all of its branches include headers."""
+        """End the conditional at its ``#endif``, and return the folders from which all of its branches include headers."""
         self._close()
         return self.common if self.common and self.complete else set()
 

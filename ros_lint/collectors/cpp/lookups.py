@@ -86,7 +86,7 @@ def _block_end(text: str, at: int) -> int:
 
 
 def _try_start(text: str, end: int) -> int:
-    """Return the offset of the opening brace of the try block whose closing brace is at ``end``; -1 for other blocks."""
+    """Return the offset of the opening brace of the block whose closing brace is at ``end``; -1 if it is not a try block."""
     depth = 0
     at = end + 1
     while (at := max(text.rfind("{", 0, at), text.rfind("}", 0, at))) >= 0:

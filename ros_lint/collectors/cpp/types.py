@@ -38,7 +38,7 @@ def declared_types(text: bytes) -> frozenset[bytes]:
 
 
 def interface_aliases(text: bytes) -> Mapping[str, set[bytes]]:
-    """Return the aliases of interface types by package: ``using pkg::msg::T;``, ``using X = ...``."""
+    """Return the aliases of interface types by package: ``T`` of ``using pkg::msg::T;``, ``X`` of ``using X = pkg::msg::T;``."""
     result: dict[str, set[bytes]] = {}
     if b"using " in text:
         alias = [(package, name) for name, package in _ALIAS.findall(text)]

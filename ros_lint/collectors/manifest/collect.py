@@ -33,8 +33,8 @@ def collect(source: Text) -> Manifest:
     """Return the contents of a ``package.xml``. Never raises.
 
     ``problems`` lists everything for which ``catkin_pkg.package.parse_package`` rejects the file, and is empty if it
-    accepts the file. The readable facts of a rejected file are returned, too. Exceptions, which are rejected for safety although
-    catkin_pkg accepts them: entity declarations, and elements nested more than 200 levels deep.
+    accepts the file. The readable facts of a rejected file are returned, too. For safety, files with entity declarations, or
+    with elements nested more than 200 levels deep, are rejected, although catkin_pkg accepts them.
     """
     document = read(source)
     text = Text(source.path, document.text)  # as the tools read it, if the declared encoding is wrong
@@ -182,9 +182,9 @@ def _element(text: str, node: XmlNode, place: _Place, *, rich: bool = False) -> 
 
 
 def _placer(source: Text) -> _Place:
-    """Return a function that returns the same spans as :meth:`Text.span`, three times as fast.
+    """Return a function that computes the same spans as :meth:`Text.span`, but three times as fast.
 
-    It must be called with ascending offsets.
+    The returned function must be called with ascending offsets.
     """
     path, text = source.path, source.text
     if "\r" in text:

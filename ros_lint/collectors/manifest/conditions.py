@@ -61,7 +61,7 @@ class Junction(NamedTuple):
 
 
 Condition = Comparison | Junction
-"""A parsed condition."""
+"""A parsed condition: a comparison, or conditions joined by ``and`` or ``or``."""
 
 _OPERATORS: dict[str, Callable[[str, str], bool]] = {
     "==": operator.eq,
@@ -155,7 +155,10 @@ def build_types(manifest: Manifest, context: Mapping[str, str]) -> tuple[tuple[s
 
 
 def problems(manifest: Manifest) -> tuple[Problem, ...]:
-    """Return a problem for each condition that cannot be parsed. colcon does not treat such a folder as a ROS package."""
+    """Return a problem for each condition of a manifest that cannot be parsed.
+
+    colcon does not treat the folder of such a manifest as a ROS package.
+    """
     return tuple(_unparsable(manifest))
 
 

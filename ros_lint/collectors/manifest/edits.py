@@ -30,7 +30,7 @@ SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license"
 
 
 def schema_rank(tag: str) -> int:
-    """Return the position of a tag in :data:`SCHEMA_ORDER`. Dependency tags and unknown tags have the position of ""."""
+    """Return the position of a tag in :data:`SCHEMA_ORDER`: that of the entry "" for dependency tags and unknown tags."""
     return SCHEMA_ORDER.index(tag) if tag in SCHEMA_ORDER else SCHEMA_ORDER.index("")
 
 
@@ -38,7 +38,7 @@ def add(manifest: Manifest, tag: str, name: str) -> Edit:
     """Return the edit that adds the dependency ``<tag>name</tag>`` to a manifest.
 
     The dependency is added to the dependencies with the same tag, in alphabetical order if these are sorted. If the manifest has
-    no such dependency, the usual order of tags decides, and a blank line is added if blank lines separate the tags of the file.
+    no such dependency, it is placed by the usual order of tags, and a blank line is added if blank lines separate other tags.
     """
     return _insert_by_kind(_layout(manifest), manifest.depends, tag, name, f"<{tag}>{escaped(name)}</{tag}>")
 
@@ -212,7 +212,7 @@ class _Neighbours(NamedTuple):
 
 
 def _layout(manifest: Manifest) -> _Layout:
-    """Return the layout of a manifest. The last layout is cached, because a rule may edit each dependency of a manifest."""
+    """Return the lines of a manifest with their items. The last result is cached, because a rule may edit each dependency."""
     if not (_LAST and _LAST[0].manifest is manifest):
         _LAST[:] = [_Layout(manifest)]
     return _LAST[0]
@@ -234,7 +234,7 @@ class _Layout:
             self.covered.update(range(item.line, item.end_line + 1))
 
     def neighbours(self, span: Span) -> _Neighbours:
-        """Return the previous item if it ends on the first line of an item, and the next item if it begins on its last line."""
+        """Return the items (elements or comments) next to an item: before it on its first line, after it on its last line."""
         at = self.positions[span]
         previous = self.items[at - 1] if at else self.begin
         following = self.items[at + 1] if at + 1 < len(self.items) else self.manifest.end
@@ -243,13 +243,13 @@ class _Layout:
         )
 
     def is_alone(self, span: Span) -> bool:
-        """Return whether no other item is on the lines of the item at ``span``, and no comment is directly above it."""
+        """Return whether no other element, comment or text is on the lines of an item, and no comment is directly above it."""
         at = self.positions[span]
         heading = at > 0 and self.items[at - 1] in self.other_contents and self.items[at - 1].end_line == span.line - 1
         return self.neighbours(span) == (None, None) and not heading
 
     def insert_after(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
-        """Return the edit that inserts ``element`` after the item at ``span`` and the comments on its line."""
+        """Return the edit that inserts ``element`` after the element at ``span`` and the comments on its line."""
         tail = span
         while (following := self.neighbours(tail).after) is not None and following in self.other_contents:
             tail = following
@@ -264,7 +264,7 @@ class _Layout:
         return Edit(place, f"{blank}{self._indent(span)}{element}{self.manifest.newline}")
 
     def insert_before(self, span: Span, element: str, *, blank_line: bool = False) -> Edit:
-        """Return the edit that inserts ``element`` before the item at ``span``."""
+        """Return the edit that inserts ``element`` before the element or comment at ``span``."""
         if self.neighbours(span).before is not None:
             return Edit(span.start(), element)
         blank = self.manifest.newline if blank_line else ""
@@ -280,7 +280,7 @@ class _Layout:
         return Edit(place, f"{self.manifest.indent}{element}{newline}")
 
     def removal(self, span: Span) -> Edit:
-        """Return the edit that removes the item at ``span``, and its line if nothing else is on the line."""
+        """Return the edit that removes the element at ``span``, and its line if nothing else is on the line."""
         previous, following = self.neighbours(span)
         path = self.path
         if previous is not None:
@@ -290,7 +290,7 @@ class _Layout:
         return self._remove_lines(span.line, span.end_line)
 
     def removals(self, spans: Iterable[Span]) -> Iterator[Edit]:
-        """Yield the edits that remove items, which must be alone on their lines. ``spans`` must be in the order of the file."""
+        """Yield the edits that remove elements, which must be alone on their lines. ``spans`` are in the order of the file."""
         runs: list[list[int]] = []
         for span in spans:
             if runs and runs[-1][1] == span.line - 1:
@@ -309,7 +309,7 @@ class _Layout:
         return Edit(Span(self.path, first, 1, end, 1), "")
 
     def with_heading(self, span: Span) -> Span:
-        """Return the span of the first comment directly above an item, the span of the item if there is no comment."""
+        """Return the span of the first comment directly above an element, the span of the element if there is no comment."""
         at = self.positions[span]
         while at and self.items[at - 1] in self.other_contents and self.items[at - 1].end_line == span.line - 1:
             if self.neighbours(self.items[at - 1]).before is not None:
@@ -319,7 +319,7 @@ class _Layout:
         return span
 
     def blank_after(self, span: Span) -> bool:
-        """Return whether a blank line follows an item and the comments on its line."""
+        """Return whether a blank line follows an element and the comments on its line."""
         while (following := self.neighbours(span).after) is not None and following in self.other_contents:
             span = following
         return self._is_blank(span.end_line + 1)
@@ -341,7 +341,7 @@ class _Layout:
         return self.begin.line < line < self.manifest.end.line and line not in self.covered
 
     def _indent(self, span: Span) -> str:
-        """Return the indentation of an item, or the usual indentation if the item does not begin its line."""
+        """Return the indentation of an element, or the usual indentation if the element does not begin its line."""
         usual = self.manifest.indent
         width = span.column - 1
         if self.neighbours(span).before is not None or width == len(usual):
@@ -388,4 +388,4 @@ def _longest_ascent(ranks: list[int]) -> frozenset[int]:
 
 
 _LAST: Final[list[_Layout]] = []
-"""The layout of the manifest that was edited last, [] if no manifest was edited."""
+"""The lines and items of the manifest that was edited last, [] if no manifest was edited."""

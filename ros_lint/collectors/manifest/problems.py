@@ -51,7 +51,7 @@ ALLOWED: Final = {format_number: _allowed(format_number) for format_number in (1
 """The tags that ``<package>`` may contain, by format, each with the attributes that the tag may have."""
 
 _DEPEND_TAGS = frozenset(("depend", "build_depend", "build_export_depend", "exec_depend"))
-"""The tag <depend>, and the tags that <depend> represents in one."""
+"""The tag <depend>, and the tags for which <depend> is an abbreviation."""
 
 _EXPORT_TAGS = frozenset(("build_type", "metapackage", "architecture_independent", "deprecated", "message_generator"))
 """Tags that are valid only inside of <export>."""

@@ -35,7 +35,10 @@ _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
 
 
 class Fault(NamedTuple):
-    """An error in a manifest. ``start`` and ``end`` are the offsets of its position, ``subject`` is that of :class:`Problem`."""
+    """An error in a manifest. ``start`` and ``end`` are the offsets of its position.
+
+    ``subject`` is what the error is about, such as the format that has an unknown tag, see :class:`Problem`. "" if not needed.
+    """
 
     kind: str
     message: str
@@ -286,7 +289,10 @@ def _refuse_entity(*_: object) -> None:
 
 
 def _in_code_points(events: list[Event], data: bytes) -> list[Event]:
-    """Return the events with their offsets converted from bytes to code points. The offsets must be ascending."""
+    """Return the events (start tags, and ends of elements) with their offsets converted from bytes to code points.
+
+    The offsets must be ascending.
+    """
     converted = count = 0
     result: list[Event] = []
     for event in events:
@@ -308,7 +314,7 @@ def _too_deep(events: list[Event]) -> int:
 
 
 def _closed(text: str, event: Start, close: int, children: tuple[XmlNode, ...]) -> XmlNode:
-    """Return the element that starts at an event. ``close`` is the offset of its end tag."""
+    """Return the XML element of the start tag ``event``. ``close`` is the offset of its end tag."""
     tag, inner = _start_tag(text, event)
     if text[inner - 2] == "/":
         close = end = inner
@@ -346,7 +352,7 @@ def _qualified(name: str) -> str:
 
 
 def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
-    """Return a fault for each unresolved merge conflict, () if they all come after the offset ``fault`` of an error."""
+    """Return a fault for each unresolved merge conflict, () if all conflicts come after the offset ``fault`` of an error."""
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()

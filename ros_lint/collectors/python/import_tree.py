@@ -209,8 +209,8 @@ def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
     """Yield the imports of alternative branches, each with a number: 0 if the import is required, else ``kind``.
 
     An import is required if every branch imports from the same top-level package. A relative import is also required if
-    another branch has imports, because these imports may replace its module only. Imports that are optional within their
-    branch keep their number.
+    another branch has imports, because the other branch may replace only this one module. Imports that are optional within
+    their branch keep their number.
     """
     needed = [{root for statement, optional in branch if not optional for root in _roots(statement)} for branch in branches]
     always = set.intersection(*needed)

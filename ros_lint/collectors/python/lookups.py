@@ -183,7 +183,7 @@ def _lines(body: list[ast.stmt]) -> range:
 
 
 def _asks(test: ast.expr) -> bool | None:
-    """Return whether a condition tests that a package is installed (True) or missing (False), None if it tests something else.
+    """Return whether a condition tests that a package is installed (True) or missing (False), None for any other condition.
 
     ``has_resource("packages", "p")`` -> True, ``not has_resource("packages", "p")`` -> False
     """

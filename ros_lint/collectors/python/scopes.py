@@ -18,7 +18,7 @@ Step = Union[int, None]  # noqa: UP007  (evaluated on 3.10)
 
 _COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)
 _BINDING = frozenset({ast.NamedExpr, ast.Lambda, *_COMPREHENSIONS})
-"""Expressions that bind names."""
+"""Kinds of expressions that bind names."""
 
 
 class Where(NamedTuple):
@@ -47,7 +47,7 @@ class Expression(NamedTuple):
     node: ast.expr
     where: Where
     inner: list[ast.AST]
-    """The node and all its descendants."""
+    """``node`` and all its descendants in the syntax tree."""
     targets: tuple[ast.expr, ...] = ()
     """The targets to which the statement assigns the value of the expression, or the elements of the value."""
 
@@ -155,9 +155,9 @@ class _Scanner:
                     self._part(item, where)
 
     def _part(self, item: object, where: Where) -> None:
-        """Bind the names of an exception handler or a case of match, and enter its block; or bind a name of a global statement.
+        """Record the names that ``item``, a part of a statement, binds, and the statements in it.
 
-        ``item`` is a part of a statement; other parts bind no names.
+        Such parts are exception handlers, cases of match, and names in a global statement. Other parts bind no names.
         """
         names: list[str | None] = []
         if isinstance(item, ast.ExceptHandler):

@@ -49,9 +49,9 @@ class Refusal(NamedTuple):
         return Problem("syntax", f"not valid Python: {self.message}", self.span)
 
     def opaque(self, hides: Facet) -> Opaque:
-        """Return the source as a place that could not be evaluated, and that hides the facts ``hides`` of its package.
+        """Return an Opaque for the source, that is, a place that could not be evaluated.
 
-        The place is marked as unchecked if the source exceeds a limit of ros-lint.
+        The parts ``hides`` of the package may contain more than is known because of this place. The place is marked as unchecked if the source exceeds a limit of ros-lint.
         """
         reason = "the source is not valid Python 3" if self.known else self.message
         return Opaque(hides, reason, self.span, unchecked=not self.known)

@@ -46,7 +46,7 @@ _LONGEST_WORD: Final = 40
 
 
 def reason(text: str, read_expression: Callable[[str], ast.expr]) -> SyntaxReason:
-    """Return why a source is not valid Python; the parser of Python has refused it before.
+    """Return why ``text`` is not valid Python. The parser of Python must have rejected the text before.
 
     ``read_expression`` raises NotPythonError for a text that is not an expression.
     """

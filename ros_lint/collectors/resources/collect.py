@@ -53,7 +53,7 @@ _CONVENTIONS = (
 
 
 def collect(source: Text) -> FileFacts:
-    """Return the packages, lookups and parameters in a resource file."""
+    """Return the packages that a resource file names, the files that it looks up, and the parameters of a YAML file."""
     facts = _packages(source)
     if source.path.endswith((".yaml", ".yml")):
         return facts._replace(parameters=parameter_files.collect(source))

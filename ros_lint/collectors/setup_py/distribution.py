@@ -39,7 +39,7 @@ class SetupContext(NamedTuple):
     scripts: str | None
     """The folder of programs relative to the prefix, None if it is unknown."""
     call: Span
-    """The call of setup(), which is the place of values without a place of their own."""
+    """The span of the call of setup(), which is used for values without a span."""
     conditional: bool
 
 

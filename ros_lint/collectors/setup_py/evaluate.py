@@ -165,9 +165,10 @@ def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
 
 
 def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
-    """Return the install folder of programs relative to the prefix; or None and an Opaque if the folder cannot be evaluated.
+    """Return the install folder of programs relative to the prefix, and None.
 
-    The option install_scripts of the section [install] in setup.cfg sets it; the default is bin.
+    If the folder cannot be evaluated, return None and an Opaque (a place that could not be evaluated). The option
+    install_scripts in the section [install] of setup.cfg sets the folder; the default is bin.
     """
     option = cfg.section("install").get("install_scripts") if cfg else None
     if option is None:

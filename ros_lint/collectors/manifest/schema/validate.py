@@ -84,7 +84,7 @@ _DECLARED = re.compile(r"""<\?xml\b[^>]*?\bencoding\s*=\s*["']([^"']*)""")
 
 
 def _misdeclared_encoding(source: Text) -> str:
-    """Return the message about a wrong encoding that a file in UTF-8 with a byte order mark declares, "" if it is not wrong.
+    """Return an error message if a file in UTF-8 with a byte order mark declares a contradicting encoding, else "".
 
     The xmllint of Ubuntu 22.04 and 24.04 reads such a file in the declared encoding. Newer versions ignore the declaration.
     """

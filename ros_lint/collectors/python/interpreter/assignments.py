@@ -86,7 +86,7 @@ def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> 
 def _set_attribute(machine: Interpreter, owner: Instance, name: str, value: Value) -> None:
     """Set an attribute of an object.
 
-    If the present code runs under conditions that did not hold when the object was created, the old value remains an
+    If the interpreted code runs under conditions that did not hold when the object was created, the old value remains an
     alternative of the attribute.
     """
     beyond = tuple([condition for condition in machine.conditions if condition not in owner.conditions])
@@ -130,9 +130,9 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
 
 
 def _choices(machine: Interpreter, value: Value) -> Iterator[Value]:
-    """Yield each alternative of a value, except alternatives whose conditions contradict the present conditions.
+    """Yield each alternative of a value, except alternatives that contradict the conditions of the interpreted code.
 
-    While the caller uses an alternative, the interpreter counts the conditions of the alternative as true.
+    While the caller uses an alternative, its conditions are added to the conditions of the interpreted code.
     """
     for alternative in alternatives(value):
         if are_consistent((*machine.conditions, *alternative.conditions)):

@@ -49,7 +49,7 @@ NEXT, CONTINUE, BREAK, LEAVE = range(4)
 
 
 def forget_conditions(machine: Interpreter, depth: int) -> None:
-    """Replace the present conditions after the first ``depth`` ones by one unknown condition, if they are too many."""
+    """Replace the conditions of the interpreted code after the first ``depth`` ones by one unknown condition, if too many."""
     if len(machine.conditions) > depth + _MOST_CONDITIONS:
         machine.conditions = (*machine.conditions[:depth], machine.fresh(PERHAPS))
 

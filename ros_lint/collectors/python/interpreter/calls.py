@@ -51,7 +51,7 @@ class LibraryCall:
         return texts_made(found, self.node, self.frame)
 
     def like(self, position: int, elements: list[Value]) -> list[Value]:
-        """Return ``elements`` as a glob result if the argument at ``position`` is a glob result, else unchanged.
+        """Return ``elements`` as a result of glob() if the argument at ``position`` is a result of glob(), else unchanged.
 
         So ``sorted(glob("*.py"))`` keeps its pattern.
         """
@@ -77,5 +77,5 @@ def unknown_text(call: LibraryCall) -> Value:
 
 
 def nothing(_: LibraryCall) -> Value:
-    """Model of a function that returns None."""
+    """Model of a function that returns None. Its effects are ignored."""
     return None

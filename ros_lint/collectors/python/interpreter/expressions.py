@@ -297,7 +297,7 @@ def _lambda(machine: Interpreter, node: ast.Lambda, frame: Frame) -> Value:
 
 
 def _inside(node: ast.expr, frame: Frame) -> Frame:
-    """Return a new frame for the names of a comprehension.
+    """Return a new frame, that is, a new scope for the names of a comprehension.
 
     A name that ``:=`` binds in the comprehension belongs to the outer frame.
     """

@@ -80,7 +80,7 @@ class Machine(Interpreter):
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
     def grant(self) -> None:
-        """Replace the budget by a smaller one, for the evaluation of results after the program exceeded its budget."""
+        """Replace the budget of steps by a smaller budget, to evaluate results after the program exceeded its budget."""
         self.budget = Budget(STEPS // 4)
 
     @contextmanager

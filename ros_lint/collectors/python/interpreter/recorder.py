@@ -51,7 +51,7 @@ def are_unknown(conditions: Conditions) -> bool:
 
 
 class Recorder:
-    """The effects of a program that are recorded while it is interpreted, and the conditions that hold at present."""
+    """The effects of a program that are recorded while it is interpreted, and the conditions of the interpreted code."""
 
     def __init__(self, budget: Budget) -> None:
         self.budget = budget
@@ -123,14 +123,14 @@ class Recorder:
         return f"{UNKNOWN}{self._branches}"
 
     def guard(self, value: Value) -> Value:
-        """Return an element for a collection that exists only under the present conditions.
+        """Return ``value`` as an element of a collection that exists only under the conditions of the interpreted code.
 
-        If no conditions hold, the value is returned unchanged.
+        Without such conditions, ``value`` is returned unchanged.
         """
         return Guarded(value, self.conditions) if self.conditions else value
 
     def is_here(self, value: Value) -> bool:
-        """Return whether an element of a collection may exist under the present conditions."""
+        """Return whether an element of a collection may exist under the conditions of the interpreted code."""
         if not isinstance(value, Guarded):
             return True
         conditions = around(value)
@@ -140,18 +140,18 @@ class Recorder:
         )
 
     def possible(self, value: Value) -> Value:
-        """Return a value without the alternatives that contradict the present conditions."""
+        """Return a value without the alternatives that contradict the conditions of the interpreted code."""
         if not self.conditions or not isinstance(value, Union):
             return value
         here = [alternative for alternative in alternatives(value) if self.is_here(alternative)]
         return union(here) if here else value
 
     def present(self, values: Sequence[Value]) -> list[Value]:
-        """Return the elements of ``values`` that may exist under the present conditions."""
+        """Return the elements of ``values`` that may exist under the conditions of the interpreted code."""
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
 
     def any_perhaps(self, values: Iterable[Value]) -> bool:
-        """Return whether any element of a list may be missing, although the conditions of the current statement hold."""
+        """Return whether any element of a list may be missing, although the conditions of the interpreted code hold."""
         return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
 
     def is_at(self, values: Sequence[Value], key: int | slice) -> bool:
@@ -161,7 +161,7 @@ class Recorder:
         return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
 
     def removed(self, value: Value) -> Value:
-        """Return an element that is removed under the present conditions, as a value that exists if one of them does not hold."""
+        """Return an element that the interpreted code removes, as a value that exists if a condition of this code is false."""
         first, *others = self.conditions
         remains = first._replace(wanted=not first.wanted)
         if others:

@@ -366,7 +366,7 @@ class Exit(NamedTuple):
     conditions: Conditions
     """All conditions that hold at the exit."""
     names: dict[str, Value]
-    """The names of the function at the exit."""
+    """The names of the function at the exit, with their values."""
 
 
 class Frame:
@@ -381,7 +381,7 @@ class Frame:
         self.declared: dict[str, Frame] = {}
         """Names that ``global`` or ``nonlocal`` binds in another frame."""
         self.exits: list[Exit] = []
-        """The exits, in order, of the blocks that are being interpreted."""
+        """The conditional exits, such as ``return`` in a branch, of the blocks that are being interpreted, in order."""
         self.returned: list[Guarded] = []
         self.yielded: list[Value] = []
 

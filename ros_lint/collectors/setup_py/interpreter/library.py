@@ -165,7 +165,10 @@ class SetupLibrary:
 
 
 def _on_known(function: Callable[..., Value]) -> Rule:
-    """Return the model of a function that can be applied only to known arguments. Paths of pathlib are passed as texts."""
+    """Return the model of a function that can be applied only to known arguments, as it does not handle unknown values.
+
+    Paths of pathlib are passed as texts.
+    """
 
     def rule(call: LibraryCall) -> Value:
         keywords = {name: _argument(plain(value)) for name, value in call.keywords.items()}
