@@ -1,4 +1,4 @@
-"""Lookups in C++ sources: packages and their files by ament_index_cpp, and plugin loaders."""
+"""Lookups in C++ sources: of packages and their files by ament_index_cpp, and of plugins by plugin loaders."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
 
 
 def _guarded_blocks(text: str) -> list[range]:
-    """Return the try blocks whose handler catches PackageNotFoundError and neither throws nor exits."""
+    """Return the offset ranges of try blocks whose handler catches PackageNotFoundError and neither throws nor exits."""
     result = []
     for catch in _CATCH.finditer(text):
         handler = text[catch.end() : _block_end(text, catch.end())]

@@ -21,7 +21,7 @@ _MODULE = re.compile(r"[ \t]*([^\W\d]\w*(?:\.[^\W\d]\w*)*)(?:[ \t]+as[ \t]+[^\W\
 _FROM = re.compile(r"from[ \t]+([^\W\d]\w*(?:\.[^\W\d]\w*)*)[ \t]+\Z")
 _RELATIVE = re.compile(r"from[ \t]*\.[ \t.\w]*\Z")
 IMPORTED_NAMES = re.compile(r"[ \t\\\r\n]+import[ \t]*(?:\(([^()]*)\)|((?:[^\n#;\\(]|\\\r?\n)*))")
-"""What follows the module in ``from module import names``: group 1 has names in parentheses, group 2 other names."""
+"""Matches the text after ``from module``: ``import names``. Group 1 has names in parentheses, group 2 names without."""
 _TRIPLE = re.compile(r'"""|\'\'\'')
 _CONTINUED = re.compile(r"\\\r?\n[ \t\f]*(?:import|from)\b")
 _HEAD = re.compile(
@@ -34,7 +34,7 @@ _DECIDES = re.compile(
 )
 
 
-# The regular expression finds the sign fast; the assigned name is only tested at the matches.
+# This regular expression finds the equals sign fast. The assigned name is tested only at its matches.
 _OFF = re.compile(r"=[ \t]*(?:False|None|0|''|\"\")[ \t]*(?:#.*)?\r?$", re.MULTILINE)
 _NAMED = re.compile(r"([^\W\d]\w*)[ \t]*(?::[^=\n]*)?")
 

@@ -28,7 +28,7 @@ def read(source: Text, read_inner: Callable[[Text], Parsed]) -> Parsed:
         found = [] if paired else list(tokens(source.text))
         if not paired and brackets(source.text, found) is not None:
             raise NotPythonError
-        # Where brackets are in pairs, what nests too deeply ends the reading early.
+        # If all brackets are in pairs, tokens are read only up to the place that nests too deeply.
         if (deep := too_deep(source.text, _kept(tokens(source.text), found) if paired else found)) is not None:
             raise _too_deep(source, *deep)
         rewritten = rewrite(source.text, found)

@@ -14,7 +14,7 @@ from ros_lint.base.text import Span, Text, from_bytes, to_bytes
 from ros_lint.collectors.python.source_errors import NotPythonError, Parsed, TooDeepError
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
-# What only Python 2 reads. One is enough: such a file is not meant for the interpreter that looks at it.
+# Syntax that only Python 2 accepts. One match suffices, because such a file is not meant for Python 3.
 _PYTHON_2 = re.compile(
     r"""^\#!.*\bpython2
     |(?:^|[;:])[ \t]*print(?:[ \t]+(?:["'%\w]|>>)|[ \t]*$)
@@ -51,7 +51,8 @@ class Refusal(NamedTuple):
     def opaque(self, hides: Facet) -> Opaque:
         """Return an Opaque for the source, that is, a place that could not be evaluated.
 
-        The parts ``hides`` of the package may contain more than is known because of this place. The place is marked as unchecked if the source exceeds a limit of ros-lint.
+        Because of this place, the parts ``hides`` of the package may contain more than is known. The place is marked as
+        unchecked if the source exceeds a limit of ros-lint.
         """
         reason = "the source is not valid Python 3" if self.known else self.message
         return Opaque(hides, reason, self.span, unchecked=not self.known)
@@ -222,7 +223,7 @@ def placed(node: _Tree, at: ast.AST) -> _Tree:
 def _placed_field(value: object, at: ast.AST) -> object:
     if isinstance(value, ast.Constant) and isinstance(value.value, str):
         return ast.copy_location(ast.JoinedStr([value]), at)
-    if isinstance(value, ast.JoinedStr):  # placed before
+    if isinstance(value, ast.JoinedStr):  # placed() was applied to it before
         return ast.copy_location(ast.JoinedStr(value.values), at)
     if isinstance(value, ast.AST):
         return placed(value, at)

@@ -188,7 +188,7 @@ def _place(statement: str) -> tuple[int, int] | None:
     except ParserSyntaxError as error:
         place = _PLACE.search(error.message)
         return (int(place[1]), int(place[2])) if place else (0, 0)
-    except Exception:  # whatever else it does on odd input is no second opinion
+    except Exception:  # libcst may fail in other ways on unusual input
         return None
     return None
 

@@ -1,1 +1,1 @@
-"""Other resources: plugin descriptions, parameter files, models and displays."""
+"""Resource files: plugin descriptions, parameter files, models and displays."""

@@ -89,7 +89,7 @@ def either(
     machine.budget.step(len(start) // _NAMES_A_STEP)
     first = _follow(machine, body, condition, before, start, frame, loop=loop)
     second = _follow(machine, other, opposite_of(condition), before, start, frame)
-    # If the sides end differently, the rest runs only after the side that continues, or that leaves fewer blocks.
+    # If the branches end differently, the rest runs only after the branch that continues, or that leaves fewer blocks.
     signal = min(first.signal, second.signal)
     _note_fallbacks(machine, condition, *((first, second) if condition.wanted else (second, first)))
     rest: list[LaunchCondition] = []

@@ -313,7 +313,7 @@ def _comprehension(machine: Interpreter, node: ast.ListComp | ast.SetComp | ast.
     inner = _inside(node, frame)
     of = machine.evaluate(node.generators[0].iter, inner)
     if isinstance(of, LibraryName) and of.name == INSTALLED:
-        return of  # whatever the element is: a membership test of the result asks for installed packages
+        return of  # for any element, because a membership test of the result tests for installed packages
     _generate(machine, node.generators, of, inner, lambda: elements.append(machine.guard(machine.evaluate(node.elt, inner))))
     return SetOf(unique(elements)) if isinstance(node, ast.SetComp) else elements
 

@@ -196,7 +196,7 @@ class Machine(Interpreter):
             except ProgramRaised:
                 if function.frame.source is frame.source:
                     raise
-                # Its model or interpretation is more likely to be wrong than the program.
+                # The model or the interpretation of the function is more likely to be wrong than the program.
                 self.escape([arguments, keywords])
                 return Unknown(f"{getattr(function.node, 'name', 'a function')}() cannot be followed")
         if isinstance(function, Bound):

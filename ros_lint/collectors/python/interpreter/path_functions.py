@@ -39,7 +39,7 @@ def split(path: str) -> tuple[str, str]:
 
 
 def split_suffix(path: str) -> tuple[str, str]:
-    """Return a path without its suffix, and the suffix, as os.path.splitext does. Both are UNKNOWN if known only at launch."""
+    """Return a path without its suffix, and the suffix, as os.path.splitext does. Both are UNKNOWN if unknown before launch."""
     if is_plain(path):
         return posixpath.splitext(path)
     dot = _last_outside(path, ".")

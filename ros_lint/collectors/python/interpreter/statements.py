@@ -74,7 +74,7 @@ def _expression(machine: Interpreter, node: ast.Expr, frame: Frame) -> int:
 def _if(machine: Interpreter, node: ast.If, frame: Frame) -> int:
     test = node.test
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And) and not node.orelse and not _may_leave(node.body):
-        inner: list[ast.stmt] = node.body  # nested conditions, so that each is known by itself
+        inner: list[ast.stmt] = node.body  # nested if statements, so that each condition is evaluated by itself
         for part in reversed(test.values[1:]):
             inner = [ast.copy_location(ast.If(part, inner, []), node)]
         node = ast.copy_location(ast.If(test.values[0], inner, []), node)
@@ -109,7 +109,7 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
         return _finally(machine, node, frame, before) or signal
     absent = next((handler for handler in node.handlers if catches_missing_file(handler)), None)
     if absent is not None and _opens(node.body) and _assigns(absent.body) and not gives_up(absent.body, everywhere=False):
-        exists = LaunchCondition((machine.another(),), None)  # the machine that launches may have the file
+        exists = LaunchCondition((machine.another(),), None)  # the machine that runs the launch file may have the file
         machine.guarded += 1
         try:
             signal = either(machine, [*node.body, *node.orelse], absent.body, exists, frame)
@@ -271,7 +271,7 @@ def _class(machine: Interpreter, node: ast.ClassDef, frame: Frame) -> int:
     for value in inner.names.values():
         if isinstance(value, Function):
             value.owner = cls
-            value.frame = frame  # methods do not see the names of their class
+            value.frame = frame  # the names of a class are not in the scope of its methods
         elif isinstance(value, Bound) and isinstance(value.function, Function):
             value.function.owner = cls
             value.function.frame = frame
