@@ -24,7 +24,7 @@ class Library(Protocol):
     def model(self, module: str, at: ast.stmt) -> ast.Module | None:
         """Return a short program with the effects of a released module, None if there is no such program.
 
-        All its nodes have the position of ``at``, the statement that imports the module.
+        All nodes in the syntax tree of the program have the position of ``at``, the statement that imports the module.
         """
         ...
 
@@ -119,7 +119,7 @@ class Interpreter(Recorder, ABC):
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
         """Return ``value``, the result of an operation on ``operands``.
 
-        If ``value`` is unknown and the interpreter records the origins of unknown values, return the unknown operand instead.
+        If an unknown operand made ``value`` unknown, an interpreter that records the origins of unknown values returns the operand.
         """
 
     @abstractmethod

@@ -33,7 +33,7 @@ How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
 _MOST_ESCAPING = 1_000
 """The maximum number of values that one call of Recorder.escape() marks as passed to code that is not interpreted."""
 _VALUES_A_STEP = 10
-"""The number of values that Recorder.escape() marks for one step of the budget."""
+"""The number of values that Recorder.escape() marks for one step of the budget, which limits the work of the interpreter."""
 
 
 class Misused(NamedTuple):

@@ -48,7 +48,7 @@ class Source:
         self.text = text
         self.ascii = text.text.isascii()
         self.lent = lent
-        """True for a model of a helper of a released package. Findings in the model have the place of the call."""
+        """True for a model, that is, a short program in place of a released module. Findings in it have the place of the call."""
         self.yields = "yield" in text.text
         self.assigns_inside = ":=" in text.text
         self.names: dict[str, Value] = {}
@@ -279,7 +279,7 @@ class Class:
         self.bases = bases
         self.names = names
         self.fields = fields
-        """Annotated names, in order: the parameters of a dataclass."""
+        """The annotated names in the class body, in order. For a dataclass, they are the parameters of the constructor."""
 
     def find(self, name: str) -> Value | None:
         for cls in self._line():
@@ -434,7 +434,7 @@ def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]
 
 
 def guarded_text(text: str, made: Value) -> Value:
-    """Return the value ``made``, which was computed from the symbolic text ``text``, under the conditions of the text."""
+    """Return the value ``made``, which was computed from ``text``, with the conditions under which ``text`` applies."""
     conditions = conditions_of(text)
     return Guarded(made, conditions) if conditions else made
 
