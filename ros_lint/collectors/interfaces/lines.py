@@ -53,7 +53,7 @@ _KEYWORDS: Final = frozenset({
 })  # fmt: skip
 """Keywords of C and C++, which cannot be field names, because generated code uses field names as names of members."""
 _SEPARATORS: Final = {"msg": 0, "srv": 1, "action": 2}
-"""The number of lines ``---`` in a definition, by suffix."""
+"""The number of lines ``---`` in an interface definition, by the suffix of its file."""
 _SEPARATOR = re.compile(r"^---(?=\r?$)", re.MULTILINE)
 _SIMILAR_SEPARATOR = re.compile(r"^[ \t]*[-_=]{2,}[ \t]*(?=#|\r?$)", re.MULTILINE)
 _LINE = re.compile(r"^[^#\r\n]+", re.MULTILINE)

@@ -93,7 +93,7 @@ def _outcome(path: str, text: str) -> Parsed | Refusal | None:
 
 
 def read_anew(source: Text) -> Parsed:
-    """Return the result of :func:`read` with a new tree, which the caller may change."""
+    """Return the result of :func:`read` with a new syntax tree, which is not shared, so that the caller may change it."""
     levels = most_levels(source.text)
     if plain(source.text) and not (levels > _MOST_LEVELS and nests_too_deep(source.text)):
         try:

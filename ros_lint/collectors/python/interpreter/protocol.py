@@ -119,7 +119,7 @@ class Interpreter(Recorder, ABC):
     def result(self, value: Value, operands: Iterable[Value]) -> Value:
         """Return ``value``, the result of an operation on ``operands``.
 
-        If an unknown operand made ``value`` unknown, an interpreter that records the origins of unknown values returns the operand.
+        If an unknown operand made ``value`` unknown, an interpreter that records origins of unknown values returns the operand.
         """
 
     @abstractmethod

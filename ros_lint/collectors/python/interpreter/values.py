@@ -362,7 +362,7 @@ class Exit(NamedTuple):
     """An exit from an iteration, a loop or a function that is taken only under conditions."""
 
     signal: int
-    """CONTINUE, BREAK or LEAVE of :mod:`ros_lint.collectors.python.interpreter.branches`."""
+    """How the program exits: CONTINUE, BREAK or LEAVE of :mod:`ros_lint.collectors.python.interpreter.branches`."""
     conditions: Conditions
     """All conditions that hold at the exit."""
     names: dict[str, Value]
