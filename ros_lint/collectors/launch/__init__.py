@@ -1,1 +1,1 @@
-"""Launch files in Python, XML and YAML."""
+"""Static analysis of launch files in Python, XML and YAML."""

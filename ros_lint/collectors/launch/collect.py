@@ -1,4 +1,4 @@
-"""Reading of a launch file in Python, XML or YAML."""
+"""Reading of a launch file in any of the languages Python, XML and YAML."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ros_lint.facts.launch import LaunchFile
 
 
 def collect(source: Text, language: Language) -> LaunchFile:
-    """Return the facts of a launch file. Never raises: errors in the file are listed in ``problems`` of the result."""
+    """Return the facts of a launch file. Errors in the file raise no exception, but are in ``problems`` of the result."""
     facts = _collect(source, language)
     return facts._replace(substitutes_parameters=True) if "allow_substs" in source.text else facts
 

@@ -1,4 +1,4 @@
-"""The values of the launch configurations of a launch file if all its launch arguments have their defaults."""
+"""The values of the launch configurations of a launch file if all launch arguments have their default values."""
 
 from __future__ import annotations
 
@@ -10,26 +10,25 @@ from ros_lint.facts.launch import LaunchAction, LaunchCondition
 
 
 class DefaultConfigurations(NamedTuple):
-    """The possible values of the launch configurations of one launch file, and which configurations no caller can set."""
+    """The possible values of the launch configurations of one launch file, if the caller passes no arguments."""
 
     values: Mapping[str, tuple[str, ...]]
-    """The alternative values of each configuration, by its name."""
+    """The possible values of each launch configuration, by its name."""
     own: frozenset[str]
-    """Names of the configurations whose values the file determines itself.
+    """Names of the launch configurations whose possible values are all in the file itself.
 
-    A caller can only change which alternative applies.
-    """
+    A caller of the file can only change which of the possible values applies, for example with an argument in a condition."""
 
     def is_own(self, text: str) -> bool:
-        """Return whether a text depends only on configurations that no caller of the launch file can set to a new value."""
+        """Return whether the launch configurations in a text have possible values in the file only, so no caller adds a value."""
         return _depends_only_on(text, self.own)
 
 
 def default_configurations(actions: Iterable[LaunchAction]) -> DefaultConfigurations:
-    """Return the values of all launch configurations that the actions of a file declare or set.
+    """Return the possible values of all launch configurations that the actions of a file declare or set.
 
-    A value that is set under a condition is one of several alternatives, besides the default. The default is not an
-    alternative if values are set under a condition and under its opposite.
+    A value that is set under a condition is possible in addition to the default. The default is not possible if values are
+    set under a condition and under the opposite condition.
     """
     values: dict[str, tuple[str, ...]] = {}
     settable: set[str] = set()
@@ -66,9 +65,9 @@ _UNKNOWN_CONDITION = LaunchCondition((UNKNOWN,), None)
 
 
 def _is_exhaustive(condition_sets: list[tuple[LaunchCondition, ...]]) -> bool:
-    """Return whether one of the condition sets certainly holds.
+    """Return whether one of several sets of conditions certainly holds.
 
-    True if two of the sets consist of a single condition, and the two conditions are opposites.
+    The result is True if two of the sets have only a single condition each, and the two conditions are opposites.
     """
     single = {conditions[0] for conditions in condition_sets if len(conditions) == 1 and all(map(_is_known, conditions))}
     return any(condition._replace(wanted=not condition.wanted) in single for condition in single)
@@ -79,7 +78,10 @@ def _is_known(condition: LaunchCondition) -> bool:
 
 
 def _independent_configurations(values: Mapping[str, tuple[str, ...]], settable: set[str]) -> frozenset[str]:
-    """Return the configurations outside of ``settable`` whose values depend only on configurations in the result."""
+    """Return the names of the launch configurations whose values depend on no configuration in ``settable``.
+
+    ``settable`` are the configurations that a caller can set.
+    """
     independent = values.keys() - settable
     while dependent := {name for name in independent if not all(_depends_only_on(text, independent) for text in values[name])}:
         independent -= dependent
@@ -87,5 +89,5 @@ def _independent_configurations(values: Mapping[str, tuple[str, ...]], settable:
 
 
 def _depends_only_on(text: str, names: Container[str]) -> bool:
-    """Return whether a text depends only on the configurations ``names``, False if the name of a configuration is computed."""
+    """Return whether all launch configurations in a text are among ``names``; False if a name is computed at launch."""
     return is_settled(text) or all(name in names for name in named_in(text) or ("\0",))

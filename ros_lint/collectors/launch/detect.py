@@ -1,6 +1,6 @@
 """Detection of launch files and of their language.
 
-The content decides, because names are ambiguous: ``.launch`` is XML of ROS 1 or ROS 2 or YAML, and one Python launch
+The content decides, because file names are ambiguous: ``.launch`` is XML of ROS 1 or ROS 2 or YAML, and one Python launch
 file in forty has an unusual name. ``launch.frontend`` and ``python_launch_file_utilities`` decide by content, too.
 """
 
@@ -40,8 +40,8 @@ _YAML_OTHER = re.compile(r"^(?=[^\n])(?![ \t\r#%-]|launch[ \t]*:|['\"]launch['\"
 def is_launch_file(path: str, text: str) -> Language | None:
     """Return the language of a ROS 2 launch file, None for any other file.
 
-    A Python module that only builds launch actions for other files counts, too, see :attr:`LaunchFile.helper`. A launch
-    file of ROS 1 does not count, because ros-lint does not check it.
+    A Python module that only builds launch actions for other files counts as a launch file (see :attr:`LaunchFile.helper`). A
+    launch file of ROS 1 does not count, because ros-lint does not check it.
     """
     if path.endswith(".py"):
         if "launch" not in text and "generate_test" not in text:
@@ -57,9 +57,9 @@ def is_launch_file(path: str, text: str) -> Language | None:
 
 
 def entries(text: str) -> frozenset[str]:
-    """Return the kinds of descriptions that a Python source defines a function for.
+    """Return which of the descriptions "launch" and "test" a Python source defines a function for.
 
-    ``launch`` for ``generate_launch_description()``, ``test`` for ``generate_test_description()``
+    "launch" is for ``generate_launch_description()``, "test" for ``generate_test_description()``.
     """
     kinds = set()
     for match in _PYTHON.finditer(text):
@@ -86,7 +86,7 @@ def _is_xml(text: str) -> bool:
 
 
 def _is_of_other_format(path: str, text: str) -> bool:
-    """Return whether a file with ``<launch>`` is of another XML format: its nodes have neither package nor executable."""
+    """Return whether an XML file with ``<launch>`` is no launch file: its nodes have neither package nor executable."""
     return "<node" in text and not path.endswith((".launch", ".launch.xml")) and not _NODE_ATTRIBUTE.search(text)
 
 

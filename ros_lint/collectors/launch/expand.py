@@ -1,8 +1,8 @@
 """Expansion of a launch file: the nodes, processes and includes that it starts with given launch arguments.
 
-The collectors evaluate each launch file once, into actions whose texts contain marks for unknown values. This module
-replaces the marks by values, as ``launch`` and ``launch_ros`` do. A condition is true, false or unknown: an action
-under an unknown condition is kept and marked as uncertain.
+Each launch file is first evaluated without arguments, into actions whose texts contain special characters for unknown values.
+This module replaces the special characters by values, as ``launch`` and ``launch_ros`` do. A condition is true, false or
+unknown: an action under an unknown condition is kept and marked as uncertain.
 """
 
 from __future__ import annotations
@@ -28,78 +28,78 @@ class Started(NamedTuple):
     """A node, component, process or included file that a launch file starts."""
 
     kind: str
-    """``node``, ``component``, ``process`` or ``include``."""
+    """The kind of the started action: ``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Alternatives, () if there is no package. A text with an unknown part is not plain (``launch.is_plain``)."""
+    """Possible packages, () if there is no package. A text with an unknown part is not plain (``launch.is_plain``)."""
     target: Texts
-    """The executable, the component class, the command line or the path of the included file."""
+    """Possible values of the executable, the component class, the command line or the path of the included file."""
     name: Texts
-    """Name that the launch file gives to the node, () if it sets none."""
+    """Possible names that the launch file gives to the node, () if it sets no name."""
     namespace: Texts
-    """Full namespace of the node."""
+    """Possible full namespaces of the node."""
     parameters: tuple[tuple[str, Texts], ...]
-    """Parameters by name; a parameter file has the name ""."""
+    """Parameters with their possible values, by name. A parameter file has the name ""."""
     remappings: tuple[tuple[Texts, Texts], ...]
-    """Old name and new name."""
+    """Remappings: the possible old names and the possible new names."""
     arguments: tuple[tuple[str, Texts], ...]
-    """Arguments of an include by name."""
+    """Launch arguments of an include with their possible values, by name."""
     certain: bool
-    """False if it is started under a condition that is unknown."""
+    """False if the action is started under a condition whose truth is unknown."""
     span: Span
-    """Place of the action."""
+    """Place of the action in its launch file."""
     depth: int
-    """The number of includes between the launched file and this action."""
+    """The number of includes between the launched file and the action."""
     container: Texts = ()
-    """The full name of the container that loads the component."""
+    """The possible full names of the container that loads the component."""
     environment: tuple[tuple[str, Texts], ...] = ()
-    """Environment variables that the launch file sets for it."""
+    """Environment variables that the launch file sets for the node or process, with their possible values."""
     file: str = ""
-    """The path of an expanded include, as :attr:`LaunchFile.path`; "" if it could not be read."""
+    """The path of an included file, as :attr:`LaunchFile.path`; "" if the file could not be read."""
     unknown: tuple[str, ...] = ()
     """The reasons why parts of the texts are unknown."""
     when: tuple[LaunchCondition, ...] = ()
-    """The unknown conditions that it depends on; empty if ``certain``."""
+    """The conditions of unknown truth around the action; empty if ``certain``."""
     later: bool = False
-    """True if a timer or an event starts it."""
+    """True if a timer or an event starts the action."""
     words: tuple[Texts, ...] = ()
-    """The command-line arguments of a node."""
+    """The command-line arguments of a node, each with its possible values."""
     via: Span | None = None
-    """The include in the launched file that leads to this action, None if the file itself contains it."""
+    """The place of the include in the launched file that leads to this action, None if the launched file contains it."""
 
 
 class Argument(NamedTuple):
-    """A declared launch argument and its possible values in this expansion."""
+    """A declared launch argument and its possible values in an expansion."""
 
     name: str
     """Name of the argument."""
     texts: Texts
-    """Possible values."""
+    """Possible values of the argument."""
     span: Span
     """Place of the declaration."""
     depth: int
     """Number of includes between the launched file and the declaration."""
     given: bool
-    """True if the caller or the including file passes the value, False if it is the default."""
+    """True if the caller or the including file passes the value, False if the value is the default."""
 
 
 class Missing(NamedTuple):
-    """A declared launch argument that has no default value, and for which no value is passed."""
+    """A declared launch argument that has no default value and to which no value is passed."""
 
     name: str
     """Name of the argument."""
     span: Span
     """The place of the declaration."""
     include: Span | None = None
-    """The place of the include that does not pass it, None for the launched file."""
+    """The place of the include that lacks the argument, None for an argument of the launched file."""
 
 
 class Refused(NamedTuple):
-    """A value of a launch argument that is not among the ``choices`` of its declaration."""
+    """A value of a launch argument that is not among the ``choices`` of the declaration of the argument."""
 
     name: str
     """Name of the argument."""
     value: str
-    """The value."""
+    """The value that is not accepted."""
     choices: tuple[str, ...]
     """The values that the argument accepts."""
     span: Span
@@ -107,7 +107,7 @@ class Refused(NamedTuple):
 
 
 class Circle(NamedTuple):
-    """An include of a file that is being included with equal launch configurations, so that the recursion never ends."""
+    """An include of a file that is already being included with equal launch configurations: an endless recursion."""
 
     path: str
     """The path of the included file, as :attr:`LaunchFile.path`."""
@@ -116,7 +116,7 @@ class Circle(NamedTuple):
 
 
 class Expansion(NamedTuple):
-    """Everything that a launch file starts, in order, and the errors in its launch arguments."""
+    """The result of an expansion: all that a launch file starts, in order, and the errors in its launch arguments."""
 
     started: tuple[Started, ...]
     """Nodes, components, processes and includes."""
@@ -129,7 +129,7 @@ class Expansion(NamedTuple):
     refused: tuple[Refused, ...] = ()
     """Values that are not among the choices of their arguments."""
     circles: tuple[Circle, ...] = ()
-    """Includes that never end."""
+    """Includes with endless recursion."""
 
 
 def expand(
@@ -142,9 +142,10 @@ def expand(
 ) -> Expansion:
     """Return the actions that a launch file starts if it is launched with the arguments ``passed``.
 
-    ``files`` returns an included file by its path, None if there is no such file. A path may begin with the mark of an install
-    prefix. ``brief`` omits parameters (except parameter files), remappings and the arguments of included files, because they
-    take most of the time. ``distro`` is the value of ROS_DISTRO, "" if it is unknown.
+    ``files`` returns an included file by its path, None if there is no such file. A path in an install space begins with a
+    placeholder for the install prefix of its package. ``brief`` omits parameters (except parameter files), remappings and the
+    arguments of included files, because they take most of the time. ``distro`` is the value of ROS_DISTRO, "" if it is
+    unknown.
     """
     run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in passed.items()})
@@ -162,11 +163,11 @@ class _Delayed(NamedTuple):
     """The actions that a timer or an event starts. They are expanded after all other actions."""
 
     place: int
-    """The number of actions that were started before."""
+    """The number of actions that were started before the timer or the event handler."""
     actions: tuple[LaunchAction, ...]
     scope: LaunchScope
     open: tuple[tuple[str, dict[str, Texts]], ...]
-    """The files that are being included, innermost last."""
+    """The files that are being included, each with its launch configurations, innermost last."""
     via: Span | None
 
 
@@ -187,7 +188,7 @@ class _Run:
         self._via: Span | None = None
         self._delayed: list[_Delayed] = []
         self._values: dict[str, Texts] = {}
-        """Values that are set outside of any scoped group."""
+        """Launch configurations that are set outside of scoped groups, with their possible values."""
 
     def file(self, file: LaunchFile, passed: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
@@ -197,9 +198,9 @@ class _Run:
         self._expand_delayed()
 
     def _expand_delayed(self) -> None:
-        """Expand the actions of timers and events, and insert the results at the position of the timer or event.
+        """Expand the actions of timers and events, and insert the results at the position of the timer or event handler.
 
-        All files have been expanded before, so a configuration that is declared or set after the timer counts, too. A
+        At this time all files have been expanded, so launch configurations that are set after the timer count, too. A
         configuration that was set before the timer keeps its value, because a function may read it at that time.
         """
         delayed, self._delayed = self._delayed, []
@@ -293,7 +294,7 @@ class _Run:
             scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
 
     def _reset(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Clear the launch configurations, set those that the action passes, and return the scope after the action.
+        """Clear all launch configurations, set those in the arguments of the action, and return the scope after the action.
 
         Namespaces, parameters and remappings are cleared as well, because launch_ros stores them in launch configurations.
         """
@@ -329,7 +330,7 @@ class _Run:
         return scope._replace(environment=(*(pair for pair in scope.environment if pair[0] not in names), *pairs))
 
     def _group(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Expand the actions of a group, and return the scope after the group."""
+        """Expand the actions in a group, and return the scope after the group."""
         name = self._texts(action.name, scope)
         inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
         if action.has_scope and name:
@@ -417,7 +418,7 @@ class _Run:
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:
     """Return the namespaces ``inner`` below the namespaces ``outer``: ``a`` below ``/b`` -> ``/b/a``.
 
-    An absolute inner namespace replaces the outer one (``make_namespace_absolute`` of launch_ros).
+    An absolute inner namespace replaces the outer namespace (``make_namespace_absolute`` of launch_ros).
     """
     return joined([outer, inner], _joined_namespace)
 

@@ -16,7 +16,7 @@ from ros_lint.collectors.symbolic_text import UNKNOWN
 
 _MAX_LENGTH = 2_000
 _MAX_SIZE = 10_000
-"""The maximum number of characters and items of a value, those of nested items included."""
+"""The maximum size of a value, in characters and items. Nested items count, too."""
 
 
 class _Unknown(Exception):  # noqa: N818
@@ -25,7 +25,7 @@ class _Unknown(Exception):  # noqa: N818
 
 @lru_cache(maxsize=1_024)
 def evaluate(text: str) -> str:
-    """Return the text of the value of a constant expression: ``1 + 1`` -> ``2``.
+    """Return the value of a constant expression as a text: ``1 + 1`` -> ``2``.
 
     The result is UNKNOWN if ``text`` is not a constant expression.
     """
@@ -52,11 +52,11 @@ def unresolved_names(text: str) -> tuple[str, ...] | None:
 
 
 _RESOLVED_NAMES = BUILTINS | MATH | {"math"}
-"""The names that PythonExpression resolves: builtins, and everything in ``math``."""
+"""The names that PythonExpression resolves: builtins, and all names in ``math``."""
 
 
 def means_true(text: str) -> bool | None:
-    """Return the truth of the text of a condition: ``true`` and ``1`` -> True, ``false`` and ``0`` -> False.
+    """Return the truth value of the text of a condition: ``true`` and ``1`` -> True, ``false`` and ``0`` -> False.
 
     The result is None if launch rejects the text (``evaluate_condition_expression``).
     """
@@ -148,7 +148,7 @@ def _truth(text: Any) -> bool:
 
 
 def _equals(left: Any, right: Any) -> bool:
-    """Return whether EqualsSubstitution considers two values equal; "true" equals "1"."""
+    """Return whether EqualsSubstitution considers two values equal. For example, "true" equals "1"."""
     left_truth, right_truth = means_true(str(left)), means_true(str(right))
     return left_truth == right_truth if left_truth is not None and right_truth is not None else str(left) == str(right)
 
@@ -190,7 +190,7 @@ def _arithmetic(op: ast.operator, left: Any, right: Any) -> Any:
 
 
 def _small(value: Any) -> Any:
-    """Return ``value`` unchanged. Raises _Unknown if it is too large."""
+    """Return ``value`` unchanged. Raises _Unknown if the value is too large."""
     if isinstance(value, int) and abs(value) > 1 << 64:
         raise _Unknown
     if isinstance(value, (str, list, tuple, dict, *_SETS)) and _size(value) > _MAX_SIZE:
@@ -199,7 +199,10 @@ def _small(value: Any) -> Any:
 
 
 def _size(value: Any) -> int:
-    """Return the number of characters and items in a value and its nested values. Counting stops above the limit."""
+    """Return the number of characters and items in a value and its nested values.
+
+    Counting stops above the limit ``_MAX_SIZE``.
+    """
     size = 0
     pending = [value]
     while pending and size <= _MAX_SIZE:

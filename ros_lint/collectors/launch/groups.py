@@ -1,4 +1,4 @@
-"""Creation of groups of actions, as ``GroupAction.get_sub_entities()`` of launch expands them."""
+"""Creation of groups of launch actions, as ``GroupAction.get_sub_entities()`` of launch expands them."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def group(
     scoped: bool,
     forwarding: bool,
 ) -> LaunchAction:
-    """Return a group of actions with its own launch configurations.
+    """Return a group of actions, in which launch configurations have the values ``configurations``.
 
-    A scoped group without ``forwarding`` starts with ``configurations`` only. Any other group also starts with the
+    A scoped group without ``forwarding`` starts with only these configurations. Any other group also starts with the
     configurations of the surrounding actions.
     """
     if scoped and not forwarding:

@@ -1,4 +1,4 @@
-"""The values of an action that can contain a path, and which part of each value is a file that the program reads."""
+"""The values of a launch action that can contain a path, and the part of each value that is a file to be read."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable, Iterator
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 
 FilePart = Callable[[str], str]
-"""Returns the part of a text that names a file to read, "" if there is none."""
+"""A function that returns the part of a text that is the path of a file to read, "" if there is none."""
 _DISPLAY = re.compile(r"(?:^|\s)(?:-d|--display-config)(?:[\s=]+(\S+)|$)")
-"""The option of rviz2 for its display configuration file."""
+"""Pattern of the option of rviz2 with its display configuration file, such as ``-d a.rviz``."""
 
 
 def _entire_text(text: str) -> str:
@@ -23,10 +23,10 @@ def _display_file(text: str) -> str:
 
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | None]]:
-    """Return the values of an action that can contain a path, except its target.
+    """Return the values of an action that can contain a path, except the target of the action.
 
-    Each value comes with a function that returns the file name in a text of the value, or with None if the program reads
-    no file that the value names.
+    Each value comes with a function that returns the path of the file to read in a text of the value. The function is None if
+    the started program reads no file in the value.
     """
     values: list[tuple[LaunchValue, FilePart | None]] = []
     if action.value is not None:

@@ -1,4 +1,4 @@
-"""Conditions of launch files that test whether a package is installed, or which distribution is used."""
+"""Conditions in launch files that test whether a package is installed, or which ROS distribution is used."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ from ros_lint.facts.launch import LaunchCondition
 
 
 def is_guarded_by_presence(conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether one of the conditions tests that a package is installed, so that actions under them are optional."""
+    """Return whether one of the conditions tests that a package is installed, so that the package is optional."""
     return any(condition.wanted and package_of_presence(text) for condition in conditions for text in condition.texts)
 
 
 DISTRIBUTIONS = ("humble", "jazzy", "kilted", "lyrical", "rolling")
-"""The maintained distributions.
+"""The maintained ROS distributions.
 
 Conditions on older distributions are ignored. The list is constant, because the facts of a file must not depend on data that
-the user can update. A test compares it with the package index.
-"""
+the user can update. A test compares it with the package index."""
 _ROS_DISTRO = "$ROS_DISTRO"
 
 
@@ -27,7 +26,7 @@ EVERYWHERE = frozenset(DISTRIBUTIONS)
 
 
 def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]:
-    """Return the maintained distributions in which all conditions on ROS_DISTRO may hold."""
+    """Return the maintained ROS distributions in which all conditions on ROS_DISTRO may hold."""
     on_distribution = [condition for condition in conditions if any(_ROS_DISTRO in text for text in condition.texts)]
     return (
         frozenset([distro for distro in DISTRIBUTIONS if _holds_in(distro, on_distribution)]) if on_distribution else EVERYWHERE
@@ -35,7 +34,7 @@ def distributions_under(conditions: Iterable[LaunchCondition]) -> frozenset[str]
 
 
 def _holds_in(distro: str, conditions: Iterable[LaunchCondition]) -> bool:
-    """Return whether all conditions may hold in a distribution. Only conditions on ROS_DISTRO alone are evaluated."""
+    """Return whether all conditions may hold in a ROS distribution. Only conditions on ROS_DISTRO alone are evaluated."""
     for (text, *further_texts), equals, wanted in conditions:
         if further_texts or set(named_in(text) or ()) != {_ROS_DISTRO}:
             continue

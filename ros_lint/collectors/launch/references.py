@@ -1,4 +1,4 @@
-"""References to packages and files, computed from the actions of a launch file."""
+"""The packages and files that a launch file refers to, determined from its actions."""
 
 from __future__ import annotations
 
@@ -35,18 +35,25 @@ _COMMANDS: Mapping[tuple[str, ...], str] = {
     ("ros2", "control"): "ros2controlcli",
     ("ros2", "trace"): "ros2trace",
 }
-"""The packages of the ros2 commands that are not in ros2cli_common_extensions."""
+"""By the first words of a ros2 command: its package, for commands that are not in ros2cli_common_extensions."""
 
 
 _PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmux", "valgrind", "xterm"})
-"""System programs that wrap the start of a node. Each name is also a rosdep key."""
+"""System programs, such as xterm, that a node is started in (``prefix``). Each name is also a rosdep key."""
 
 
 class References:
-    """The references, opaque places and problems of a launch file, in the order of the file."""
+    """The references of a launch file to packages and files, with problems and places that cannot be evaluated.
+
+    All are in the order of the file.
+    """
 
     def __init__(self, actions: Iterable[LaunchAction], places: Mapping[str, Span] = MappingProxyType({})) -> None:
-        """Collect the references in actions. ``places`` are the spans of package look-ups, by symbolic package name."""
+        """Collect the references in actions.
+
+        ``places`` are the spans of package look-ups, by the name of the package. In a name, special characters stand for
+        parts that are known only at launch.
+        """
         self.references: dict[LaunchReference, None] = {}
         self.opaque: dict[Opaque, None] = {}
         self.problems: dict[Problem, None] = {}
@@ -75,9 +82,10 @@ class References:
 
     @contextmanager
     def _under(self, conditions: Sequence[LaunchCondition], *, builtin_model: bool = False) -> Iterator[bool]:
-        """Apply conditions to the references that a ``with`` block adds. Yield whether they can hold in any distribution.
+        """Apply conditions to the references that a ``with`` block adds.
 
-        ``builtin_model`` is True for the references of an action that the model of a released helper creates.
+        The context manager yields whether the conditions can hold in any ROS distribution. ``builtin_model`` is True for the
+        references of an action that a launch helper of a released package creates.
         """
         previous = self._presence_checked, self._distros, self._narrowed, self._filled_texts, self._builtin_model
         self._builtin_model = builtin_model
@@ -157,7 +165,7 @@ class References:
                 self.hide("the included launch file is computed", target.span)
 
     def _note_process(self, action: LaunchAction, conditional: bool) -> None:
-        """Add references for the packages that a command line uses.
+        """Add references to the packages that a command line uses.
 
         The commands are ``ros2 run a b``, ``ros2 launch a b``, ``xacro`` and those in ``_COMMANDS``.
         """
@@ -246,7 +254,8 @@ class References:
     def _place(self, package: str, value: LaunchValue, package_span: Span | None) -> Span:
         """Return the span of the package name in a path.
 
-        It is the span of the package look-up, else ``package_span`` if that is inside of ``value``, else the span of ``value``.
+        It is the span of the package look-up, else ``package_span`` if that is inside of ``value``, else the span of
+        ``value``.
         """
         if package in self._places:
             return self._places[package]
@@ -280,7 +289,7 @@ class References:
         return tuple(texts), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
-        """Restrict the values of launch configurations to values that conditions such as "configuration equals x" allow."""
+        """Restrict the values of launch configurations to those that conditions such as "configuration equals x" allow."""
         for (text, *further_texts), equals, wanted in conditions:
             name = next((name for name, _, symbolic in configurations(text) if symbolic == text), "")
             if name and equals is not None and not further_texts and is_plain(equals):
@@ -297,7 +306,7 @@ class References:
         return texts
 
     def note_look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
-        """Add a reference to a package that the launch file looks up before it launches."""
+        """Add a reference to a package that the launch file looks up while it is loaded, before any action runs."""
         if not is_plain(package):
             self.hide("the package that is looked up is computed", value.span)
             return
@@ -309,7 +318,7 @@ class References:
                 self._add("package", package, "", value, value, bool(conditions), by_default=False)
 
     def note_opened(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
-        """Add a reference to a file that the launch file opens before it launches."""
+        """Add a reference to a file that the launch file opens while it is loaded, before any action runs."""
         with self._under(conditions) as applies:
             if applies:
                 self._note_paths(value, None, bool(conditions))
@@ -352,7 +361,7 @@ class References:
         self.references[reference] = None
 
     def mark_optional(self, packages: Container[str]) -> None:
-        """Mark the references to ``packages`` as optional, except for packages of which the file starts a node."""
+        """Mark the references to ``packages`` as optional, except for packages whose nodes or components the file starts."""
         self.references = {
             reference._replace(optional=True)
             if reference.package in packages and reference.package not in self._named
@@ -372,9 +381,9 @@ class References:
             }
 
     def mark_fallbacks(self, fallbacks: Iterable[tuple[str, Sequence[str]]]) -> None:
-        """Note for each file that replaces another file the replaced file.
+        """Record for each file that replaces a missing file which file it replaces.
 
-        ``fallbacks`` are pairs of the path of a file and the paths of the file that it replaces.
+        ``fallbacks`` are pairs: the path of the replacement, and the possible paths of the missing file.
         """
         replaced: dict[tuple[str, str], tuple[tuple[str, str], ...]] = {}
         for path, tested in fallbacks:
@@ -387,15 +396,15 @@ class References:
             }
 
     def _installed_files(self, paths: Iterable[str]) -> tuple[tuple[str, str], ...]:
-        """Return the installed files that paths name, as package and path below its share directory."""
+        """Return the installed files at paths, each as its package and its path below the package's share directory."""
         places = {place for path in paths for text in self._fill(path) for place in installed(text)}
         return tuple(sorted((place.package, place.share) for place in places if place.share))
 
     def all(self) -> tuple[LaunchReference, ...]:
         """Return the references, sorted by span.
 
-        A reference under conditions is not optional if its position names the package in every distribution, for example in
-        both branches of a test of ROS_DISTRO.
+        A reference under conditions is not optional if the place refers to the package in every ROS distribution, for example
+        in both branches of a test of ROS_DISTRO.
         """
         references = list(self.references)
         for number, reference in enumerate(references):
@@ -404,7 +413,7 @@ class References:
         return tuple(sorted(references, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
-        """Record an opaque place: an unknown value hides which packages the launch file uses."""
+        """Record a place that cannot be evaluated, so that it is not known which packages the launch file uses there."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
 
 

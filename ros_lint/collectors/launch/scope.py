@@ -1,4 +1,4 @@
-"""Evaluation of the texts and conditions of an action in its scope, that is, with the values of launch configurations."""
+"""Evaluation of the texts and conditions of a launch action, given the values of the launch configurations."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchCondition, LaunchValue
 
 Texts = tuple[str, ...]
-"""Alternative texts."""
+"""The possible values of a text."""
 
 
 class LaunchScope(NamedTuple):
-    """The launch configurations and other settings that hold for an action.
+    """The launch configurations and other settings, such as the namespace, that are in effect for an action.
 
-    ``values`` is a mutable dictionary that the actions of one scope share. Actions replace the other fields by creating a
-    new scope for later actions.
+    ``values`` is a mutable dictionary: an action changes it for all later actions of the group or file. For a change of
+    another field, an action creates a new LaunchScope for the later actions.
     """
 
     values: dict[str, Texts]
@@ -32,12 +32,12 @@ class LaunchScope(NamedTuple):
     parameters: tuple[tuple[str, Texts], ...] = ()
     remappings: tuple[tuple[Texts, Texts], ...] = ()
     environment: tuple[tuple[str, Texts], ...] = ()
-    """Variables by name; a variable that is unset has no texts."""
+    """Environment variables with their possible values, by name; an unset variable has no values."""
     container: Texts = ()
     when: tuple[LaunchCondition, ...] = ()
     later: bool = False
     include: Span | None = None
-    """The include of the file that is being expanded."""
+    """The place of the include action that includes the current file, None for the launched file."""
 
     def after(self, inner: LaunchScope) -> LaunchScope:
         """Return this scope with namespace, parameters, remappings and environment of ``inner``, the scope after an action."""
@@ -50,7 +50,7 @@ class LaunchScope(NamedTuple):
 
 
 class Filling:
-    """Replaces the marks in symbolic texts by the values in a scope.
+    """Replaces launch configurations and environment variables in texts by their values in a scope.
 
     ``environment`` has the environment variables that have one value in all scopes, by name with a leading dollar sign.
     """
@@ -58,7 +58,7 @@ class Filling:
     def __init__(self, environment: Mapping[str, Texts]) -> None:
         self._environment = environment
         self.unknown: dict[str, None] = {}
-        """Reasons why parts of the texts are unknown, since the last ``clear()``."""
+        """Reasons why parts of the evaluated texts are unknown, since this dictionary was last cleared."""
 
     def texts(self, value: LaunchValue | None, scope: LaunchScope) -> Texts:
         """Return the possible texts of a value in a scope, () if ``value`` is None."""
@@ -114,14 +114,14 @@ class Filling:
             yield "it is computed in a way that ros-lint cannot follow"
 
     def may_hold(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> bool:
-        """Return False if one of the conditions is false in a scope. No reason is recorded for unknown conditions."""
+        """Return whether no condition is false in a scope. Reasons for unknown conditions are not recorded in ``unknown``."""
         reasons = dict(self.unknown)
         truth, _ = self.truth(conditions, scope)
         self.unknown = reasons
         return truth is not False
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
-        """Return whether all conditions hold in a scope, None if unknown, and the conditions whose truth is unknown."""
+        """Return whether all conditions hold in a scope (None if unknown), and the conditions whose truth is unknown."""
         unknown: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
@@ -150,8 +150,8 @@ class Filling:
 
 @lru_cache(maxsize=8_192)
 def _filled_with(text: str, names: Texts, values: tuple[Texts | None, ...]) -> Texts:
-    """Return the possible texts of ``text`` with ``values`` for the configurations ``names``.
+    """Return the possible texts of ``text`` with the possible values ``values`` for the configurations ``names``.
 
-    The result is cached, because files that are often included repeat texts and values.
+    The result is cached, because texts and values recur in files that are often included.
     """
     return fill(text, dict(zip(names, values, strict=True)).get, evaluate)

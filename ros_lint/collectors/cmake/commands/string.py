@@ -89,12 +89,12 @@ def _extend(run: Run, name: str, text: str, append: bool) -> None:
 
 
 def ascii_upper(text: str) -> str:
-    """Return a text with its ASCII letters in upper case."""
+    """Return a text with its ASCII letters in upper case; HOLE (unknown) if a part of the text is unknown."""
     return HOLE if ATOM in text else text.translate(_UPPER)
 
 
 def ascii_lower(text: str) -> str:
-    """Return a text with its ASCII letters in lower case."""
+    """Return a text with its ASCII letters in lower case; HOLE (unknown) if a part of the text is unknown."""
     return HOLE if ATOM in text else text.translate(_LOWER)
 
 
@@ -137,7 +137,7 @@ def _substring(text: str, begin: str, length: str) -> str:
 
 
 def strip(text: str) -> str:
-    """Return a text without white space at its ends."""
+    """Return a text without white space at its start and end."""
     return text if ATOM in text and text.strip(" \t\n\r\f\v") == text else text.strip(" \t\n\r\f\v")
 
 

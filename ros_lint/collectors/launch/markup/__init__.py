@@ -1,1 +1,1 @@
-"""Launch files in XML and YAML."""
+"""Static analysis of launch files in XML and YAML."""

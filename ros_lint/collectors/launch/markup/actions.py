@@ -1,4 +1,4 @@
-"""Readers of the tags in XML and YAML launch files, except for the tags of nodes and processes."""
+"""Functions that convert the tags of XML and YAML launch files to actions, except the tags of nodes and processes."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
 
 
 def _loop(reader: Reader, entity: Entity) -> LaunchAction:
-    """Return a group with the actions in a loop. It is under an unknown condition, because the loop may run 0 times."""
+    """Return the actions in a loop as a group under an unknown condition, because the loop may run 0 times."""
     conditions = reader.conditions(entity)
     for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
         reader.text(entity, attribute)

@@ -1,7 +1,7 @@
-"""Reading of attributes in XML and YAML launch files, with the errors of launch's own reader (``launch.frontend``).
+"""Reading of attributes in XML and YAML launch files, with the errors of ``launch.frontend``.
 
-The functions follow the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that ros-lint rejects a
-file exactly if launch rejects it.
+The functions follow the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that ros-lint rejects a file
+exactly if launch rejects it.
 """
 
 from __future__ import annotations
@@ -24,25 +24,28 @@ _make = tuple.__new__  # half the time of the constructor
 
 
 class Reader:
-    """Reads each entity of a launch file with the function for its tag, and records each error that launch would raise."""
+    """Converts the elements of a launch file to actions, and records each error that launch would raise.
+
+    Each tag has a function in ``readers`` that converts its elements.
+    """
 
     def __init__(self, source: Text, readers: Mapping[str, TagReader]) -> None:
         self._source = source
         self._readers = readers
         self.problems: list[Problem] = []
         self.newer: dict[Problem, None] = {}
-        """Features that not every distribution supports; ``kind`` is the first distribution that does."""
+        """Features that some supported ROS distributions lack; ``kind`` is the first distribution with the feature."""
 
     def note_newer(self, feature: str, span: Span) -> None:
-        """Record that the file uses a tag, attribute or substitution that not every distribution supports."""
+        """Record that the file uses a tag, attribute or substitution that some supported ROS distributions lack."""
         self.newer[Problem(SINCE[feature], feature, span)] = None
 
     def note_rejection(self, error: Rejected) -> None:
-        """Record an error for which launch rejects the file."""
+        """Record an error that makes launch reject the file."""
         self.problems.append(error.problem)
 
     def actions(self, entities: Iterable[Entity]) -> list[LaunchAction]:
-        """Return the actions of entities. An entity that launch rejects is recorded as a problem, and has no action."""
+        """Return the actions of elements. An element that launch rejects is recorded as a problem, and gives no action."""
         actions: list[LaunchAction] = []
         for entity in entities:
             try:
@@ -73,7 +76,7 @@ class Reader:
         return self._reject(entity, name, value, texts_or_mistake) if isinstance(texts_or_mistake, Mistake) else texts_or_mistake
 
     def _pieces(self, entity: Entity, name: str, value: str) -> Pieces:
-        """Return the literals and substitutions of the value of an attribute. Raises Rejected if a substitution is invalid."""
+        """Return the literals and substitutions in an attribute value. Raises Rejected if a substitution is invalid."""
         pieces = _pieces(value)
         if _NEWER.search(value):
             self._note_substitutions(entity, name, value)
@@ -105,11 +108,11 @@ class Reader:
         return self._source.span(first + start, first + end)
 
     def text(self, entity: Entity, name: str) -> LaunchValue:
-        """Return the value of a required attribute. Raises Rejected if it is missing or invalid."""
+        """Return the value of a required attribute. Raises Rejected if the attribute is missing or invalid."""
         return self.optional(entity, name) or self._value(entity, name, entity.need(name))
 
     def optional(self, entity: Entity, name: str) -> LaunchValue | None:
-        """Return the value of an optional attribute, None if it is missing. Raises Rejected if it is invalid."""
+        """Return the value of an optional attribute, None if it is missing. Raises Rejected if the value is invalid."""
         if entity.simple:
             value = entity.attributes.get(name)
             if value is None:
@@ -125,7 +128,7 @@ class Reader:
         return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value, (), ()))
 
     def typed(self, entity: Entity, name: str, kind: Type) -> Any:
-        """Return the value of an attribute converted to the type ``kind``, None if it is missing.
+        """Return the value of an attribute converted to the type ``kind``, None if the attribute is missing.
 
         A value with substitutions is returned as a LaunchValue. Raises Rejected if the value has another type.
         """
@@ -145,14 +148,17 @@ class Reader:
         return LaunchValue(joined(rows, _as_yaml), entity.place(name))
 
     def _kind(self, entity: Entity, name: str, value: Any) -> type | None:
-        """Return the type of ``value``, an attribute or an element of a list, None if it is a text with substitutions."""
+        """Return the type of ``value``, an attribute or an element of a list; None if it is a text with substitutions."""
         if not isinstance(value, str):
             return type(value)
         pieces = self._pieces(entity, name, value)
         return str if len(pieces) == 1 and isinstance(pieces[0], Literal) else None
 
     def package_span(self, entity: Entity, *names: str) -> Span | None:
-        """Return the span of the package name in the first package look-up in the attributes ``names``, None if there is none."""
+        """Return the span of the package name in the first package look-up in the attributes ``names``.
+
+        A look-up is for example ``$(find-pkg-share robot)``. The result is None if there is none.
+        """
         for name in names:
             value = entity.attributes.get(name)
             if not isinstance(value, str) or "-pkg" not in value:
@@ -207,9 +213,9 @@ class Reader:
         return tuple(pairs)
 
     def conditions(self, entity: Entity) -> tuple[LaunchCondition, ...]:
-        """Return the condition in the attribute ``if`` or ``unless`` of an entity, () if the entity has neither.
+        """Return the condition in the attribute ``if`` or ``unless`` of an element, () if the element has neither.
 
-        Raises Rejected if the entity has both, or the value is invalid.
+        Raises Rejected if the element has both attributes, or the value is invalid.
         """
         if entity.simple and "if" not in entity.attributes and "unless" not in entity.attributes:
             return ()
@@ -231,7 +237,7 @@ class Mistake(NamedTuple):
     start: int
     end: int
     instead: str = ""
-    """The replacement, as :attr:`Problem.instead`."""
+    """The text that replaces the wrong part (as :attr:`Problem.instead`), "" if none is known."""
 
 
 def _as_yaml(row: tuple[str, ...]) -> str:
@@ -240,7 +246,7 @@ def _as_yaml(row: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4_096)
 def read_value(value: str) -> tuple[str, ...] | Mistake:
-    """Return the possible texts of an attribute value, or a Mistake. The result is cached, because values occur repeatedly."""
+    """Return the possible texts of an attribute value, or a Mistake. The result is cached, because values recur."""
     simple = simple_text(value)
     if simple is not None:
         return (simple,)
@@ -265,7 +271,7 @@ def _pieces(value: str) -> Pieces | Mistake:
 def _package_place(value: str) -> tuple[int, int] | None:
     """Return the start and end offset of the package name in the first package look-up of a valid value.
 
-    The result is None if the value contains no look-up.
+    A look-up is for example ``$(find-pkg-share robot)``. The result is None if the value has none.
     """
     if "exec-in-pkg" not in value and simple_text(value) is not None:
         match = _LOOK_UP.search(value)
@@ -278,12 +284,12 @@ _NEWER_TAGS = frozenset([feature[1:-1] for feature in SINCE if re.fullmatch(r"<\
 _NEWER = re.compile(
     r"\$\((?:eval|" + "|".join([feature[2:-1] for feature in SINCE if re.fullmatch(r"\$\(.*\)", feature)]) + r")[ )]"
 )
-"""Substitutions, or arguments of them, that not every distribution supports."""
+"""Pattern of substitutions that some supported ROS distributions lack, entirely or in some of their arguments."""
 _LOOK_UP = re.compile(r"\$\(find-pkg-(?:share|prefix) ([^)]*)\)")
 
 
 def _argument_error(piece: Substitution) -> tuple[str, str] | None:
-    """Return the kind and the message of the error in the arguments of a substitution, None if the arguments are valid."""
+    """Return the kind and the message of the error in the arguments of a substitution, None if they are valid."""
     limits = SUBSTITUTIONS.get(piece.name)
     if limits is None:
         return "unknown-substitution", f"there is no substitution $({piece.name})"

@@ -1,7 +1,7 @@
 """Facts of XML and YAML launch files, which are read as ``launch`` and ``launch_ros`` read them.
 
-The functions follow the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that ros-lint rejects a
-file exactly if launch rejects it.
+The functions follow the ``parse`` methods of ``launch`` and ``launch_ros`` one by one, so that ros-lint rejects a file
+exactly if launch rejects it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ros_lint.facts.launch import LaunchAction, LaunchFile
 
 
 def launch_file(source: Text, language: Literal["xml", "yaml"], root: Entity) -> LaunchFile:
-    """Return the facts of a launch file in XML or YAML. ``root`` is the root element with all entities in it."""
+    """Return the facts of a launch file in XML or YAML. ``root`` is its root element."""
     reader = Reader(source, _TAG_READERS)
     actions: list[LaunchAction] = []
     try:
@@ -53,7 +53,7 @@ _VARIABLE = re.compile(r"\$\(var[ ]+[\"']?(\$\(|[^\s()\"']+)")
 def configurations_read(text: str) -> tuple[str, ...]:
     """Return the names of the launch configurations that a text reads, sorted: ``$(var a)`` -> ("a",).
 
-    The name UNKNOWN stands for computed names.
+    The name UNKNOWN stands for names that are computed at launch.
     """
     if "$(var" not in text:
         return ()

@@ -1,7 +1,7 @@
-"""Entities of XML and YAML launch files, and the types of attributes (``launch.frontend.Entity``).
+"""Elements of XML and YAML launch files, and the types of attributes (``launch.frontend.Entity``).
 
-XML and YAML differ in one thing: in XML every attribute is a text, which is converted to the requested type; in YAML
-every value has a type, which is checked.
+XML and YAML differ in one respect: in XML every attribute is a text, which is converted to the requested type; in YAML every
+value has a type, which is checked.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Text
 
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
-"""The requested type of an attribute; ``any`` is the type that YAML infers from the text."""
+"""The requested type of an attribute. ``any`` is the type that YAML infers from the text."""
 
 _make = tuple.__new__  # half the time of the constructor
 
@@ -37,11 +37,14 @@ class Rejected(Exception):  # noqa: N818
 
 
 NO_VALUE: Final = object()
-"""A YAML value that no attribute accepts: a mapping, a date, nested lists."""
+"""The stand-in for a YAML value that no attribute accepts: a mapping, a date, nested lists."""
 
 
 class Entity:
-    """An XML element, or a YAML key with its value: attributes and children. ``start`` and ``end`` are offsets of its tag."""
+    """An element of a launch file: an XML element, or a YAML key with its value. It has attributes and children.
+
+    ``start`` and ``end`` are the offsets of the tag (in YAML: of the key) in the source.
+    """
 
     __slots__ = (
         "_read_children",
@@ -70,31 +73,34 @@ class Entity:
         spots: dict[str, tuple[int, int]] | None,
         simple: bool,
     ) -> None:
-        """Create an entity.
+        """Create an element.
 
-        ``spots`` are the offsets of the attribute values, None if :meth:`written` has to find them.
+        ``spots`` are the offsets of the attribute values, None if :meth:`written` has to find the offsets.
         """
         self._source = source
         self.tag = tag
         self.attributes = attributes
-        """Texts in XML; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
+        """Attributes by name: texts in XML; in YAML texts, numbers, booleans, None, lists of these, or :data:`NO_VALUE`."""
         self.children = children
-        """In YAML the items of ``children``, and of lists of mappings under other keys, whose tag is the key."""
+        """Child elements.
+
+        In YAML: the items of the key ``children``, and the items of lists of mappings under other keys. The tag of the latter
+        is the key."""
         self.start = start
         self.end = end
         self.form = form
-        """``element`` in XML; in YAML the type of the value of the key."""
+        """``element`` in XML. In YAML the type of the value: ``mapping``, ``list`` or ``other``."""
         self._spots = spots
         self._written: dict[str, tuple[Span, bool]] | None = None
         self.simple = simple
-        """True if each attribute is exactly the text in the source: only in XML, and without separators."""
+        """True if each attribute value is exactly the text in the source: only in XML, in files without separators (``-sep``)."""
         self.read: set[str] = set()
-        """The attributes that were requested."""
+        """The names of the attributes that were requested so far."""
         self._read_children: set[str] | None = set()
 
     @property
     def span(self) -> Span:
-        """The span of the tag of the entity."""
+        """The span of the tag of the element."""
         return self._source.span(self.start, self.end)
 
     def written(self, name: str) -> tuple[Span, bool]:
@@ -138,15 +144,15 @@ class Entity:
         return {name: (span(start, end), text[start:end] == self.attributes.get(name)) for name, (start, end) in spots.items()}
 
     def place(self, name: str) -> Span:
-        """Return the span of the value of an attribute, the span of the tag if the entity has no such attribute."""
+        """Return the span of the value of an attribute, the span of the tag if the element has no such attribute."""
         return self.written(name)[0] if name in self.attributes else self.span
 
     def has_none_of(self, names: Iterable[str]) -> bool:
-        """Return whether the entity certainly has none of the attributes ``names``, so that requesting them cannot fail."""
+        """Return whether the element certainly has none of the attributes ``names``, so that requesting them cannot fail."""
         return self.form == "element" and self.attributes.keys().isdisjoint(names)
 
     def get(self, name: str, kind: Type = "str") -> Any:
-        """Return the value of an attribute with the type ``kind``, None if it is missing.
+        """Return the value of an attribute with the type ``kind``, None if the attribute is missing.
 
         Raises Rejected if the value has another type.
         """
@@ -172,7 +178,8 @@ class Entity:
     def _converted(self, name: str, kind: Type) -> Any:
         """Return the text of an XML attribute converted to a type.
 
-        If the entity has an attribute ``<name>-sep``, its value is the separator at which the text is split first.
+        If the element has an attribute ``<name>-sep``, the text is first split at its value: ``a;b`` with ``;`` -> ``a`` and
+        ``b``.
         """
         value: str | list[str] = self.attributes[name]
         separator = self.attributes.get(f"{name}-sep")
@@ -187,7 +194,7 @@ class Entity:
             raise Rejected("wrong-type", f"'{name}' of <{self.tag}> is not {_NAMES[kind]}", self.place(name)) from None
 
     def need(self, name: str, kind: Type = "str") -> Any:
-        """Return the value of an attribute. Raises Rejected if it is missing or has another type."""
+        """Return the value of an attribute. Raises Rejected if the attribute is missing or has another type."""
         value = self.get(name, kind)
         if value is None:
             raise Rejected("missing-attribute", f"<{self.tag}> requires the attribute '{name}'", self.span)
@@ -208,7 +215,7 @@ class Entity:
         return [child for child in self.children if child.tag == tag]
 
     def actions(self) -> list[Entity]:
-        """Return the children that are actions. Raises Rejected if a YAML entity has no list of actions."""
+        """Return the children that are actions. Raises Rejected if a YAML element has no list of actions."""
         if self.form == "element":
             self._read_children = None
             return self.children
@@ -229,7 +236,7 @@ class Entity:
         raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
 
     def finish(self) -> None:
-        """Raise Rejected if the entity has an attribute or a child that no reader requested: launch does not support it."""
+        """Raise Rejected if the element has an attribute or a child that was never requested: launch does not support it."""
         requested = self._read_children
         if self.form == "list":
             if requested is not None:
@@ -247,11 +254,11 @@ class Entity:
 
 
 CHILDREN: Final = "\0children"
-"""The tag of the key ``children`` of YAML, and of a list item that is not an entity."""
+"""The tag that represents the key ``children`` in YAML, or a list item that is not an element."""
 
 
 def _single_entity(item: Entity) -> Entity:
-    """Return the only entity in an item of a YAML list. Raises Rejected if the item does not have exactly one key."""
+    """Return the only element in an item of a YAML list. Raises Rejected if the item does not have exactly one key."""
     if item.tag != CHILDREN:
         return item
     raise Rejected("wrong-type", "each list item must have exactly one key, the tag", item.span)
@@ -291,7 +298,7 @@ def _is_instance(value: Any, kind: Type) -> bool:
 
 
 def _coerced(value: str | list[str], kind: Type) -> Any:
-    """Return the text of an XML attribute, or its split parts, converted to a type. Raises ValueError.
+    """Return the text of an XML attribute, or its split parts, converted to a type. Raises ValueError if this is impossible.
 
     A text that is no number is returned unchanged for a number type, because it may contain a substitution.
     """
@@ -367,7 +374,10 @@ _SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
 
 
 def _is_suspicious(value: str) -> bool:
-    """Return whether YAML may read a text as another type, such as ``1`` or ``[a]``. It must not be empty or in ``_WORDS``."""
+    """Return whether YAML may convert a text to another type, e.g. ``1`` or ``[a]``.
+
+    The text must not be empty or in ``_WORDS``.
+    """
     if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
         return True
     return ": " in value or " #" in value or "\n" in value

@@ -1,4 +1,4 @@
-"""Readers of the tags of nodes, components and processes in XML and YAML launch files."""
+"""Functions that convert the tags of nodes, components and processes in XML and YAML launch files to actions."""
 
 from __future__ import annotations
 

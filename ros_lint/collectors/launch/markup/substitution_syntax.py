@@ -1,7 +1,7 @@
 """The syntax of substitutions in XML and YAML launch files: ``$(name argument ...)``.
 
-It follows ``grammar.lark`` of the launch package: arguments are separated by one space and may be quoted, quotes do
-not nest, a backslash escapes, and a dollar sign is literal unless a parenthesis follows.
+It follows ``grammar.lark`` of the launch package: arguments are separated by one space and may be quoted, quotes do not nest,
+a backslash escapes, and a dollar sign is literal unless a parenthesis follows.
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ class SubstitutionError(Exception):
 
 
 class Literal(NamedTuple):
-    """Literal text, also in an argument of a substitution. ``text`` has no escapes, ``start`` and ``end`` are offsets."""
+    """A literal part of a text, or of an argument of a substitution.
+
+    ``text`` is without escapes, ``start`` and ``end`` are the offsets in the whole text.
+    """
 
     text: str
     start: int
@@ -49,11 +52,11 @@ _STOPS = {
     stops: re.compile(rf"[\\$(){stops}]" if stops not in ("", "'", '"') else rf"[\\${stops}]")
     for stops in ("", "'", '"', _BARE_STOPS, *_INNER_STOPS.values())
 }
-"""Patterns for the next special character: a backslash, a dollar sign, and the ends of the piece."""
+"""Patterns that find the next special character: a backslash, a dollar sign, or the end of the literal."""
 
 
 def parse(text: str) -> tuple[Piece, ...]:
-    """Return the literals and substitutions of a text. Raises SubstitutionError."""
+    """Return the literals and substitutions in a text. Raises SubstitutionError if the text does not match the grammar."""
     if "$(" not in text:
         return (Literal(_unescape(text), 0, len(text)),)
     return _Parser(text).template()

@@ -1,4 +1,7 @@
-"""Symbolic texts of the values with substitutions in XML and YAML launch files."""
+"""Conversion of values with substitutions in XML and YAML launch files to symbolic texts.
+
+In a symbolic text, special characters stand for the parts that are known only when the launch file runs.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ Texts = tuple[str, ...]
 
 
 def texts(pieces: Pieces) -> Texts:
-    """Return the possible texts of a value, with marks for the parts that are known only when the launch file runs."""
+    """Return the possible texts of a value, with special characters for the parts that are known only at launch."""
     if len(pieces) == 1:
         return _texts_of_piece(pieces[0])
     rows = [_texts_of_piece(piece) for piece in pieces]
@@ -30,7 +33,10 @@ _SIMPLE = re.compile(r"""\$\(([A-Za-z][A-Za-z0-9_-]*)((?:[ ][^ '"\\$()]+)*)\)"""
 
 
 def simple_text(value: str) -> str | None:
-    """Return the symbolic text of a value if its substitutions are simple and valid, None if the value has to be parsed."""
+    """Return the text of a value with simple and valid substitutions, None if the value needs the full parser.
+
+    Special characters in the text stand for the parts that are known only at launch.
+    """
     if "\\" in value:
         return None
     output: list[str] = []

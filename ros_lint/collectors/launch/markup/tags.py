@@ -1,4 +1,4 @@
-"""The tags and substitutions of XML and YAML launch files, with the distributions that added them."""
+"""The tags and substitutions of XML and YAML launch files, with the ROS distributions that added them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ EXTENSIONS: Mapping[str, str] = {
     "gz_robot_plugin": "ros_gz_sim",
     "trace": "tracetools_launch",
 }
-"""Tags that packages add by the entry point group ``launch.frontend.launch_extension``, by name."""
+"""Tags that packages add with the entry point group ``launch.frontend.launch_extension``, each with its package."""
 
 ROS_1: Mapping[str, str] = {
     "$(find)": "$(find-pkg-share)",
@@ -62,7 +62,7 @@ ROS_1: Mapping[str, str] = {
     "<env>": "<set_env>",
     "<machine>": "none",
 }
-"""Features of ROS 1 that ROS 2 does not have, and their replacements."""
+"""Features of ROS 1 launch files that ROS 2 does not have, and their replacements."""
 
 SINCE: Mapping[str, str] = {
     "<set_ros_log_dir>": "iron",  # launch_ros 0.22.0
@@ -80,13 +80,12 @@ SINCE: Mapping[str, str] = {
     "$(index)": "kilted",  # launch 3.8.0
     "$(string-join)": "lyrical",  # launch 3.9.5
 }
-"""The first distribution that supports a feature, for features that not every supported one has.
+"""The first ROS distribution that supports a feature, for features that some supported distributions lack.
 
-From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the branches humble, iron, jazzy and
-rolling of ros2/launch and ros2/launch_ros as of 2024-12. Later features are from their changelogs of humble (launch
-1.0.14, launch_ros 0.19.13), jazzy (3.4.10, 0.26.11), kilted (3.8.7, 0.28.4) and rolling (3.9.6, 0.29.5).
+From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the branches humble, iron, jazzy and rolling of
+ros2/launch and ros2/launch_ros as of 2024-12. Later features are from their changelogs of humble (launch 1.0.14, launch_ros
+0.19.13), jazzy (3.4.10, 0.26.11), kilted (3.8.7, 0.28.4) and rolling (3.9.6, 0.29.5).
 
 Features that updates brought to every supported distribution are omitted: ``on_exit`` and ``emulate_tty``, ``$(if)``,
-``$(any)``, ``$(all)``, ``$(equals)`` and ``$(not-equals)`` came to humble with launch 1.0.9, ``$(file-content)`` with
-1.0.11.
+``$(any)``, ``$(all)``, ``$(equals)`` and ``$(not-equals)`` came to humble with launch 1.0.9, ``$(file-content)`` with 1.0.11.
 """

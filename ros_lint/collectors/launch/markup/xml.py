@@ -1,4 +1,4 @@
-"""Launch files in XML."""
+"""Static analysis of launch files in XML."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 
 def collect(source: Text) -> LaunchFile:
-    """Return the facts of a launch file in XML. Never raises."""
+    """Return the facts of a launch file in XML. Errors in the file are in the result; none raises an exception."""
     try:
         root = entities(source)
     except xml_tree.XmlError as error:
@@ -26,7 +26,7 @@ def collect(source: Text) -> LaunchFile:
 
 
 def entities(source: Text) -> Entity:
-    """Return the root element of an XML launch file as an entity. Raises XmlError."""
+    """Return the root element of an XML launch file, with its children. Raises XmlError if the file is not valid XML."""
     simple = "-sep" not in source.text
 
     def entity(tag: str, attributes: dict[str, str], start: int) -> Entity:

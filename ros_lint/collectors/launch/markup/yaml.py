@@ -1,4 +1,4 @@
-"""Launch files in YAML."""
+"""Static analysis of launch files in YAML."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _MAX_ENTITIES = 20_000
 
 
 def collect(source: Text) -> LaunchFile:
-    """Return the facts of a launch file in YAML. Never raises."""
+    """Return the facts of a launch file in YAML. Errors in the file are in the result; none raises an exception."""
     try:
         node = compose(source.text)
     except YamlBoundError as error:
@@ -43,7 +43,7 @@ def collect(source: Text) -> LaunchFile:
 
 
 class _Reader:
-    """Creates entities from YAML nodes. The number of entities is limited, because aliases can multiply a few nodes."""
+    """Converts YAML nodes to elements. The number of elements is limited, because aliases can multiply a few nodes."""
 
     def __init__(self, source: Text) -> None:
         self._source = source
@@ -58,7 +58,7 @@ class _Reader:
         return self._entity(key, value, 0)
 
     def _entity(self, key: yaml.Node, value: yaml.Node, depth: int) -> Entity:
-        """Return the entity of a key: a mapping has attributes and lists of child entities, a list has child entities."""
+        """Return the element of a YAML key: a mapping has attributes and lists of child elements, a list has child elements."""
         tag = str(key.value) if _is_scalar(key) else "?"
         return self._entity_of_value(tag, key.start_mark.index, key.end_mark.index, value, depth)
 
@@ -114,7 +114,7 @@ def _is_scalar(node: yaml.Node) -> bool:
 
 
 def _value(node: yaml.Node) -> Any:
-    """Return the text, number, boolean or None of a YAML scalar, a list of them for a list of scalars, else NO_VALUE.
+    """Return the text, number, boolean or None of a YAML scalar, a list of these for a list of scalars, else NO_VALUE.
 
     Nested lists are not read, because aliases can multiply a few of them.
     """
