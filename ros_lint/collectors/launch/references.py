@@ -279,7 +279,7 @@ class References:
         self._add("command", command, command, place, place, conditional, by_default=False)
 
     def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
-        """Return the possible texts of a value if launch arguments have their defaults, and whether a caller can change them."""
+        """Return the possible texts of a value if launch arguments have their defaults, and whether a caller can change it."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
         by_default = not all(map(self._defaults.is_own, value.texts))

@@ -40,7 +40,10 @@ class LaunchScope(NamedTuple):
     """The place of the include action that includes the current file, None for the launched file."""
 
     def after(self, inner: LaunchScope) -> LaunchScope:
-        """Return this scope with namespace, parameters, remappings and environment of ``inner``, the scope after an action."""
+        """Return this scope with the namespace, parameters, remappings and environment of ``inner``.
+
+        ``inner`` is the scope after an action that ran in this scope.
+        """
         return self._replace(
             namespace=inner.namespace,
             parameters=inner.parameters,

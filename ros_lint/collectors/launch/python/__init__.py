@@ -1,1 +1,1 @@
-"""Launch files in Python: the classes and functions of the launch libraries."""
+"""Static analysis of launch files in Python: the classes and functions of the launch libraries."""

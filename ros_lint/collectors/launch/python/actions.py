@@ -1,4 +1,7 @@
-"""Conversion of objects of the launch libraries to actions, as ``launch`` and ``launch_ros`` execute them."""
+"""Conversion of objects such as IncludeLaunchDescription or GroupAction in Python launch files to actions.
+
+The functions follow the ``execute`` methods of ``launch`` and ``launch_ros``.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ _MAX_TEXTS = 2_000
 
 
 def walker(machine: Interpreter, source: Source) -> Walker:
-    """Return the walker that turns the objects of a launch file into actions."""
+    """Return the object that converts the launch objects (objects of launch classes) of a Python launch file to actions."""
     return Walker(machine, source, _BUILDERS, _other)
 
 
@@ -73,10 +76,10 @@ class _PassedArgument(NamedTuple):
 
     name: str
     span: Span
-    """The place of the name."""
+    """The place of the argument's name."""
     value: LaunchValue
     conditions: Conditions
-    """The conditions under which it is passed; () if there are several alternatives."""
+    """The conditions under which the argument is passed; () if there are several alternatives."""
     uncertain: bool
     """True if the argument may not be passed."""
 
@@ -104,7 +107,7 @@ def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: La
 
 
 def _uncertain_names(arguments: Sequence[_PassedArgument]) -> tuple[str, ...]:
-    """Return the names of arguments that may not be passed. An argument of both branches of a condition is certain."""
+    """Return the names of arguments that may not be passed. An argument in both branches of a condition is certain."""
     counts = Counter([argument.name for argument in arguments])
     return tuple([argument.name for argument in arguments if argument.uncertain and counts[argument.name] == 1])
 
@@ -248,7 +251,7 @@ def _no_action(walker: Walker, launch_object: LaunchObject, conditions: Conditio
 
 
 _DECLARES = re.compile(r"Declare\w*Arg(?:ument)?\Z")
-"""Classes that declare an argument, as ``DeclareBooleanLaunchArg`` of moveit_configs_utils does."""
+"""Pattern of the classes that declare an argument, such as ``DeclareBooleanLaunchArg`` of moveit_configs_utils."""
 
 _BUILDERS: Mapping[str, ActionBuilder] = {
     **nodes.BUILDERS,
@@ -276,4 +279,4 @@ _BUILDERS: Mapping[str, ActionBuilder] = {
 }
 
 LAUNCHED = frozenset(_BUILDERS) - {"LaunchDescription"}
-"""Classes whose objects have an effect when they are launched."""
+"""Names of the classes whose objects have an effect when they are launched."""

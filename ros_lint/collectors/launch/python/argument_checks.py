@@ -1,9 +1,9 @@
 """Arguments for which the classes of the launch libraries raise an error when the file is launched.
 
-- Unknown keywords, and missing ones that are required.
+- Unknown keywords, and required keywords that are missing.
 - A value of a type that the class rejects.
 - Positional arguments where a keyword is required.
-- A file in another format than the one that the class reads.
+- A file in another format than the class reads.
 - Absolute paths as later parts of a joined path, which replace the parts before them.
 """
 
@@ -36,11 +36,14 @@ _OTHER_FORMATS: Mapping[str, tuple[str, ...]] = {
     "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),
     "YAMLLaunchDescriptionSource": (".py", ".xml"),
 }
-"""The file suffixes that a launch description source cannot read."""
+"""By launch description source: the suffixes of files that it cannot read."""
 
 
 def rejected_arguments(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield a problem for each argument that the class of a launch object rejects, except in ``try`` blocks."""
+    """Yield a problem for each argument that a launch class rejects, except in ``try`` blocks.
+
+    ``launch_objects`` are the objects of launch classes that the interpretation of the file created.
+    """
     problems = [
         (node, problem)
         for launch_object in launch_objects
@@ -98,7 +101,8 @@ def _rejected_arguments_of(launch_object: LaunchObject) -> Iterator[tuple[ast.Ca
 def _missing_arguments(node: ast.Call, signature: Signature) -> list[str]:
     """Return the required keywords that a call does not set.
 
-    The result is empty if ``*`` or ``**`` may set them, or if an argument is rejected, because it may be meant for one of them.
+    The result is empty if ``*`` or ``**`` may set the keywords. It is also empty if the call has an invalid argument, because
+    this argument may be meant for a required keyword.
     """
     given = {keyword.arg for keyword in node.keywords}
     if len(node.args) > signature.most_positional or not given <= signature.kinds.keys():
@@ -110,7 +114,7 @@ def _missing_arguments(node: ast.Call, signature: Signature) -> list[str]:
 
 
 def _wrong_type(launch_object: LaunchObject) -> Problem | None:
-    """Return a problem for an argument that the class rejects because of its type, None if there is none."""
+    """Return a problem for an argument that the class rejects because of the argument's type, None if there is none."""
     name = launch_object.name
     if name in ("TimerAction", "ROSTimer", "RosTimer"):
         period = launch_object.get(-1, "period")
@@ -139,7 +143,7 @@ def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], 
 
 
 def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
-    """Yield a problem for the first absolute path that a call joins to another path, because Python drops that other path."""
+    """Yield a problem for the first absolute path that a call joins to another path: Python drops the path before it."""
     if not _SLASH.search(source.text.text):
         return  # because walking the whole tree takes longer
     for node in ast.walk(tree):
@@ -155,7 +159,7 @@ def dropped_paths(tree: ast.Module, source: Source) -> Iterator[Problem]:
 
 
 _SLASH = re.compile(r",\s*['\"]/")
-"""A text that begins with a slash and follows a comma."""
+"""Pattern of a comma and a string literal that begins with a slash."""
 
 
 def _joined_parts(node: ast.Call) -> list[ast.expr]:

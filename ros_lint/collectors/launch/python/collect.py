@@ -1,6 +1,6 @@
-"""Facts of launch files in Python, which are interpreted symbolically and never run.
+"""Facts of Python launch files, which are interpreted symbolically and never run.
 
-An object counts only if it is launched: an action that is created but neither returned nor added starts nothing.
+An action counts only if it is launched: an action that is created but neither returned nor added starts nothing.
 """
 
 from __future__ import annotations
@@ -44,10 +44,10 @@ if TYPE_CHECKING:
 def collect(
     source: Text, modules: Modules = lambda name, importer: None, files: Callable[[str], str | None] = lambda path: None
 ) -> LaunchFile:
-    """Return the facts of a launch file in Python. Never raises.
+    """Return the facts of a Python launch file. Errors in the file are in the result; none raises an exception.
 
-    ``modules`` returns a module of the workspace that the file imports. ``files`` returns the text of a file by its
-    installed path, None if there is no such file.
+    ``modules`` returns a module of the workspace that the file imports. ``files`` returns the text of a file by its installed
+    path, None if there is no such file.
     """
     defined = entries(source.text)
     if len(source.text) > _MAX_LENGTH:
@@ -86,7 +86,7 @@ def collect(
 
 
 def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
-    """Yield the errors of the Python compiler, such as a repeated keyword argument."""
+    """Yield the errors of the Python compiler in a file, such as a repeated keyword argument."""
     if (error := compile_error(tree)) is not None:
         from ros_lint.collectors.python.compile_errors import misplaced  # noqa: PLC0415  (few launch files have any)
 
@@ -96,7 +96,7 @@ def _compile_errors(tree: ast.Module, source: Text) -> Iterator[Problem]:
 def _has_required_parameters(node: ast.stmt) -> bool:
     """Return whether a statement defines generate_launch_description() with required parameters.
 
-    Such a file is a helper of other launch files, because launch calls the function without arguments.
+    A file with such a function is a helper of other launch files, because launch calls the function without arguments.
     """
     if not isinstance(node, ast.FunctionDef) or node.name != "generate_launch_description" or node.decorator_list:
         return False
@@ -107,7 +107,7 @@ def _has_required_parameters(node: ast.stmt) -> bool:
 def _imports(text: Text, tree: ast.Module) -> Iterator[tuple[str, Span]]:
     """Yield the modules that a source imports at its top level without a condition, each with its span.
 
-    Nothing is yielded if the source mentions ``sys.path``, because it may change where modules are found.
+    Nothing is yielded if the source contains ``sys.path``, because it may change where modules are found.
     """
     if "sys.path" in text.text:
         return
@@ -174,7 +174,7 @@ class _Interpretation:
     def configurations_read(self) -> tuple[str, ...]:
         """Return the names of the launch configurations that the file reads, sorted.
 
-        UNKNOWN is among the names if the file may read other configurations.
+        UNKNOWN is among the names if the file may read further configurations.
         """
         evaluation = TextEvaluation()
         names = {
@@ -188,10 +188,10 @@ class _Interpretation:
         return tuple(sorted(names))
 
     def _mark_optional(self, references: References) -> None:
-        """Mark the references to a package as optional if no look-up of the package requires that it is installed.
+        """Mark the references to a package as optional if the file can be loaded without the package.
 
-        A look-up while the file is read stops the file if the package is missing, unless the exception is caught or a
-        condition tests for the package.
+        A look-up of a missing package while the file is loaded stops the file, unless the exception is caught or a condition
+        tests for the package.
         """
         optional = {package: True for package, *_ in self._machine.looked_up if package not in self._machine.lazily}
         for package, _, _, conditions in self._machine.looked_up:
@@ -214,14 +214,17 @@ class _Interpretation:
     def _add_escaped(self, all_objects: bool) -> None:
         """Add the actions of the launch objects that code outside of the interpretation may launch.
 
-        ``all_objects`` adds the actions of all launch objects.
+        A launch object is an object of a launch class. ``all_objects`` adds the actions of all launch objects.
         """
         for launch_object in self._machine.made:
             if not launch_object.seen and (launch_object.escaped or all_objects) and launch_object.name in LAUNCHED:
                 self.actions += self._walker.actions(launch_object, (PERHAPS,))
 
     def add_to(self, references: References) -> None:
-        """Add to ``references`` the files and packages that the launch file reads before it launches, and the opaque places."""
+        """Add the files and packages that the launch file reads while it is loaded, and the places that cannot be evaluated.
+
+        They are added to ``references``.
+        """
         for path, node, source, conditions in self._machine.opened:
             if source is self._source:
                 references.note_opened(self._walker.text(path, node, source), conditions)

@@ -1,4 +1,4 @@
-"""Actions that a Python launch file starts at events, and actions that a function of the file returns during the launch."""
+"""Actions that a Python launch file starts at events, and actions that its functions return during the launch."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
 
 
 def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return the actions that a RegisterEventHandler starts: the actions of its handler, or the result of its function."""
+    """Return the actions that a RegisterEventHandler starts: those in its handler, or the result of the handler's function."""
     actions: list[LaunchAction] = []
     for alternative in alternatives(launch_object.get(0, "event_handler")):
         handler = alternative.value
@@ -55,7 +55,7 @@ def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction
 
 
 def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[LaunchAction]:
-    """Return the actions in the arguments ``names`` of an object, which run at an event: ``on_exit=[action]``.
+    """Return the actions in the arguments ``names`` of a launch object, which run at an event: ``on_exit=[action]``.
 
     Each argument may also be a function that returns the actions.
     """
@@ -91,7 +91,7 @@ def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Co
 
 
 def _for_each(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    """Return the actions of the function of a ForEach, which launch calls for each set of keyword values.
+    """Return the actions that the function of a ForEach returns. launch calls the function for each set of keyword values.
 
     The keyword values are unknown. The actions are under an unknown condition, because there may be no set at all.
     """

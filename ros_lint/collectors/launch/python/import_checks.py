@@ -41,7 +41,7 @@ _MODULES: Mapping[str, frozenset[str]] = {
         "launch_ros.substitutions": "ExecutableInPackage FindPackage FindPackagePrefix FindPackageShare",
     }.items()
 }
-"""The public names of each module in any distribution, as far as launch files use them.
+"""By module: its public names in any ROS distribution, if launch files use the names.
 
 From launch 3.7.1, launch_ros 0.28 and later.
 """
@@ -89,7 +89,10 @@ def _is_misplaced(module: str, name: str) -> bool:
 
 
 def _imported(tree: ast.Module) -> frozenset[str]:
-    """Return the launch libraries that a source imports without an alias. A library whose name is rebound is omitted."""
+    """Return the launch libraries that a source imports without an alias.
+
+    A library is omitted if the source assigns another value to its name.
+    """
     imported: set[str] = set()
     rebound: set[str] = set()
     for node in ast.walk(tree):

@@ -1,4 +1,7 @@
-"""Models of the functions and classes of the launch libraries, and of functions on paths."""
+"""Models of the functions and classes of the launch libraries, and of path functions, for the symbolic interpreter.
+
+A model computes the result of a call from the arguments and records which packages and files the call uses.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +50,7 @@ def call_library(
     node: ast.Call,
     frame: Frame,
 ) -> Value:
-    """Return the result of a library function, or of a method of a library object."""
+    """Return the result of a call of a library function, or of a method of a library object."""
     if isinstance(callee, Method):
         call = LibraryCall(machine, callee.name, arguments, keywords, node, frame)
         return _of_path(call, callee.owner) if isinstance(callee.owner, FilePath) else _method(call, callee.owner)
@@ -94,7 +97,7 @@ def _note_command(call: LibraryCall, launch_object: LaunchObject) -> None:
 
 
 def _note_builder(call: LibraryCall, launch_object: LaunchObject) -> None:
-    """Record that a builder of moveit_configs_utils looks up its package while the launch file is read.
+    """Record that a builder of moveit_configs_utils looks up its package while the launch file is loaded.
 
     Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
     """
@@ -110,9 +113,9 @@ def _note_builder(call: LibraryCall, launch_object: LaunchObject) -> None:
 
 
 def package_of_builder(builder: LaunchObject) -> str:
-    """Return the name of the package that a MoveIt builder looks up, "" if it is unknown.
+    """Return the name of the package that a builder of moveit_configs_utils looks up, "" if it is unknown.
 
-    Without ``package_name``, the name for MoveItConfigsBuilder is ``<robot_name>_moveit_config``.
+    Without ``package_name``, MoveItConfigsBuilder looks up ``<robot_name>_moveit_config``.
     """
     of_robots = builder.name == "MoveItConfigsBuilder"
     package, robot = builder.get(2 if of_robots else 0, "package_name"), builder.get(0, "robot_name")
@@ -166,14 +169,14 @@ _FILE_POSITIONS: Mapping[str, int] = {
     "xacro_parameter": 1,
     "yaml": 0,
 }
-"""The position of the argument with the file that a method of MoveIt's builders reads.
+"""By method of a builder of moveit_configs_utils: the position of the argument with the file that the method reads.
 
 ``sensors_3d`` is omitted, because it checks whether the file exists.
 """
 
 
 def _note_built(call: LibraryCall, owner: LaunchObject) -> None:
-    """Record the file that a method of a MoveIt builder reads while the launch file is read.
+    """Record the file that a method of a builder of moveit_configs_utils reads while the launch file is loaded.
 
     The path of the file is relative to the share folder of the package that the builder looks up.
     """
@@ -285,14 +288,14 @@ def _configuration(call: LibraryCall) -> Value:
 
 
 def _xacro_output(call: LibraryCall) -> Value:
-    """Model of ``xacro.process_file()`` and similar functions: return the output of xacro."""
+    """Return the result of ``xacro.process_file()`` and similar functions: the output of xacro."""
     return _create(call, "Command") if call.arguments else unknown(call)
 
 
 def _writes_file(position: int) -> Rule:
     """Return the model of a function that writes the file in its argument at ``position``.
 
-    The file is recorded as a file whose existence is tested, because it need not exist before.
+    The file is recorded like a file whose existence the launch file tests, because it need not exist before.
     """
 
     def model(call: LibraryCall) -> Value:
@@ -306,9 +309,10 @@ _OUTPUT = re.compile(r"(?:>|\s-o\s)\s*(\S+)")
 
 
 def _runs_command(call: LibraryCall) -> Value:
-    """Model of a function that runs a command line: return an unknown value.
+    """Return the result of a function that runs a command line: an unknown value.
 
-    The output file, after ``>`` or ``-o``, is recorded as a file whose existence is tested, because it need not exist before.
+    The output file, after ``>`` or ``-o``, is recorded like a file whose existence the launch file tests, because it need not
+    exist before.
     """
     words = call.items(0)
     if words is None:
@@ -341,7 +345,7 @@ _STANDARD = frozenset(
         "numpy", "psutil", "argparse", "hashlib", "uuid", "stat", "signal", "threading", "warnings", "inspect", "ast",
     }
 )  # fmt: skip
-"""Modules whose functions return nothing that can be launched."""
+"""Modules whose functions never return an object that can be launched."""
 
 
 _MODELS_BY_NAME: Mapping[str, Rule] = {

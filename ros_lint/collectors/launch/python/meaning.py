@@ -1,4 +1,4 @@
-"""Models of the launch libraries and of related libraries for the Python interpreter."""
+"""Models of the launch libraries and of related libraries for the symbolic interpreter of Python."""
 
 from __future__ import annotations
 
@@ -24,14 +24,18 @@ _DESCRIBED = LAUNCH_RUNTIME | {
     "xacro",
     "yaml",
 }
-"""Libraries with models.
+"""Libraries whose functions have models in ros-lint.
 
-Their sources are not interpreted, even if the workspace contains them, because they need a running launch system.
+The source files of these libraries are not interpreted, even if the workspace contains them, because they need a running
+launch system.
 """
 
 
 class LaunchLibraries:
-    """The models of the launch libraries, as :class:`ros_lint.collectors.python.interpreter.protocol.Library` requires them."""
+    """The models of the launch libraries.
+
+    The methods are those of :class:`ros_lint.collectors.python.interpreter.protocol.Library`.
+    """
 
     def describes(self, module: str) -> bool:
         return module in _DESCRIBED

@@ -1,4 +1,4 @@
-"""Conversion of nodes, components and processes of Python launch files to actions with their arguments."""
+"""Conversion of nodes, components and processes in Python launch files to actions."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ _PROCESS_KEYWORDS = _NODE_KEYWORDS | {
     "emulate_tty", "env", "exec_name", "executable", "log_cmd", "on_exit", "output", "output_format", "prefix", "respawn",
     "respawn_delay", "respawn_max_retries", "ros_arguments", "shell", "sigkill_timeout", "sigterm_timeout",
 }  # fmt: skip
-"""The keywords of nodes and components in any distribution (launch_ros and launch)."""
+"""The keywords of nodes and containers in any ROS distribution (launch_ros and launch)."""
 _ROS_DISTRO = "$ROS_DISTRO"
-"""The name of the environment variable with the running distribution, as it occurs in symbolic texts."""
+"""The name of the environment variable with the ROS distribution, with the ``$`` of environment variables in texts."""
 _MAX_PARAMETERS = 2_000
 _STEPS_PER_PARAMETER = 10
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
@@ -106,9 +106,9 @@ def _component(walker: Walker, launch_object: LaunchObject, conditions: Conditio
 def _started(
     kind: Literal["node", "component"], target: str, walker: Walker, launch_object: LaunchObject, conditions: Conditions
 ) -> LaunchAction:
-    """Return the action of a node or component, with the fields that both have.
+    """Return the action of a node or component, with the fields that are common to nodes and components.
 
-    Their former keywords, such as ``node_name``, count, too. ``target`` is the keyword of the executable or plugin.
+    The former keywords, such as ``node_name``, count, too. ``target`` is the keyword of the executable or plugin.
     """
     return LaunchAction(
         kind,
@@ -125,7 +125,7 @@ def _started(
 
 
 def _is_passed_by_caller(value: Value) -> bool:
-    """Return whether a text is an argument of the call of a modelled helper, so that its position is in the launch file."""
+    """Return whether a text was passed to a modelled helper function by its caller, so its place is in the launch file."""
     return all(
         isinstance(alternative.value, Written) and not alternative.value.source.lent for alternative in alternatives(value)
     )

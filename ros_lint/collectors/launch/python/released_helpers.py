@@ -1,7 +1,7 @@
-"""Python models, by module, of the helper functions of released packages that launch files call.
+"""Models, written in Python, of the helper functions of released packages that launch files call.
 
-They are not copies: each model contains only the relation between arguments and actions. If the workspace contains
-the package, its source is interpreted instead, except for moveit_configs_utils.
+A model has only the relation between arguments and actions. If the workspace contains the package, its source is interpreted
+instead, except for moveit_configs_utils.
 """
 
 from __future__ import annotations
@@ -248,7 +248,10 @@ def get_webots_driver_node(event, driver_node):
 
 
 def helper(name: str, at: ast.stmt) -> ast.Module:
-    """Return the model of a module in :data:`HELPERS`. All its nodes have the position of ``at``, the import of the module."""
+    """Return the syntax tree of the model of a module in :data:`HELPERS`.
+
+    All nodes of the tree have the position of ``at``, the statement that imports the module.
+    """
     return placed(_parsed(name), at)
 
 

@@ -1,8 +1,8 @@
-"""Errors that Python and the launch libraries raise when a launch file runs.
+"""Errors that Python and the launch libraries raise when a Python launch file runs.
 
 - A name that is not defined.
-- A substitution used as a text.
-- A text divided by a text, as if it were a path of pathlib.
+- A substitution that is used as a text.
+- A text that is divided by a text, as if it were a path of pathlib.
 - A number where launch accepts only texts.
 - A function where launch expects a condition.
 """
@@ -29,7 +29,10 @@ if TYPE_CHECKING:
 
 
 def undefined_names(tree: ast.Module, source: Source, names: Iterable[tuple[ast.Name, Source]]) -> Iterator[Problem]:
-    """Yield a problem for each of ``names`` that certainly raises NameError. ``names`` had no value in the interpretation."""
+    """Yield a problem for each of ``names`` that certainly raises NameError.
+
+    ``names`` are the names without a value in the interpretation of the file.
+    """
     for node in unbound(tree, [node for node, module in names if module is source]):
         yield Problem("undefined-name", f"'{node.id}' is not defined", span_of(node, source))
 
@@ -60,7 +63,7 @@ _JOINED_MESSAGE = (
 )
 _DECIDED_MESSAGE = "a {name} is always true in Python; pass it to condition=, or get its value with evaluate(context)"
 _LOGGING_CALLS = frozenset({"print", "debug", "info", "warning", "warn", "error", "LogInfo"})
-"""Functions that print or log their arguments."""
+"""Names of functions that print or log their arguments."""
 
 
 def misused_substitutions(tree: ast.Module, source: Source, misuses: Iterable[Misused]) -> Iterator[Problem]:
@@ -103,11 +106,11 @@ _TEXT_PATHS: Mapping[str, str] = {
     "get_package_share_directory": "get_package_share_path()",
     "get_package_prefix": "Path(get_package_prefix(...))",
 }
-"""Functions of ament_index_python that return a path as a string, with the expression that is a path of pathlib."""
+"""Functions of ament_index_python that return a path as a string, each with an expression that is a path of pathlib."""
 
 
 def divided_texts(tree: ast.Module, source: Source, divisions: Iterable[tuple[ast.expr, Source]]) -> Iterator[Problem]:
-    """Yield a problem for each operation ``text / text`` of a module."""
+    """Yield a problem for each operation ``text / text`` of a module, which raises TypeError."""
     nodes = dict.fromkeys(node for node, module in divisions if module is source)
     ignored = _ignored_nodes(tree) if nodes else set()
     for node in nodes:
@@ -158,7 +161,7 @@ def _functions(tree: ast.Module) -> list[ast.FunctionDef | ast.AsyncFunctionDef]
 
 
 def _same_function(misuse: Misused, functions: Iterable[ast.FunctionDef | ast.AsyncFunctionDef]) -> bool:
-    """Return whether a substitution is created and used as a truth value in the same function, or both outside of functions."""
+    """Return whether a substitution is created and used as a truth value in one function, or entirely outside of functions."""
     if misuse.made.source is not misuse.source:
         return False
     return all(_contains(function, misuse.node) == _contains(function, misuse.made.node) for function in functions)
@@ -181,7 +184,10 @@ _TEXT_ARGUMENTS: Mapping[str, tuple[tuple[int, str], ...]] = {
     "PythonExpression": ((0, "expression"),),
     "PushRosNamespace": ((0, "namespace"),),
 }
-"""The arguments that must be texts or substitutions (``normalize_to_list_of_substitutions``)."""
+"""By class: the arguments (position and name) that must be texts (``normalize_to_list_of_substitutions``).
+
+The position is -1 for a keyword-only argument.
+"""
 
 
 _ACCEPTED = frozenset(
@@ -192,7 +198,10 @@ _ACCEPTED = frozenset(
 
 
 def _text_arguments(launch_object: LaunchObject) -> Iterable[tuple[int, str]]:
-    """Return the arguments of a launch object that must be texts: their positions, -1 if there is none, and their names."""
+    """Return the arguments of a launch object that must be texts: position (-1 for keyword-only arguments) and name.
+
+    A launch object is an object of a launch class.
+    """
     signature = all_signatures().get(launch_object.name)
     pairs = list(_TEXT_ARGUMENTS.get(launch_object.name, ()))
     for name, kind in signature.kinds.items() if signature is not None else ():
@@ -227,7 +236,7 @@ def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[Launc
 
 
 def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield a problem for each argument ``condition`` that has no evaluate(), because launch calls that method."""
+    """Yield a problem for each argument ``condition`` that has no method evaluate(), because launch calls this method."""
     errors: list[tuple[str, ast.expr]] = []
     for launch_object in launch_objects:
         if (
@@ -267,7 +276,7 @@ def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
 
 
 def _replacement_hint(wrong_item: bool | int | float | LaunchObject, receiver: LaunchObject) -> str:
-    """Return the end of the message about a value that must be a text: what to write instead."""
+    """Return the end of the message about a value that must be a text: the correct code."""
     if not isinstance(wrong_item, LaunchObject):
         return f"; write '{wrong_item}' instead of {wrong_item}"
     name = wrong_item.get(0, "name") if wrong_item.name == "DeclareLaunchArgument" else None

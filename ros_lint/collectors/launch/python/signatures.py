@@ -1,4 +1,4 @@
-"""The arguments of the classes of launch and launch_ros in any distribution.
+"""The arguments of the classes of launch and launch_ros in any ROS distribution.
 
 The table ``signatures.tsv`` is made by :mod:`ros_lint.knowledge.refresh.launch_signatures`.
 """
@@ -15,13 +15,13 @@ class Signature(NamedTuple):
     """The arguments of a class."""
 
     most_positional: int
-    """The number of arguments that may be passed without keyword. They are the first of ``kinds``."""
+    """The number of arguments that may be passed without keyword. These are the first arguments in ``kinds``."""
     closed: bool
     """False if the class may accept further arguments."""
     required: tuple[str, ...]
     """Keywords without a default in every distribution that has the class."""
     kinds: Mapping[str, str]
-    """All keywords of any distribution, with what they accept by their annotation; "" for anything else."""
+    """All keywords in any distribution, each with the accepted kind of value, such as "text"; "" if it is not restricted."""
 
     def position(self, keyword: str) -> int:
         """Return the position of a parameter among the positional ones, -1 if the parameter is keyword-only."""
@@ -31,7 +31,7 @@ class Signature(NamedTuple):
 
 @cache
 def all_signatures() -> Mapping[str, Signature]:
-    """Return the signatures of all classes by name."""
+    """Return the signatures of all classes of launch and launch_ros, by class name."""
     path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "signatures.tsv")
     with open(path, encoding="utf-8") as file:
         next(file)

@@ -1,4 +1,7 @@
-"""Symbolic texts of the substitutions in Python launch files."""
+"""Conversion of the substitutions in Python launch files to symbolic texts.
+
+In a symbolic text, special characters stand for the parts that are known only when the launch file runs.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +33,7 @@ _MAX_STEPS = 2_000
 
 
 class TextEvaluation:
-    """The depth, remaining steps and known results of one evaluation of a value to its texts.
+    """The depth, remaining steps and known results of one evaluation of a value to its possible texts.
 
     Depth and steps are limited, because objects can contain each other or occur many times.
     """
@@ -38,7 +41,7 @@ class TextEvaluation:
     __slots__ = ("budget", "depth", "of_file", "results")
 
     def __init__(self, of_file: Budget | None = None) -> None:
-        """Start an evaluation. Its steps are also taken from the budget ``of_file``, which may raise BudgetExceeded."""
+        """Start an evaluation. Its steps are also charged to the budget ``of_file``, which may raise BudgetExceeded."""
         self.depth = 0
         self.budget = Budget(_MAX_STEPS)
         self.of_file = of_file
@@ -46,7 +49,10 @@ class TextEvaluation:
 
 
 def texts(value: Value, evaluation: TextEvaluation | None = None) -> tuple[str, ...]:
-    """Return every symbolic text that a value can have when launch performs its substitutions. Lists are concatenated."""
+    """Return every text that a value can have after launch performs its substitutions. Lists are concatenated.
+
+    Special characters in the texts stand for the parts that are known only when the launch file runs.
+    """
     if isinstance(value, str):
         return (str(value),)  # a plain str, so that facts contain no objects of the interpreter
     if evaluation is None:
@@ -161,7 +167,7 @@ def _join(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str,
 
 
 def _logic(name: str) -> Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]:
-    """Return the function that converts a logical substitution, such as AndSubstitution, to its symbolic texts.
+    """Return the function that converts a logical substitution, such as AndSubstitution, to its possible texts.
 
     A text is the call of the function ``name`` of ``ros_lint.collectors.launch.expressions``.
     """
@@ -208,7 +214,7 @@ _READERS: Mapping[str, Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]
 }
 
 SUBSTITUTIONS = frozenset(_READERS) | {"AnonName", "Parameter", "FileContent", "LocalSubstitution", "LaunchLogDir"}
-"""Classes whose objects represent a text."""
+"""Names of the classes whose objects represent a text."""
 
 
 def is_text(value: Value) -> bool:
@@ -220,14 +226,14 @@ def is_text(value: Value) -> bool:
 _PREDICATE_CONDITIONS = frozenset({"IfCondition", "UnlessCondition"})
 _COMPARISON_CONDITIONS = frozenset({"LaunchConfigurationEquals", "LaunchConfigurationNotEquals"})
 CONDITIONS = _PREDICATE_CONDITIONS | _COMPARISON_CONDITIONS
-"""Classes whose objects are conditions."""
+"""Names of the classes whose objects are conditions."""
 
 
 def conditions_of(value: Value, evaluation: TextEvaluation | None = None) -> Conditions:
-    """Return the conditions that a value of the argument ``condition`` of an action stands for.
+    """Return the conditions that the value of an action's argument ``condition`` represents.
 
     The value is an IfCondition, UnlessCondition, LaunchConfigurationEquals or LaunchConfigurationNotEquals. Any other value
-    stands for an unknown condition.
+    represents an unknown condition.
     """
     conditions: list[LaunchCondition] = []
     for alternative in alternatives(value):

@@ -47,7 +47,10 @@ def _with_text_for_none(value: Guarded | Union, text: str) -> Value:
 
 
 def span_of(node: python_syntax.Node, source: Source) -> Span:
-    """Return the span of a syntax node in a module. In a model of a released helper, it is the span of the call."""
+    """Return the span of a syntax node in a module.
+
+    In a model of a helper function of a released package, the span is that of the statement in the launch file.
+    """
     if not source.ascii:
         return python_syntax.span_of(source.text, node)
     # Columns of the syntax tree count bytes. In ASCII files these are characters, which is the fast case.
@@ -56,7 +59,7 @@ def span_of(node: python_syntax.Node, source: Source) -> Span:
 
 
 def place_of(launch_object: LaunchObject) -> Span:
-    """Return the span of the call that creates a launch object."""
+    """Return the span of the call that creates a launch object (an object of a launch class)."""
     return span_of(launch_object.node, launch_object.source)
 
 
@@ -68,7 +71,8 @@ class Walker:
     ) -> None:
         """Create a walker for one launch file.
 
-        ``builders`` convert objects of the classes with these names, ``otherwise`` converts objects of all other classes.
+        ``builders`` have a function for each class name that converts objects of this class. ``otherwise`` converts the
+        objects of all other classes.
         """
         self.machine = machine
         self._builders = builders
@@ -76,7 +80,7 @@ class Walker:
         self._source = source
         self.problems: list[Problem] = []
         self.unknown_launches: list[tuple[str, Span]] = []
-        """Places where something unknown is launched, with the reasons."""
+        """Places where an unknown object is launched, each with a reason."""
         self._depth = 0
         self._active: set[int] = set()
         self._budget = Budget(_MAX_ACTIONS)
@@ -180,8 +184,8 @@ class Walker:
     def value(self, launch_object: LaunchObject, position: int, *names: str, absent: str = UNKNOWN) -> LaunchValue | None:
         """Return the possible texts of an argument of a launch object, None if the argument is missing.
 
-        An argument that unknown ``**keywords`` may contain has the text UNKNOWN. ``absent`` is the text of an alternative that
-        is None, as in ``name="a" if condition else None``.
+        An argument that unknown ``**keywords`` may contain has the text UNKNOWN. ``absent`` is the text of an alternative
+        that is None, as in ``name="a" if condition else None``.
         """
         argument = launch_object.get(position, *names)
         if argument is None:
@@ -191,11 +195,14 @@ class Walker:
         return self.text(argument, launch_object.written(position, *names), launch_object.source)
 
     def unknown(self, launch_object: LaunchObject) -> LaunchValue:
-        """Return the value of an argument of a launch object if nothing is known about it."""
+        """Return the value of an argument of a launch object if the argument is entirely unknown."""
         return LaunchValue((UNKNOWN,), place_of(launch_object))
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
-        """Return the possible texts of a value, with the span of the literal that the value comes from, else of ``node``."""
+        """Return the possible texts of a value.
+
+        Their span is that of the string literal from which the value comes, else that of ``node``.
+        """
         symbolic = (value,) if isinstance(value, str) else texts(value, TextEvaluation(self.machine.budget))
         choices = _plain(symbolic)
         guards = _guards(symbolic, choices)
@@ -241,14 +248,14 @@ class Walker:
         return None
 
     def look_up_span(self, package: str) -> Span:
-        """Return the span of the first look-up of a package. KeyError is raised if the file does not look it up."""
+        """Return the span of the first look-up of a package. Raises KeyError if the file does not look it up."""
         node, source = self.machine.named[package]
         return self.text(package, node, source).span if isinstance(node, ast.Constant) else span_of(node, source)
 
     def run(
         self, function: Value, arguments: Sequence[Value], keywords: Mapping[str, Value], launch_object: LaunchObject
     ) -> Value:
-        """Return the result of a function that launch calls with these arguments, for example for an event."""
+        """Return the result of a function that launch calls with the arguments ``arguments``, for example at an event."""
         frame = Frame(launch_object.source, None, {})
         try:
             return self.machine.call(plain(function), list(arguments), dict(keywords), launch_object.node, frame)
@@ -261,9 +268,10 @@ def _plain(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def _guards(texts: Iterable[str], choices: tuple[str, ...]) -> tuple[Conditions, ...]:
-    """Return the conditions of each of ``choices``, the distinct ones of ``texts``; () if there is one choice, or no conditions.
+    """Return the conditions of each of ``choices``, which are the distinct ones among ``texts``.
 
-    A choice that occurs under several conditions has none.
+    The result is () if there is only one choice, or if no choice has conditions. A choice with different conditions in
+    ``texts`` has the conditions ().
     """
     if len(choices) < 2:
         return ()
