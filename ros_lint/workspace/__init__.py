@@ -1,1 +1,1 @@
-"""Load a workspace, from files to the objects that rules read: discover packages, collect facts, evaluate build scripts, join."""
+"""Load a workspace: discover packages, collect data from their files, evaluate build scripts, and join everything for the rules."""

@@ -57,7 +57,7 @@ _HIDDEN_FACETS: dict[Kind, Facet] = {
 
 
 def collect(text: Text, kind: Kind) -> Collected:
-    """Return the facts of a file from its text. No contents of a file cause an exception."""
+    """Return the facts (all data that ros-lint needs) of a file from its text. No contents of a file cause an exception."""
     # Collectors are imported here so that a workspace without launch files does not load theirs.
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
@@ -112,7 +112,7 @@ def _suppressions(text: Text) -> tuple[Suppression, ...]:
 def collect_all(
     tree: Tree, paths: Sequence[str], jobs: int, cache: FactCache, tick: Callable[[int], None]
 ) -> dict[str, Collected]:
-    """Return the facts of each file, by path.
+    """Return the facts (extracted data) of each file, by path.
 
     ``jobs`` is the number of processes; 0 means that it depends on the number of files. ``tick`` is called with the number of
     files that are finished.

@@ -11,7 +11,7 @@ from ros_lint.facts.suppressions import Suppression
 
 
 class Collected(NamedTuple):
-    """The facts of one file."""
+    """The facts of one file: the data that collectors extract from its text."""
 
     facts: FileFacts | None = None
     launch: LaunchFile | None = None
@@ -23,7 +23,7 @@ class Collected(NamedTuple):
 
 
 class ReadFile(NamedTuple):
-    """A file with its facts, which were collected in this run or found in the cache."""
+    """A file with its facts (extracted data), which were collected in this run or found in the cache."""
 
     digest: bytes
     """Digest of the contents, ``NOT_READ`` if the file could not be read."""

@@ -55,9 +55,10 @@ def join_packages(
     *,
     search: bool,
 ) -> Iterator[Package]:
-    """Yield ``read_packages`` with their uses of the ``visible`` packages.
+    """Yield the packages ``read_packages`` as rules read them, with the places that use other packages.
 
-    ``search`` also searches the files for declared names and for modules that are never imported.
+    Names are looked up in the packages ``visible`` and in ``world``. ``search`` also searches the text of files for declared
+    names and for modules that are never imported.
     """
     if not read_packages:
         return

@@ -171,7 +171,7 @@ class _InputFinder:
         return self._installed_sources(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
     def _neighbour(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the source file that is installed at ``path``, a path relative to the installed folder of a launch file.
+        """Return the source file that is installed at ``path``, relative to the folder into which a launch file is installed.
 
         If the launch file is not installed, ``path`` is relative to its folder in the sources. The result is "" if there is no
         such file.
@@ -205,7 +205,7 @@ def _needs_inputs(file: LaunchFile) -> bool:
 
 
 def _resolvable_values(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield the values of an action that name packages, executables and parameter files."""
+    """Yield the values of a launch action that name packages, executables and parameter files."""
     yield from (value for value in (action.package, action.target) if value is not None)
     yield from (value for name, value in action.parameters if not name)
 

@@ -66,7 +66,7 @@ class _Found(NamedTuple):
     """The folders in which packages were searched."""
     discovery: Discovery
     packages: list[DiscoveredPackage]
-    """The discovered packages without excluded files and without git submodules that are not cloned."""
+    """The discovered packages without excluded files. Git submodules that are not cloned count as unvisited folders."""
     lists: tuple[str, ...]
     """Paths of files that list repositories: ``*.repos``, ``*.rosinstall``, ``.gitmodules``."""
     unread_lists: tuple[UnreadFile, ...]
@@ -81,7 +81,7 @@ class _Found(NamedTuple):
 
 
 class _Read(NamedTuple):
-    """The packages of a tree with the facts of their files, for one distribution."""
+    """The packages of a tree with the facts (extracted data) of their files, for one distribution."""
 
     packages: list[ReadPackage]
     evaluation: build_scripts.Evaluation
@@ -90,7 +90,7 @@ class _Read(NamedTuple):
 
 
 class Loader:
-    """Loads the packages below ``roots`` of a tree, and the packages below ``context``, which are needed to check them.
+    """Loads the packages below ``roots`` of a tree, and the packages below ``context``, on which they may depend.
 
     Paths are relative to the base folder of the tree. ``others`` are further distributions to check for. :meth:`load_all` shares
     between all distributions the data that does not depend on the distribution.
@@ -177,7 +177,8 @@ class Loader:
     ) -> Workspace:
         """Return the workspace of the packages.
 
-        If the repository contains several workspaces with packages of equal names, the result has a view for each of them.
+        If the repository contains several workspaces with packages of equal names, the result has a further Workspace object
+        for each of them, see :meth:`Workspace.seen_from`.
         """
         rejected_manifests = found.discovery.rejected
         world = _world(read_packages, rejected_manifests, data, found.expected)
@@ -230,7 +231,7 @@ class Loader:
         self._collected = dict(self._collected_with(self.pinned))
 
     def forget(self, paths: Iterable[str]) -> bool:
-        """Discard the facts of some files, so that the next load reads the files again.
+        """Discard the facts (extracted data) of some files, so that the next load reads the files again.
 
         Returns False if the loader had no facts of one of the files, because data of this file may then be kept elsewhere.
         """
@@ -299,7 +300,7 @@ class Loader:
         target: TargetDistro,
         earlier: _Read | None,
     ) -> _Read:
-        """Return the packages with their facts for a distribution.
+        """Return the packages with the facts (extracted data) of their files, for a distribution.
 
         ``earlier`` is the result for another distribution, which is reused as far as possible.
         """

@@ -94,7 +94,10 @@ class Package(NamedTuple):
     textual_mentions: Mapping[str, Span]
     """For each declared name that no code uses but that occurs in a file of the package: the place of the occurrence."""
     opaque: tuple[Opaque, ...]
-    """Places that could not be evaluated. :meth:`hidden` returns the places that matter to a rule."""
+    """Places that could not be evaluated, e.g. an install() of ``${UNKNOWN}``.
+
+    :meth:`hidden` returns the places that matter to a rule.
+    """
     possibly_used: frozenset[str] = frozenset()
     """Names of packages that CMake finds and that are perhaps used: no code certainly uses them, but other evidence exists."""
     registrations: tuple[Registration, ...] = ()
@@ -236,7 +239,7 @@ class Workspace:
         self.unusable = unusable
         """Folders with a ``package.xml`` in which colcon finds no package, e.g. because it rejects the package.xml.
 
-        The name is that in the package.xml. No rule is called for these folders, and ``packages`` and ``by_name`` lack them.
+        Their ``name`` is the one in package.xml. No rule is called for these folders, and ``packages`` and ``by_name`` lack them.
         """
         self.world = world
         """Look-ups of names in the workspace, in underlays and among released packages."""
@@ -255,13 +258,13 @@ class Workspace:
         self.named_distros = named_distros
         """The distributions that the repository builds for; () if the user chose the distribution of the run."""
         self.memo: dict[object, Any] = {}
-        """Cached results of functions decorated with ``cached_by_workspace`` or ``cached_by_package``. Rules do not use it."""
+        """Cached results of functions decorated with ``cached_by_workspace`` or ``cached_by_package``. Not for use by rules."""
 
     def seen_from(self, package: Package) -> Workspace:
         """Return the workspace in which the names in ``package`` are looked up. The engine calls this, so rules need not.
 
-        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. The result lacks the packages of
-        the other workspaces whose names the workspace of ``package`` contains, too.
+        A repository may contain several workspaces, such as ``arm_ws/src`` and ``car_ws/src``. If both contain a package called
+        ``driver``, the result for a package in ``arm_ws`` lacks the ``driver`` in ``car_ws``.
         """
         return self._views.get(workspace_of(package.path), self) if self._views else self
 

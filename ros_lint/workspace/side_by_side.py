@@ -37,9 +37,10 @@ def workspace_of(path: str) -> str:
 
 
 def hidden_namesakes(packages: Iterable[tuple[str, str]]) -> Mapping[str, frozenset[str]]:
-    """Return, for each workspace, the paths of packages in the other workspaces whose names this workspace contains, too.
+    """Return, for each workspace, the paths of packages in other workspaces that have the name of one of its packages.
 
-    ``packages`` are pairs of a package name and a path. A workspace without such packages is left out.
+    ``packages`` are pairs of a package name and a path. Example: if ``arm_ws/src/driver`` and ``car_ws/src/driver`` exist, the
+    result for ``arm_ws`` is ``car_ws/src/driver``. A workspace without such packages is left out.
     """
     places: dict[str, dict[str, list[str]]] = {}
     for name, path in packages:
@@ -53,7 +54,7 @@ def hidden_namesakes(packages: Iterable[tuple[str, str]]) -> Mapping[str, frozen
 
 
 def own_first(candidates: Sequence[L], path: str) -> Sequence[L]:
-    """Return the candidates in the workspace that contains the package at ``path``, or all candidates if it has none."""
+    """Return the candidates in the workspace of the package at ``path``, or all candidates if that workspace contains none."""
     if len(candidates) < 2:
         return candidates
     workspace = workspace_of(path)

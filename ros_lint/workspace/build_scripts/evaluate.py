@@ -171,7 +171,7 @@ def _helps(parts: Parts) -> bool:
 
 
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
-    """Yield the indices of packages with CONFIG_EXTRAS, each package after those that it depends on."""
+    """Yield the indices of packages with CONFIG_EXTRAS, dependencies before their dependents."""
     remaining = {number: parts.package.name for number, parts in enumerate(packages) if _helps(parts)}
     while remaining:
         names = frozenset(remaining.values())

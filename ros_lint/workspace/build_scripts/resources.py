@@ -23,7 +23,7 @@ _FILES = re.compile(
 
 
 _OF_EXPORTER = re.compile(r"/joint_names_[\w.-]+\.yaml\Z")
-"""Files for ROS 1 controllers that the SolidWorks exporter writes next to a URDF; ROS 2 never reads these files."""
+"""Matches files for ROS 1 controllers that the SolidWorks exporter writes next to a URDF. ROS 2 never reads these files."""
 
 
 def uninstalled_resources(files: Iterable[str], sources: Iterable[str]) -> dict[str, list[str]]:

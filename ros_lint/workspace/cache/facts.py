@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class CachedFacts(NamedTuple):
-    """The facts of a file, and its state when it was read."""
+    """The facts (data that collectors extract) of a file, and the stamp and digest that the file had when it was read."""
 
     path: str
     stamp: Stamp
@@ -39,8 +39,9 @@ _Segment = tuple[CachedFacts, ...]
 
 
 class FactCache:
-    """The cached facts of the files of a workspace. ``folders`` are folders outside the workspace that links may lead into.
+    """The cached facts of the files of a workspace. Facts are the data that collectors extract from a file.
 
+    ``folders`` are folders outside the workspace that links may lead into.
     The facts are stored in segments, so that a run after a small change encodes little. A new segment absorbs older
     segments that are not much larger, so the number of segments grows with the logarithm of the number of files.
     """
@@ -55,7 +56,7 @@ class FactCache:
         self._start = 0
 
     def fetch(self, tree: Tree, disk: Tree, paths: Sequence[str]) -> dict[str, ReadFile]:
-        """Return the cached facts of those files among ``paths`` that have not changed.
+        """Return the cached facts (extracted data) of those files among ``paths`` that have not changed.
 
         The stamps (times, size, inode) of files are read from ``tree``. If an equal stamp does not prove that a file is
         unchanged, its contents are read from ``disk`` and compared.
@@ -85,7 +86,7 @@ class FactCache:
         return True
 
     def store(self, disk: Tree, fresh: Mapping[str, ReadFile]) -> None:
-        """Store the facts of files that were read in this run. Files that could not be read are left out."""
+        """Store the facts (extracted data) of files that were read in this run. Files that could not be read are left out."""
         if not self._file:
             return
         new = dict(self._renewed)
@@ -118,7 +119,7 @@ class FactCache:
             yield name
 
     def _is_obsolete(self, name: str, kept: Mapping[str, object]) -> bool:
-        """Return whether a record of facts is of another version of ros-lint, or is of this workspace but not in ``kept``."""
+        """Return whether a record in the cache file is of another version of ros-lint, or is of this workspace but not in ``kept``."""
         return not name.startswith(f"facts-{_state()}-") or (name.startswith(self._prefix) and name not in kept)
 
     @property
@@ -133,7 +134,7 @@ def _codec() -> Codec[_Segment]:
 
 @cache
 def _state() -> str:
-    """Return a digest of the code of ros-lint that determines the facts of a file."""
+    """Return a digest of the code of ros-lint that determines which facts are extracted from a file."""
     rooms = [os.path.join(SOURCES, room) for room in ("base", "facts", "collectors", os.path.join("workspace", "cache"))]
     modules = [os.path.join(SOURCES, "workspace", name) for name in ("collect.py", "collected.py")]
     return state_of([*(path for room in rooms for path in files_below(room)), *modules], _codec().schema)

@@ -1,8 +1,8 @@
 """The cache file of a workspace with the results of earlier runs.
 
-The file is not used if it is damaged, if it is a link or has further links, or if another user can write the file or
-its folder. Records are decoded by :mod:`ros_lint.base.columns`, which creates only facts and reports. So a manipulated file
-can make a run slow, but it cannot run code.
+The file is not used if it is damaged, if it is a symbolic link or has several hard links, or if another user can write the
+file or its folder. Records are decoded by :mod:`ros_lint.base.columns`, which creates only plain data objects. So a
+manipulated file can make a run slow, but it cannot run code.
 """
 
 from __future__ import annotations
@@ -129,6 +129,6 @@ def files_below(place: str) -> Iterator[str]:
 
 
 def _require_private(folder: str) -> None:
-    """Raise PermissionError if another user can write into a folder."""
+    """Raise PermissionError if another user owns a folder or can write into it."""
     if not files.is_private(folder):
         raise PermissionError(0, "another user owns the folder or can write to it", folder)

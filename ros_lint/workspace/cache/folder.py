@@ -67,9 +67,9 @@ def cached_workspaces(place: str) -> list[CachedWorkspace]:
 
 
 def remove(place: str, unwanted: Callable[[CachedWorkspace], bool]) -> list[CachedWorkspace]:
-    """Remove the unwanted cache files of a folder, and return them. Abandoned temporary files are removed, too.
+    """Remove the cache files of a folder for which ``unwanted`` returns True, and return them.
 
-    Raises OSError for a file that cannot be removed.
+    Abandoned temporary files are removed, too. Raises OSError for a file that cannot be removed.
     """
     removed = [cached for cached in cached_workspaces(place) if unwanted(cached)]
     for cached in removed:

@@ -37,13 +37,13 @@ SKIPPED_FOLDERS = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__
 """Folders that never contain sources."""
 
 _RELEVANT_NAMES = frozenset((*SIGNS, "package.xml", "manifest.xml", "CMakeLists.txt", "setup.py", "colcon.pkg"))
-"""File names of which each folder that matters to colcon contains at least one."""
+"""A folder with none of these names is neither a package nor ignored by colcon."""
 
 _BOUNDARY_NAMES = frozenset((*SIGNS, "package.xml"))
-"""File names of which each subfolder that is not part of the surrounding package contains at least one."""
+"""A subfolder of a package with none of these names is a part of the package."""
 
 _BUILD_SCRIPTS = frozenset(("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml", "Cargo.toml", "build.gradle"))
-"""File names of which each package folder contains at least one. A package.xml in any other folder is data."""
+"""A subfolder with none of these files is not a package of its own, even if it contains a package.xml."""
 
 _CONTEXT = {**ROS_2, "DISABLE_GROUPS_WORKAROUND": "1"}
 
@@ -54,7 +54,7 @@ class Skipped(NamedTuple):
     path: str
     reason: str
     link: bool = False
-    """True for a link that is not followed, because its target is visited elsewhere or is outside the workspace."""
+    """True for a symbolic link that is not followed, because its target is visited elsewhere or is outside the workspace."""
 
 
 class DiscoveredPackage(NamedTuple):
@@ -95,7 +95,7 @@ class Discovery(NamedTuple):
 
     packages: tuple[DiscoveredPackage, ...]
     rejected: tuple[Manifest, ...]
-    """The package.xml files that colcon cannot use, in folders that are not a package by another file either."""
+    """The package.xml files that colcon cannot use. Folders that colcon identifies as a package by another file are left out."""
     skipped: tuple[Skipped, ...]
     not_checked: tuple[UnreadFile, ...]
     repository_lists: tuple[str, ...] = ()

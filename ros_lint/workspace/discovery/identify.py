@@ -67,11 +67,11 @@ SIGNS = frozenset(
         *(f"local_setup.{shell}" for shell in _PREFIX_SCRIPTS),
     )
 )
-"""File names of which each ignored folder or build product contains at least one."""
+"""A folder with none of these names is neither ignored nor a build product."""
 
 
 def ignored_everywhere(names: Mapping[str, Kind]) -> str:
-    """Return the file name that makes colcon skip a folder and its subfolders even if the folder is a package, or "".
+    """Return the file name that makes colcon skip a folder even if it is a package, e.g. "COLCON_IGNORE"; "" if there is none.
 
     ``names`` are the entries of the folder.
     """
@@ -81,7 +81,7 @@ def ignored_everywhere(names: Mapping[str, Kind]) -> str:
 
 
 def ignored_by_ros(names: Mapping[str, Kind]) -> str:
-    """Return the name of the marker file (CATKIN_IGNORE, AMENT_IGNORE) that makes colcon-ros skip a folder, or "".
+    """Return the file name (CATKIN_IGNORE or AMENT_IGNORE) that makes colcon-ros skip a folder; "" if there is none.
 
     ``names`` are the entries of the folder.
     """
@@ -148,9 +148,9 @@ class Folder:
 
 
 def build_type(manifest: Manifest, context: Mapping[str, str]) -> str:
-    """Return the build type that colcon gives a package, or "" if colcon cannot use the manifest.
+    """Return the build type that colcon gives a package, or "" if colcon cannot use its package.xml.
 
-    colcon cannot use a manifest that has a problem, a condition with a syntax error, or two build types whose conditions
+    colcon cannot use a package.xml with an error, a condition with a syntax error, or two build types whose conditions
     are true. If no condition is certainly true, the first build type counts; without any, the build type is catkin.
     """
     if manifest.problems or conditions.problems(manifest):

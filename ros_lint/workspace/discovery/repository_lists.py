@@ -119,7 +119,7 @@ def _is_cloned(tree: Tree, path: str, folder: str) -> bool:
 
 
 def _last(place: str) -> str:
-    """Return the name of a repository by its folder or URL."""
+    """Return the name of a repository: the last component of its folder or URL, without ``.git``."""
     return re.split(r"[/:]", place.rstrip("/").removesuffix(".git"))[-1]
 
 

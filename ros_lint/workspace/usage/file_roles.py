@@ -73,12 +73,12 @@ class FileRoles:
         self._python_known = has_script and not python_hidden & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def role(self, path: str) -> tuple[Role, bool]:
-        """Return the role of a file, and whether the build, a launch file or a test of the package certainly uses the file."""
+        """Return what a file is needed for (e.g. ``Role.TEST``), and whether a build, launch file or test certainly uses the file."""
         role, certain = self._role(path)
         return role, certain and not (self._separate_projects and self._is_in_separate_project(path))
 
     def is_template_or_recipe(self, path: str) -> bool:
-        """Return whether a file is a template, a recipe of another tool, a generator of documentation or a backup copy.
+        """Return whether a file is a template, a script for another tool, a generator of documentation or a backup copy.
 
         Such a file is not part of the package.
         """
@@ -207,7 +207,7 @@ class FileRoles:
         return frozenset([files[0] for files in map(self._own_files.by_name.get, named) if files is not None and len(files) == 1])
 
     def _siblings_are_used(self, path: str) -> bool:
-        """Return whether other files of the folder with the suffix of this file are built or installed by name."""
+        """Return whether other files in the folder of a file, with the suffix of the file, are built or installed by name."""
         folder, _, name = path.rpartition("/")
         return f"{folder}/*{name[name.rfind('.') :]}" in self._used_patterns and (name.endswith(".py") or self._sources_known)
 

@@ -72,7 +72,7 @@ class OwnFiles:
         return frozenset([file for file in files if _module(file) not in required])
 
     def include_closure(self, roots: Iterable[str]) -> frozenset[str]:
-        """Return the files among ``roots`` with the files of the package that they include, transitively."""
+        """Return the files ``roots`` together with all files of the package that they include, directly or indirectly."""
         closure: set[str] = set()
         pending = [root for root in roots if root in self.facts]
         while pending:

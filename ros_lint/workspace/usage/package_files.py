@@ -32,7 +32,10 @@ class PackageSource(NamedTuple):
 
 
 def include_index(sources: Iterable[PackageSource]) -> dict[str, tuple[str, ...]]:
-    """Return the names of the packages that have each header below a folder ``include``, by the path written in an include."""
+    """Return, for each header below a folder ``include``, the names of the packages that have it.
+
+    The key is the path as written in an include: ``geometry/line.hpp``.
+    """
     index: dict[str, tuple[str, ...]] = {}
     for source in sources:
         for file in source.files:

@@ -1,7 +1,8 @@
 """From mentions to uses: resolve each name in a file to the package to declare, and to the role (build, run, test).
 
-A mention is a place with a name that may belong to another package. There are several name spaces: header paths, Python
-modules, arguments of find_package(), package names and others. Only this module translates names to packages.
+A mention is a place with a name that may belong to another package, a use is a mention with a known package. There are
+several name spaces: header paths, Python modules, arguments of find_package(), package names and others. Only this module
+translates names to packages.
 """
 
 from __future__ import annotations
@@ -132,10 +133,10 @@ class Resolver:
         return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> ProviderMatch:
-        """Return a match with ``name`` as an uncertain provider, for code that looks up files in an unknown package of this name.
+        """Return a ProviderMatch with ``name`` as uncertain provider, for code that looks up files in an unknown package ``name``.
 
-        The match is empty if the name exists in any distribution, may belong to a package that ros-lint cannot read, or is
-        not a valid package name.
+        The ProviderMatch is empty if the name exists in any distribution, may belong to a package that ros-lint cannot read, or
+        is not a valid package name.
         """
         is_unknown = self.names.resolution(name) == "unknown" and may_be_package(name)
         return ProviderMatch((name,), False, name) if is_unknown else _NO_MATCH
@@ -151,7 +152,7 @@ class Resolver:
         return self._unresolved(name, bool(mention) and _INTERFACES.match(mention) is not None)
 
     def _unresolved(self, name: str, is_interface: bool = False) -> ProviderMatch:
-        """Return the match for a name that neither the workspace nor the target distribution provides.
+        """Return the packages that may provide a name, if neither the workspace nor the target distribution provides it.
 
         The provider is a package of another or a former distribution, or, with ``is_interface``, the package of an interface.
         The package of an interface is certain only if the workspace declares it.
@@ -185,7 +186,7 @@ _QUOTATIONS: Mapping[Via, str] = {
 
 
 def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> tuple[Use, ...]:
-    """Return each use of another package, sorted by position.
+    """Return each place in a package that needs another package, sorted by position.
 
     ``own_files`` resolves includes and imports of files of the package itself.
     """
@@ -216,7 +217,7 @@ def resolve(source: PackageSource, resolver: Resolver, own_files: OwnFiles) -> t
 
 
 def _add_script(source: PackageSource, uses: _Uses) -> None:
-    """Add the uses in the build script: names in its commands, and packages that it exports to dependents."""
+    """Add the uses of other packages in the build script: names in its commands, and packages that it exports to dependents."""
     by_role: dict[tuple[str, Role], list[Mention]] = {}
     unused_finds = frozenset(source.built.cmake.unused_optional_finds)
     for mention in source.built.mentions:
@@ -267,7 +268,7 @@ class _Uses:
         return tuple([use for _, use in sorted(self._by_place.items())])
 
     def add(self, path: str, mentions: Iterable[Mention], role: Role, looked_up: Role, in_use: bool) -> None:
-        """Add the uses for the mentions in a file.
+        """Add the uses of other packages that result from ``mentions``, the mentions in a file.
 
         A mention is a place with a name that may belong to another package. ``role`` is the role of the file, ``looked_up`` the
         role of packages whose files are looked up at run time.
@@ -398,12 +399,12 @@ def _launch_uses(launch: LaunchFile, role: Role, uses: _Uses, in_use: bool) -> N
 
 
 def satisfying(uses: Iterable[Use]) -> frozenset[str]:
-    """Return each name of a package or rosdep key that may be declared for one of the uses."""
+    """Return all names of packages and rosdep keys, each of which satisfies one of the uses if package.xml declares it."""
     return frozenset([name for match in {use.providers for use in uses} for name in match])
 
 
 def used_names(declared: Iterable[str], uses: Iterable[Use]) -> frozenset[str]:
-    """Return the declared names that are needed for a use. For each use, only the best declared provider counts."""
+    """Return the declared names that a use needs. If several declared names satisfy a use, only the best of them counts."""
     names = frozenset(declared)
     alternatives = {use.providers for use in uses}
     return frozenset([name for match in alternatives for name in [provider for provider in match if provider in names][:1]])

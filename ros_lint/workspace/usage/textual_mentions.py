@@ -35,7 +35,10 @@ _SKIPPED_PREFIXES = ("changelog", "readme", "license", "licence", "contributing"
 
 
 def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, world: World, types: Types) -> Mapping[str, Span]:
-    """Return a place for each declared name that no code uses, but that occurs in the text of a file of the package."""
+    """Return, for each declared name that no code uses, a place where the text of a file of the package contains it.
+
+    Names that occur nowhere are left out.
+    """
     if not is_build_visible(package):
         return {}
     declared = [d.name for d in package.declared if d.always and _needs_a_trace(world, d)]
@@ -63,9 +66,9 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
 
 
 def _needs_a_trace(world: World, declared: Declared) -> bool:
-    """Return whether a rule reports a dependency of which it finds no occurrence.
+    """Return whether a dependency is reported if no file of the package contains its name.
 
-    These are dependencies for the build, and test dependencies on message packages.
+    The result is True for dependencies for the build, and for test dependencies on message packages.
     """
     tag = declared.depend.tag
     if tag == "test_depend":
@@ -75,7 +78,7 @@ def _needs_a_trace(world: World, declared: Declared) -> bool:
 
 
 def _find_commands_in_pages(names: Sequence[str], tree: Tree, package: Package) -> dict[str, Span]:
-    """Return a place for each package that occurs in a ``ros2 run`` or ``ros2 launch`` command in a documentation page.
+    """Return, for each of the package names, a place in a documentation page with ``ros2 run NAME`` or ``ros2 launch NAME``.
 
     If a page cannot be read, its start is the place for every name, because the page may contain the commands.
     """
@@ -199,7 +202,7 @@ _SCRIPT_SUFFIXES = ("CMakeLists.txt", ".cmake")
 
 
 def _contents(tree: Tree, package: Package, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of a package that may be evidence of a use: no documentation and no package.xml."""
+    """Yield path and contents of the files of a package that may be evidence of a use: no documentation and no package.xml."""
     for path, data in contents(tree, package.path, filter(_is_searched, files)):
         if b"\0" not in data[:1024]:
             yield path, data
@@ -217,7 +220,7 @@ def find_mentions(
     *,
     whole_names: bool = False,
 ) -> dict[str, Span]:
-    """Return a place for each name that is a word in one of the files, outside comments. Dashes equal underscores.
+    """Return, for each name, a place where it is a word in one of the files, outside comments. Dashes equal underscores.
 
     ``files`` are paths with contents. Several files are searched at once and undecoded, because few contain a name.
     ``words`` maps some of the names to other texts to search for. These texts match anywhere and case-insensitively.
@@ -303,7 +306,7 @@ def _without_comments(path: str, data: bytes) -> bytes:
 def find_code_mentions(
     names: Sequence[str], source: PackageSource, words: Mapping[str, Sequence[str]], is_searched: Callable[[str], bool]
 ) -> dict[str, Span]:
-    """Return a place for each name that occurs in an include or import, from the collected facts, without reading files.
+    """Return, for each name, a place where it occurs in an include or import. No file is read, only the collected facts.
 
     ``names`` and ``words`` have the meaning as in :func:`find_mentions`. ``is_searched`` decides which files count.
     """
@@ -319,7 +322,7 @@ def find_code_mentions(
 
 
 _LITERAL_SPACES: frozenset[Via] = frozenset({"include", "import", "symbol"})
-"""Kinds of names that are literally in the source."""
+"""Kinds of mentioned names that code contains literally."""
 
 
 def _present_spellings(name: str, data: bytes) -> Iterator[bytes]:
@@ -343,8 +346,8 @@ _SEPARATOR = re.compile(rb"[-_/]|::")
 def _spellings(name: str) -> tuple[str, ...]:
     """Return the forms of a package name in code: with dashes, as a nested namespace, as an include folder.
 
-    Code in the outer namespace omits it, and libraries omit the prefix ``lib``. Conversions of tf2 are selected by
-    the types of their arguments, so only ``tf2`` is in the code.
+    Code inside the outer namespace omits that namespace, and libraries omit the prefix ``lib``. Conversions of tf2 are selected
+    by the types of their arguments, so only ``tf2`` is in the code.
     """
     spellings = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
     inner = name.partition("_")[2]

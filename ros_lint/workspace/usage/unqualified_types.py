@@ -58,10 +58,10 @@ class Types:
         self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
 
     def used(self, source: PackageSource, names: Iterable[str]) -> Mapping[str, Span]:
-        """Return a place for each of the packages ``names`` whose types ``source`` uses by unqualified names.
+        """Return, for each of the package names, a place where the package ``source`` uses one of its types by an unqualified name.
 
         For a package of the workspace, the types are those that its public headers declare. For a package of
-        interfaces, they are the names that public headers of transitive dependencies give to its messages.
+        interfaces, they are the aliases of its messages in public headers of transitive dependencies of ``source``.
         """
         wanted_names = {
             name: type_names for name in names if (type_names := self._type_names(source, name)).types or type_names.spaces
@@ -111,7 +111,7 @@ class Types:
 
     @cached_property
     def _headers_by_package(self) -> Mapping[str, Sequence[tuple[str, str]]]:
-        """The public headers that mention each package, by package name: the package with the header, and the header's path."""
+        """For each package name: the public headers that mention it, as pairs of the header's package and the header's path."""
         headers: dict[str, dict[tuple[str, str], None]] = {}
         for source in self._by_name.values():
             for file in filter(_is_public, source.files):

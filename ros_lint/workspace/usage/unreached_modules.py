@@ -17,9 +17,9 @@ _PROGRAMS = ("lib/", "bin/")
 def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], others: Sequence[PackageSource]) -> frozenset[str]:
     """Return the modules that contain an import of ``uses``, but that no started file of the package imports, even indirectly.
 
-    Paths are relative to the package. Started files are entry points, installed programs, launch files, tests, and Python
-    files outside of the installed Python packages. Modules that the packages ``others`` import count as reached. The result is
-    empty if:
+    Paths are relative to the package. Started files are entry points, installed programs, launch files, tests, and Python files
+    outside of the installed Python packages. Reached files are the started files, the files that they import, and the modules
+    that the packages ``others`` import. The result is empty if:
 
     - no file is started by name, as in a library,
     - a reached file computes names of imported modules,
@@ -42,7 +42,7 @@ def _top(file: str) -> str:
 
 
 def _started(source: PackageSource, modules: Sequence[str]) -> Iterator[str]:
-    """Yield the started modules: entry points, programs, launch files, tests, and modules whose file name is in code."""
+    """Yield the started modules: entry points, programs, launch files, tests, and modules whose file name is in a string."""
     script = source.built
     yield from (module.path for module in script.python.entry_point_modules)
     yield from (file.source for file in script.products.installs if file.path.startswith(_PROGRAMS) and not file.importable)

@@ -1,4 +1,4 @@
-"""Predicates about whether ros-lint can find all uses of other packages in a package: no unknown value hides a use."""
+"""Determine whether ros-lint can find all places in a package that use other packages."""
 
 from __future__ import annotations
 
