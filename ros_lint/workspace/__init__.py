@@ -1,1 +1,1 @@
-"""Load a workspace: discover packages, collect data from their files, evaluate build scripts, and join everything for the rules."""
+"""Load a workspace: discover packages, collect data from their files, evaluate build scripts, and join the results."""

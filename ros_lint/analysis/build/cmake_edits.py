@@ -1,4 +1,4 @@
-"""Edits of CMakeLists.txt in the style of the file. A function returns None if the file has no place for the edit."""
+"""Make edits of CMakeLists.txt in its style. A function returns None if the file has no place for the edit."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def _beside(package: Package) -> Call | None:
 def keep_permissions(call: Call) -> Edit:
     """Return the edit that adds USE_SOURCE_PERMISSIONS to a call of install(DIRECTORY).
 
-    The keyword is added after the destination, because patterns have to follow it.
+    The keyword is added after the destination, because PATTERN options have to follow it.
     """
     at = call.texts.index("DESTINATION") + 1 if "DESTINATION" in call.texts[:-1] else len(call.args) - 1
     return Edit(call.span(at).end(), " USE_SOURCE_PERMISSIONS")

@@ -84,7 +84,7 @@ def node_targets(package: Package) -> frozenset[str]:
 
 
 def has_header(target: BuildTarget, files: Iterable[str]) -> bool:
-    """Return whether one of the files is a header with the file stem of a source of the target: ``node.hpp``, ``node.cpp``."""
+    """Return whether one of the files is a header with the file stem of a source of the target: ``node.hpp`` for ``node.cpp``."""
     stems = {stem(source) for source in target.sources}
     return any(file.endswith(HEADERS) and stem(file) in stems for file in files)
 

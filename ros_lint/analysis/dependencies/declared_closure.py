@@ -20,10 +20,10 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
 
 
 def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
-    """Return declared dependencies of a package with their transitive dependencies.
+    """Return the dependencies that a package declares for ``role`` (build, run, test ...), with their transitive dependencies.
 
-    The closure starts from the dependencies declared for any role in ``role``, the packages ``others``, and the
-    members of the groups that the package depends on.
+    One of several roles in ``role`` suffices. The packages ``others`` and the members of the groups that the package depends on
+    are included, with their transitive dependencies.
     """
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
     starts += others
@@ -37,8 +37,8 @@ def provided_transitively(
 ) -> bool:
     """Return whether one of ``names`` is a transitive dependency of a declared dependency that is not in ``names`` itself.
 
-    Only dependencies declared for any role in ``role`` count. A dependency whose own dependencies are unknown counts if it
-    could provide a name, unless ``surely`` is true.
+    Only dependencies declared for any role (build, run, test ...) in ``role`` count. A dependency whose own dependencies are
+    unknown counts if it could provide a name, unless ``surely`` is true.
     """
     names = frozenset(names)
     starts = {declared.name for declared in package.declared if declared.role & role and declared.name not in names}

@@ -1,4 +1,4 @@
-"""The packages that a CMake script searches by find_package(), names and exports."""
+"""The packages that a CMake script searches by find_package(), or passes to macros such as ament_export_dependencies()."""
 
 from __future__ import annotations
 

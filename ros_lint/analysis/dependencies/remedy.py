@@ -159,8 +159,8 @@ def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[st
     """Return the packages on a dependency path from ``name`` to this package, both included, or () if there is no path.
 
     Declaring ``name`` would close a cycle then. Between packages of the workspace every dependency tag counts, because colcon
-    orders packages by all tags. Of released packages only run-time dependencies count; if the target distribution lacks
-    ``name``, the run-time dependencies in any distribution.
+    orders packages by all tags. Between released packages only run-time dependencies count: those in the target distribution, or
+    in any distribution if the target distribution lacks ``name``.
     """
     graph = dependency_graph(workspace) if name in workspace.by_name else None
     if graph is not None and name in graph.arcs and package.colcon_name in graph.closure(name):

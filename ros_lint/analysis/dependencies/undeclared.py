@@ -158,7 +158,7 @@ def _joined(missing: Sequence[Need]) -> list[Need]:
 
 
 def _names(use: Use, name: str) -> bool:
-    """Return whether the text of a use contains ``name`` itself, rather than the name of something that ``name`` provides."""
+    """Return whether the text of a use contains ``name`` itself, rather than the name of a library or module in it."""
     return name in (use.package, use.name.partition("/")[0])
 
 
@@ -181,7 +181,7 @@ def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace
 
 
 def only_launched(package: Package, uses: Sequence[Use]) -> bool:
-    """Return whether only launch files name a package, and not only for tests.
+    """Return whether all uses of a package are in launch files, and at least one of them is not for tests.
 
     Launch modules that other files call count as ordinary code.
     """

@@ -16,7 +16,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, impr
     ``improbable`` is true if one of them must provide ``name``. The last of these assumptions is then not made:
     - Unknown packages do not depend on packages of this workspace, because repositories do not depend on each other in
       a cycle.
-    - Unknown packages that are named like packages of interfaces provide only interfaces.
+    - Unknown packages that are named like packages of interfaces (``*_msgs``) provide only interfaces.
     - Only unknown packages that are named like build tools or linters provide build tools and linters.
     - Any unknown package may provide a library.
     - A package that few released packages provide is not provided by an unknown package with a quite different name.

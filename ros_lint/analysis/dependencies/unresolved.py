@@ -44,7 +44,7 @@ class UnresolvedDependency(NamedTuple):
 
 @cached_by_workspace
 def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
-    """Return every name that has to resolve, with the packages that declare it.
+    """Return every declared name that must be a package or a rosdep key, with the packages that declare it.
 
     Left out, because other rules report them, are:
     - packages of ROS 1 (catkin),
@@ -132,7 +132,7 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
 
 
 def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...]:
-    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or removed ("").
+    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or removed if it is "".
 
     Until then no code uses the wrong name, and ``intended`` is used but not declared.
     """
@@ -141,7 +141,7 @@ def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...
 
 
 def is_used_in_sources(dependency: UnresolvedDependency) -> bool:
-    """Return whether a file other than package.xml contains the name of the dependency, which may thus exist."""
+    """Return whether a file other than package.xml contains the name of the dependency. If so, the dependency may exist."""
     package, name = dependency.package, dependency.name
     return name in _mentioned(package) or name in package.textual_mentions or any(name in use.providers for use in package.uses)
 

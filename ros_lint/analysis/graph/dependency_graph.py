@@ -130,7 +130,7 @@ class Graph:
         return tuple(component for component in components(self.arcs) if not any(cycle <= set(component) for cycle in certain))
 
     def closure(self, name: str) -> frozenset[str]:
-        """Return all direct and indirect dependencies of a package. It contains the package itself only if that is on a cycle."""
+        """Return all direct and indirect dependencies of a package. A package on a cycle is its own dependency."""
         if name not in self._closures:
             self._closures[name] = reachable(self.arcs, name)
         return self._closures[name]

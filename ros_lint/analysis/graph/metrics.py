@@ -24,7 +24,10 @@ class Metrics(NamedTuple):
     reach: int
     """Number of packages that are rebuilt when the package changes: all direct and indirect dependents."""
     redundant: tuple[tuple[str, ...], ...]
-    """Direct dependencies that are also indirect dependencies, each with a shortest longer path from the package to it."""
+    """Redundant dependencies: the package depends on them directly and indirectly.
+
+    Each item is a shortest indirect path from the package to the dependency, both included.
+    """
 
 
 def measure(graph: Graph) -> Mapping[str, Metrics]:

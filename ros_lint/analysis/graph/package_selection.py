@@ -29,8 +29,8 @@ class PackageSelection(NamedTuple):
         """Return the names of the packages that all options together select.
 
         ``up_to`` selects packages with their direct and indirect dependencies, ``above`` packages with their direct and
-        indirect dependents, and ``select_regex`` packages whose name begins with a match. A package that ``select`` or
-        ``select_regex`` selects need not be selected by the other of the two.
+        indirect dependents, and ``select_regex`` packages whose name begins with a match. A package must be selected by every
+        option, but by only one of ``select`` and ``select_regex``.
         """
         names = frozenset(graph.names) - frozenset(self.skip)
         if self.select or self.select_regex:
@@ -42,7 +42,7 @@ class PackageSelection(NamedTuple):
         return names
 
     def named(self) -> Iterator[tuple[str, str]]:
-        """Yield each name that has to exist, with its option: ("packages-up-to", "talker")."""
+        """Yield each option with each of its names that must exist: ("packages-up-to", "talker")."""
         for option, names in (("select", self.select), ("up-to", self.up_to), ("above", self.above)):
             yield from ((f"packages-{option}", name) for name in names)
 

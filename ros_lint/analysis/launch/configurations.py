@@ -19,13 +19,16 @@ class FileConfigurations(NamedTuple):
     declared: Mapping[str, Span]
     """The launch arguments that the file declares, with the place of each declaration."""
     set_or_passed: frozenset[str]
-    """Configurations that the file sets without a declaration, or passes to an included file, so that they stay set."""
+    """Configurations that the file sets by an action, or passes to an included file. They stay set after the include."""
     read: frozenset[str]
     """Configurations that the file reads."""
     complete: bool
     """True if all names of configurations in the file are known."""
     may_read_any: bool
-    """True if the file substitutes configurations in parameter files: users can replace these to read any configuration."""
+    """True if the file substitutes configurations in parameter files.
+
+    Users can replace the parameter files, so that any configuration may be read.
+    """
 
 
 def names_of(file: LaunchFile) -> FileConfigurations:
@@ -85,7 +88,7 @@ class IncludeTree:
         return self._names[file.path]
 
     def fill(self, file: LaunchFile) -> bool:
-        """Return whether this file, a file that it includes or a file that includes it may read configurations of any name.
+        """Return whether ``file``, a file that it includes or a file that includes it may read configurations of any name.
 
         A file may do so if it substitutes configurations in a parameter file, because users can replace the parameter file.
         """

@@ -155,7 +155,7 @@ def launch_suffix(path: str) -> str:
 def is_excluded_from_install(package: Package, path: str) -> bool:
     """Return whether the build script deliberately does not install a launch file.
 
-    A command in it then installs other launch files of the same folder and suffix. ``path`` is relative to the package.
+    The script then has a command that installs other launch files of the folder and suffix. ``path`` is relative to the package.
     """
     folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.products.installs
     if not suffix:

@@ -173,7 +173,7 @@ _OF_VALUES = frozenset({
     "forgotten-path", "no-condition", "no-slash", "no-text", "removed-keyword", "substitution-as-text", "substitution-refused",
     "text-divided",
 })  # fmt: skip
-"""Kinds of problems of single values: all actions and arguments of the file are known in spite of them."""
+"""Kinds of problems in single values. In spite of them, all actions and arguments of the file are known."""
 
 
 def _is_read_completely(file: LaunchFile) -> bool:
@@ -202,9 +202,9 @@ def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the possible values of a launch text after replacing launch configurations by their values in ``defaults``.
+    """Return the possible values of a text in a launch file.
 
-    The result is () if ``value`` is None.
+    Launch configurations in the text are replaced by their values in ``defaults``. The result is () if ``value`` is None.
     """
     if value is None:
         return ()

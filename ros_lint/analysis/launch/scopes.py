@@ -133,6 +133,9 @@ class ScopeLeaks:
 
 @cached_by_workspace
 def scope_leaks(workspace: Workspace) -> ScopeLeaks:
-    """Return the finder of configurations in this workspace that an include leaves set and that are read later."""
+    """Return a :class:`ScopeLeaks` for the launch files of the workspace.
+
+    It finds launch configurations that are read after the include that has set them.
+    """
     files = [file for package in workspace.packages for file in package.launch]
     return ScopeLeaks(files, include_resolver(workspace))

@@ -119,7 +119,7 @@ class FactCache:
             yield name
 
     def _is_obsolete(self, name: str, kept: Mapping[str, object]) -> bool:
-        """Return whether a record in the cache file is of another version of ros-lint, or is of this workspace but not in ``kept``."""
+        """Return whether a cache record is of another version of ros-lint, or of this workspace and not in ``kept``."""
         return not name.startswith(f"facts-{_state()}-") or (name.startswith(self._prefix) and name not in kept)
 
     @property

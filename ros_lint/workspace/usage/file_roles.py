@@ -73,7 +73,7 @@ class FileRoles:
         self._python_known = has_script and not python_hidden & (Facet.PYTHON | Facet.EXECUTABLES)
 
     def role(self, path: str) -> tuple[Role, bool]:
-        """Return what a file is needed for (e.g. ``Role.TEST``), and whether a build, launch file or test certainly uses the file."""
+        """Return what a file is needed for (``Role.TEST``), and whether a build, launch file or test certainly uses the file."""
         role, certain = self._role(path)
         return role, certain and not (self._separate_projects and self._is_in_separate_project(path))
 

@@ -133,7 +133,7 @@ class Resolver:
         return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> ProviderMatch:
-        """Return a ProviderMatch with ``name`` as uncertain provider, for code that looks up files in an unknown package ``name``.
+        """Return a ProviderMatch with ``name`` as uncertain provider, for code that looks up files in an unknown package.
 
         The ProviderMatch is empty if the name exists in any distribution, may belong to a package that ros-lint cannot read, or
         is not a valid package name.

@@ -58,7 +58,7 @@ class Types:
         self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
 
     def used(self, source: PackageSource, names: Iterable[str]) -> Mapping[str, Span]:
-        """Return, for each of the package names, a place where the package ``source`` uses one of its types by an unqualified name.
+        """Return, for each of the package names, a place where ``source`` uses a type of the package by an unqualified name.
 
         For a package of the workspace, the types are those that its public headers declare. For a package of
         interfaces, they are the aliases of its messages in public headers of transitive dependencies of ``source``.
