@@ -1,1 +1,1 @@
-"""CMakeLists.txt: syntax, evaluation and the effects of commands."""
+"""Static analysis of CMakeLists.txt: a parser, an evaluator, and the effects of commands."""

@@ -19,7 +19,7 @@ _BLOCK_WORDS: Final = frozenset({"else", "elseif", "return", "break", "continue"
 def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
     """Yield the command calls of a CMake file in order, without the commands that begin or end blocks.
 
-    ``path`` is the path of the file, relative to the base of the run.
+    ``path`` is the path of the file, relative to the root folder of the workspace.
     """
     blocks: list[tuple[str, bool]] = []
     enclosing: tuple[str, ...] = ()

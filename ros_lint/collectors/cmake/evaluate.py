@@ -80,8 +80,8 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     workspace whose CMake code runs in the packages that find them (``exports.config_extras`` of their build script). Evaluate
     the helpers first, each after the helpers that it finds, then the other packages.
 
-    - A condition that cannot be decided: both branches are run. Their products are ``conditional``, and the packages that they
-      mention are ``optional``.
+    - A condition that cannot be decided: both branches are run. Targets and files of the branches are ``conditional``, and the
+      packages in their commands are ``optional``.
     - An option has its default value. The effects of the other branch are reported as conditional.
     - Code that cannot be evaluated is recorded in ``opaque``, with the kinds of facts that may be incomplete (``Facet``).
     - Problems have the kinds "cmake-syntax", "missing-file", "missing-folder" (add_subdirectory), "missing-script" (include),

@@ -53,8 +53,8 @@ _PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
 def _exported_files(run: Run) -> list[str]:
     """Return the CMake files of the package that run in the packages that find it.
 
-    These are the files of CONFIG_EXTRAS, templates of CMake config files, and the installed files that are included or
-    registered in the former: ``include("${tools_DIR}/more.cmake")``, ``ament_register_extension(point tools more.cmake)``.
+    These are the files of CONFIG_EXTRAS, templates of CMake config files, and installed files that a file of these kinds
+    includes or registers: ``include("${tools_DIR}/more.cmake")``, ``ament_register_extension(point tools more.cmake)``.
     """
     name = run.results.project.name
     folder = f"share/{name}/cmake/"
@@ -83,10 +83,10 @@ _ENVIRONMENT: Final = re.compile(r"\$ENV\{(ROS_(?:DISTRO|VERSION|PYTHON_VERSION)
 
 
 def _of_environment(path: str, command: Command, tested: set[str]) -> Iterator[Mention]:
-    """Yield a mention of ros_environment for each of its variables in a command, e.g. ``$ENV{ROS_DISTRO}``.
+    """Yield a mention of ros_environment for each environment variable of ros_environment in a command.
 
-    The mention is optional if a command of the file tests whether the variable exists. ``tested`` has the texts of all
-    arguments of the file.
+    Example: ``$ENV{ROS_DISTRO}``. The mention is optional if a command of the file tests whether the variable exists.
+    ``tested`` has the texts of all arguments of the file.
     """
     for index, argument in enumerate(command.args):
         match = _ENVIRONMENT.search(argument[0])

@@ -243,7 +243,7 @@ class _Reader:
         return _SyntaxError(reasons.get(letter, f"{letter!r} is not allowed here"), at, at + 1)
 
     def _count_lines(self) -> None:
-        """Recount the lines of commands in a file with carriage returns, because Text ends lines at carriage returns, too."""
+        """Recount the lines of commands in a file with carriage returns, because :class:`Text` ends lines at them, too."""
         for number, command in enumerate(self.commands):
             line, column = self.source.position(command.start)
             last = self.source.position(command.end)[0]

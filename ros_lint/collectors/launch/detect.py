@@ -57,7 +57,7 @@ def is_launch_file(path: str, text: str) -> Language | None:
 
 
 def entries(text: str) -> frozenset[str]:
-    """Return which of the descriptions "launch" and "test" a Python source defines a function for.
+    """Return the kinds of functions for launch descriptions that a Python source defines.
 
     "launch" is for ``generate_launch_description()``, "test" for ``generate_test_description()``.
     """

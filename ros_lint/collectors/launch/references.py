@@ -39,7 +39,7 @@ _COMMANDS: Mapping[tuple[str, ...], str] = {
 
 
 _PREFIXES = frozenset({"gnome-terminal", "konsole", "screen", "terminator", "tmux", "valgrind", "xterm"})
-"""System programs, such as xterm, that a node is started in (``prefix``). Each name is also a rosdep key."""
+"""System programs, such as xterm, that can wrap the command of a node (``prefix``). Each name is also a rosdep key."""
 
 
 class References:
@@ -381,9 +381,9 @@ class References:
             }
 
     def mark_fallbacks(self, fallbacks: Iterable[tuple[str, Sequence[str]]]) -> None:
-        """Record for each file that replaces a missing file which file it replaces.
+        """Record, for each fallback file, the missing file that it replaces.
 
-        ``fallbacks`` are pairs: the path of the replacement, and the possible paths of the missing file.
+        ``fallbacks`` are pairs: the path of the fallback file, and the possible paths of the missing file.
         """
         replaced: dict[tuple[str, str], tuple[tuple[str, str], ...]] = {}
         for path, tested in fallbacks:

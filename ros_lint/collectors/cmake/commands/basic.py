@@ -88,9 +88,9 @@ def _set_cache(run: Run, name: str, value: str, kind: str, force: bool) -> None:
 
 
 def _path(value: str) -> str:
-    """Return a path as CMake stores it in the cache, without a slash at the end; HOLE (unknown) in the cases listed here.
+    """Return a path as CMake stores it in the cache, without a slash at the end; HOLE (unknown) if it is hard to normalize.
 
-    The cases: an unknown part, a double slash, a backslash, a semicolon, ``~`` at the start.
+    This is the case for a path with an unknown part, a double slash, a backslash, a semicolon, or ``~`` at the start.
     """
     not_modelled = HOLE in value or "//" in value or "\\" in value or ";" in value or value.startswith("~")
     return HOLE if not_modelled else value.rstrip("/") or value

@@ -28,9 +28,9 @@ _TESTS: Final = "BUILD_TESTING"
 
 
 _Reference = tuple[str, Template, bool]
-"""An argument with references: the variable, the parsed parts, and whether the argument is quoted.
+"""An argument with variable references: the variable's name, the parsed argument, and True if it is quoted.
 
-The variable is "" unless the argument is a single reference."""
+The name is "" unless the argument is a single reference such as ``${name}``."""
 _Conditions = tuple[tuple[str, bool], ...]
 """Keywords of a macro call (or BUILD_TESTING), each with True if it must be present, False if it must be absent."""
 _Step = tuple[str, tuple[str | _Reference, ...], _Conditions]
@@ -44,9 +44,9 @@ class ReleasedMacros(NamedTuple):
 
     procedure: Procedure
     direct: tuple[str, list[str]] | None
-    """A command ``ros_lint_*`` and its first arguments, if the macro only calls it with the arguments of the macro.
+    """For a macro that only passes its arguments on to one command ``ros_lint_*``: the command and its first arguments.
 
-    None for any other macro."""
+    The first arguments are those before the passed arguments. None for any other macro."""
     keywords: _Keywords | None
     steps: tuple[_Step, ...] | None
     """The commands of the compiled macro, None if the macro cannot be compiled."""

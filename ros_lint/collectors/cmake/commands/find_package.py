@@ -92,7 +92,7 @@ def _may_be_package_name(name: str) -> bool:
 def mark_found(run: Run, name: str, *, required: bool) -> None:
     """Record that a package is found. The variables of the package become unknown.
 
-    A package of the workspace runs its CMake code (CONFIG_EXTRAS) in addition.
+    If the package is in the workspace, its CMake code (CONFIG_EXTRAS) runs, too.
     """
     if name in _OF_ROS_1 and not required and name not in run.helpers:
         run.set(f"{name}_FOUND", "0")
@@ -150,7 +150,8 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 def _packages_used(run: Run, args: list[str]) -> None:
     """Run ``ros_lint_uses(purpose command names...)`` of ros_macros.cmake: record that the package uses other packages.
 
-    The purpose is "-", "export", "interfaces" or "plugins". The command is a text for messages, see :func:`_quotation`.
+    The purpose is "export", "interfaces", "plugins", or "-" for none of these. The command is a text for messages, see
+    :func:`_quotation`.
     """
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
@@ -223,7 +224,10 @@ def _target_uses(run: Run, args: list[str]) -> None:
 
 
 def _note_modified_target(run: Run, command: str, args: list[str]) -> None:
-    """Record that a command modifies a target. Nothing is recorded if the command may not run without tests."""
+    """Record that a command modifies a target.
+
+    Nothing is recorded if the command may not run, or runs only if tests are enabled.
+    """
     name, certain = strip_mark(args[0]) if args else ("", False)
     if certain and not (run.muted or run.uncertain_conditions or run.testing) and is_known(name) and "::" not in name:
         run.results.modified_targets.setdefault((name, command), run.current_place())

@@ -33,7 +33,7 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 
 def hide(run: Run, destination: str | None, reason: str) -> None:
-    """Record that the files in a destination of install() are incompletely known. A ``destination`` of None is unknown, too."""
+    """Record that the files in a destination of install() are incompletely known. None means an unknown destination."""
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 

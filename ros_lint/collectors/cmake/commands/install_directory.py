@@ -112,7 +112,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
 
 
 def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
-    """Return the files below a folder that the build generates, sorted, and whether it also generates unknown files there."""
+    """Return the files below a folder that the build generates, sorted, and whether the build generates unknown files, too."""
     below = f"{folder}/" if folder else ""
     generated = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
     folders = [path[:-1] for path in generated if path[-1] == "/"]

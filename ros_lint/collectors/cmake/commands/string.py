@@ -248,7 +248,7 @@ _FUNCTIONS: Final[dict[str, tuple[int, Callable[..., str]]]] = {
 }
 """By mode: the index of the output variable among the arguments, and the function that computes its value.
 
-The function takes the other arguments."""
+The function takes the arguments without the output variable."""
 
 
 # --- expressions ---------------------------------------------------------------------------------------------------

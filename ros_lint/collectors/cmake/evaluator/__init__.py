@@ -1,1 +1,1 @@
-"""The CMake language: variables, conditions, loops, functions and paths."""
+"""The evaluator of the CMake language: variables, conditions, loops, functions and paths."""

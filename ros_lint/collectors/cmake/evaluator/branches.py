@@ -16,7 +16,7 @@ from ros_lint.collectors.cmake.evaluator.truth import FALSE, LIKELY, TRUE, UNLIK
 
 
 class _Branch(NamedTuple):
-    """A branch of an if(). The branch may run."""
+    """A branch of an if() that may run."""
 
     body: Body
     by_default: bool
@@ -80,9 +80,10 @@ def _run_single(run: Run, node: If) -> Exit:
 
 
 def _required_packages(node: If, number: int) -> tuple[str, ...]:
-    """Return the packages that are found if the branch ``number`` of an if() does not run.
+    """Return the packages that are certainly found if the branch ``number`` of an if() does not run.
 
-    The first branch tests ``NOT X_FOUND OR NOT Y_FOUND``, or the else() belongs to ``X_FOUND AND Y_FOUND``.
+    Examples: X and Y for the first branch of ``if(NOT X_FOUND OR NOT Y_FOUND)``, and for the else() of ``if(X_FOUND AND
+    Y_FOUND)``. The result is () for any other if().
     """
     first = node.branches[0][0]
     assert first is not None

@@ -11,7 +11,7 @@ from ros_lint.collectors.cmake.evaluator.values import HOLE, LONGEST, MAYBE, cer
 Part = str | tuple[str, "Template"]
 """A part of an argument: a text, or a variable reference.
 
-A reference is its name space ("", "ENV" or "CACHE") and the template of the variable's name."""
+A reference is its name space ("", "ENV" or "CACHE") and the parsed name, which may contain further references."""
 Template = tuple[Part, ...]
 Compiled = str | Template
 """A parsed argument: its parts, or only the name of a variable if the argument is just ``${name}``."""

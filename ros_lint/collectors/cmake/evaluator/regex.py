@@ -214,7 +214,10 @@ _OCTETS: Final = frozenset(map(chr, range(256)))
 
 
 def _moved(program: Iterable[Instruction], by: int) -> list[Instruction]:
-    """Return instructions for a program where they begin ``by`` instructions later: their targets are increased by ``by``."""
+    """Return instructions with their jump targets increased by ``by``.
+
+    This is needed if ``by`` other instructions are inserted before them.
+    """
     moved: list[Instruction] = []
     for instruction in program:
         if isinstance(instruction, Split):

@@ -15,7 +15,7 @@ from ros_lint.base.budget import Budget, BudgetExceeded
 from ros_lint.collectors.cmake.evaluator.values import SLOW
 
 _QUICK: Final = 1 << 18
-"""Maximum number of steps that Python's re may need for a match. For more steps, the instructions are run."""
+"""Maximum number of steps of Python's re for a match. If more may be needed, the program of instructions is used."""
 _LARGEST: Final = 1 << 25
 """Maximum memory for one match, in bytes: one byte for each instruction and position of the text."""
 _AT_ONCE: Final = 256

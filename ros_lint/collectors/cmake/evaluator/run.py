@@ -86,7 +86,7 @@ class Run(State):
         self.literal_places: dict[str, tuple[str, Command, Argument]] = {}
         """The first place in the scripts of each text that is a list element, by the text."""
         self.policy_version: tuple[int, int] = (3, 0)
-        """The version of CMake up to which policies behave as NEW."""
+        """The version of CMake up to which policies behave as NEW (cmake_minimum_required)."""
         self.fetched_projects: dict[str, list[str]] = {}
         """By project name in FetchContent_Declare(): the names in its download address, such as the owner and the repository."""
         self.command_names: set[str] = set()
@@ -98,7 +98,7 @@ class Run(State):
         self.package_scopes: list[Variables] = []
         """The scopes of variables that are visible where ament_package() runs."""
         self.component_scopes: list[Variables] = []
-        """By component (rclcpp_components): the scope of variables where it is registered."""
+        """The scope of variables in which each component is registered, in the order of ``results.components``."""
 
         self._indexed: tuple[Command, Mapping[str, Sequence[Argument]]] | None = None
         """The command with many arguments that was indexed last, and its arguments by their text."""
@@ -175,7 +175,7 @@ class Run(State):
         return self.distro or HOLE
 
     def depend_on_distro(self, distros: frozenset[str]) -> None:
-        """Record that the results of a command hold only for ``distros``, a set with the ROS distribution of the run."""
+        """Record that the results of a command hold only for ``distros``, a set that contains the ROS distribution of the run."""
         self.same_distros = distros if self.same_distros is None else self.same_distros & distros
 
     def _use_of_ros(self, name: str) -> None:
@@ -371,7 +371,8 @@ class Run(State):
     ) -> None:
         """Record that the package mentions another package, or a target or macro of another package, at a place.
 
-        ``via`` is the kind of the mention, such as "target". ``quotation`` is the text at the place, "" if it is ``name``.
+        ``via`` is the kind of the name, such as "target". ``quotation`` is the text for messages, such as "ros2 run tf2", or
+        "" if the name is sufficient.
         """
         if not purpose and self.runs_helper_code() and (via == "cmake" or (via == "target" and span == self.current_place())):
             purpose = "helper"
@@ -397,7 +398,7 @@ class Run(State):
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)
 
     def runs_helper_code(self) -> bool:
-        """Return whether the current code is in another package of the workspace, or in a workspace script outside of it."""
+        """Return whether the current code belongs to another package of the workspace, or is a script outside of the package."""
         for frame in reversed(self.frames):
             if frame.own:
                 return False

@@ -18,7 +18,7 @@ Such scripts run like scripts of the package."""
 class OutsideTree(NamedTuple):
     """Access to the files of the workspace outside of a package.
 
-    Paths are relative to the root of the workspace. Files outside of the workspace do not exist here.
+    Paths are relative to the root of the workspace. Files outside of the workspace are treated as missing.
     """
 
     kind: Callable[[str], str] = lambda path: ""

@@ -55,7 +55,7 @@ class Procedure(NamedTuple):
     own: bool
     """True if a file of the evaluated package has the definition."""
     path: str
-    """The path of the file with the definition, relative to the base of the run."""
+    """The path of the file with the definition, relative to the root folder of the workspace."""
     folder: str
     """The folder of the file with the definition, as the value of CMAKE_CURRENT_LIST_DIR."""
     provider: str = ""

@@ -27,7 +27,7 @@ NUMBER = re.compile(
     r"|(?!0[xX])(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)",
     re.ASCII,
 )
-"""The start of a text that scanf() in C parses as a number, without infinities."""
+"""Pattern of a number at the start of a text, as scanf() in C parses it, without infinities."""
 TRUE_WORDS: Final = frozenset({"1", "ON", "YES", "TRUE", "Y"})
 _FALSE_WORDS: Final = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE"})
 
@@ -85,7 +85,10 @@ def reversible_if_configurable(value: int, run: Run, *tokens: ConditionToken) ->
 
 
 def is_off(text: str) -> bool:
-    """Return whether CMake treats a value as false: "", 0, OFF, NO, FALSE, N, IGNORE, NOTFOUND or X-NOTFOUND, in any case."""
+    """Return whether CMake treats a value as false: "", 0, OFF, NO, FALSE, N, IGNORE, NOTFOUND or X-NOTFOUND.
+
+    NOTFOUND must be in upper case; the case of the other words does not matter.
+    """
     return text.upper() in _FALSE_WORDS or text == "NOTFOUND" or text.endswith("-NOTFOUND")
 
 

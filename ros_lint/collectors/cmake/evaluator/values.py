@@ -42,7 +42,7 @@ ELEMENT: Final = 64
 FILE: Final = 256
 """Cost that the budget of a run charges for an installed file, in characters."""
 SLOW: Final = 16
-"""Cost that the budget of a run charges for a character, in characters, if a text is read character by character."""
+"""Factor by which the budget of a run charges more for a text that is read character by character."""
 
 
 def is_known(value: str) -> bool:
@@ -201,7 +201,8 @@ def mark_maybe(element: str) -> str:
 def certainly_set(value: str) -> bool:
     """Return whether a variable with this value is certainly set: at least one list element of the value certainly exists.
 
-    The empty value is not certain: a variable that only one branch of an if() sets, to the empty text, also has it.
+    The empty value does not count: if only one branch of an if() sets a variable to "", the variable has the empty value
+    after the if(), but it may be unset.
     """
     return any(element and element not in (HOLE, UNPAIRED_HOLE) and not element.startswith(MAYBE) for element in elements(value))
 

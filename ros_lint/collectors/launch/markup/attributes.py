@@ -34,7 +34,9 @@ class Reader:
         self._readers = readers
         self.problems: list[Problem] = []
         self.newer: dict[Problem, None] = {}
-        """Features that some supported ROS distributions lack; ``kind`` is the first distribution with the feature."""
+        """Features that some supported ROS distributions lack.
+
+        The ``kind`` of each is the first distribution with the feature."""
 
     def note_newer(self, feature: str, span: Span) -> None:
         """Record that the file uses a tag, attribute or substitution that some supported ROS distributions lack."""

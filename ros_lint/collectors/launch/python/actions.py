@@ -79,7 +79,7 @@ class _PassedArgument(NamedTuple):
     """The place of the argument's name."""
     value: LaunchValue
     conditions: Conditions
-    """The conditions under which the argument is passed; () if there are several alternatives."""
+    """The conditions under which the argument is passed; () if the argument has several alternative values."""
     uncertain: bool
     """True if the argument may not be passed."""
 
@@ -107,7 +107,10 @@ def _passed_arguments(walker: Walker, launch_arguments: Value, launch_object: La
 
 
 def _uncertain_names(arguments: Sequence[_PassedArgument]) -> tuple[str, ...]:
-    """Return the names of arguments that may not be passed. An argument in both branches of a condition is certain."""
+    """Return the names of arguments that may not be passed.
+
+    An argument that is passed in both branches of an ``if`` is certain.
+    """
     counts = Counter([argument.name for argument in arguments])
     return tuple([argument.name for argument in arguments if argument.uncertain and counts[argument.name] == 1])
 

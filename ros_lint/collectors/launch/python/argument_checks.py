@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Source
 
 _NODES = frozenset({"ComposableNode", "ComposableNodeContainer", "LifecycleNode", "Node"})
-"""Classes whose unknown keywords :mod:`ros_lint.collectors.launch.python.nodes` reports."""
+"""Classes whose unknown keywords are reported by :mod:`ros_lint.collectors.launch.python.nodes`, not by this module."""
 _OTHER_FORMATS: Mapping[str, tuple[str, ...]] = {
     "PythonLaunchDescriptionSource": (".xml", ".yaml", ".yml"),
     "XMLLaunchDescriptionSource": (".py", ".yaml", ".yml"),

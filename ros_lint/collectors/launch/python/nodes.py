@@ -125,7 +125,7 @@ def _started(
 
 
 def _is_passed_by_caller(value: Value) -> bool:
-    """Return whether a text was passed to a modelled helper function by its caller, so its place is in the launch file."""
+    """Return whether a text in the model of a helper function is an argument of its call, so its place is in the file."""
     return all(
         isinstance(alternative.value, Written) and not alternative.value.source.lent for alternative in alternatives(value)
     )

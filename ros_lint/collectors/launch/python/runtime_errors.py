@@ -151,7 +151,10 @@ def _ignored_nodes(tree: ast.Module, calls: frozenset[str] = _LOGGING_CALLS) -> 
 
 
 def _compared(tree: ast.Module) -> set[ast.AST]:
-    """Return all syntax nodes in comparisons. A substitution that is formatted there is only compared, and not launched."""
+    """Return all syntax nodes in comparisons.
+
+    A substitution that is formatted in a comparison is only compared, and not launched.
+    """
     compares = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return {inner for node in compares for inner in ast.walk(node)}
 

@@ -49,7 +49,7 @@ def _with_text_for_none(value: Guarded | Union, text: str) -> Value:
 def span_of(node: python_syntax.Node, source: Source) -> Span:
     """Return the span of a syntax node in a module.
 
-    In a model of a helper function of a released package, the span is that of the statement in the launch file.
+    In ros-lint's model of a helper function of a released package, it is the span of the call of the helper function.
     """
     if not source.ascii:
         return python_syntax.span_of(source.text, node)
