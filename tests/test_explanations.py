@@ -126,6 +126,21 @@ def test_a_key_of_an_older_name_explains_that_the_package_is_missing() -> None:
     assert [explained.subject for explained in issue.explained] == ["gz_common_vendor"]
 
 
+def test_a_variable_that_is_never_set_explains_missing_exports() -> None:
+    files = {
+        "arm/package.xml": manifest().replace("<export>", "<depend>nav_msgs</depend><export>"),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\nfind_package(nav_msgs REQUIRED)\n"
+        "install(DIRECTORY include/ DESTINATION include)\nament_export_include_directories(include)\n"
+        "ament_export_dependencies(${ARM_DEPENDS})\nament_package()\n",
+        "arm/include/arm/arm.hpp": "#include <nav_msgs/msg/path.hpp>\n",
+    }
+    rules = tuple(rule for rule in registry.load() if rule.name in ("unset-variable", "unexported-dependency"))
+    issues, _ = run_rules(loaded(files), rules)
+    (issue,) = without_explained(issues)
+    assert (issue.rule.name, issue.finding.subject) == ("unset-variable", "ARM_DEPENDS")
+    assert [(explained.rule, explained.subject) for explained in issue.explained] == [("unexported-dependency", "nav_msgs")]
+
+
 @pytest.mark.parametrize(("declared", "cause"), [("std_msg", "unknown-dependency"), ("actionlib", "end-of-life-dependency")])
 def test_a_wrong_name_explains_that_it_is_unused(declared: str, cause: str) -> None:
     files = {
