@@ -138,7 +138,7 @@ class Loader:
         return tuple(self._load(changed or {}, sources=True))
 
     def _load(self, changed: Mapping[str, bytes], sources: bool) -> Iterator[Workspace]:
-        """Yield the workspace for each distribution."""
+        """Yield the workspace for each distribution. ``changed`` has new contents of files, by path."""
         tree = OverlayTree(self.tree, changed) if changed else self.tree
         self._progress("looking for packages", 0, 0)
         found: _Found | None = None

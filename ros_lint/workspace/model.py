@@ -183,7 +183,7 @@ class Package(NamedTuple):
         return tuple(opaque for opaque in self.opaque if opaque.hides & facet and (not place or opaque.reaches(place)))
 
     def declares(self, name: str) -> Role:
-        """Return all roles that the package declares for a dependency, including tags with an uncertain condition."""
+        """Return all roles (build, run, test ...) of the tags for a dependency, including tags with an uncertain condition."""
         role = Role(0)
         for declared in self.tags(name):
             role |= declared.role

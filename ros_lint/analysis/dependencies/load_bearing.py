@@ -38,7 +38,7 @@ def needed_transitively(package: Package, workspace: Workspace, unused: Sequence
     too. If several unused dependencies provide ``b``, only the last of them is returned.
     """
     result: dict[str, LostProvision] = {}
-    if not _lost(package, workspace, unused):  # common case: if all can be removed, each can
+    if not _lost(package, workspace, unused):  # the common case: if all tags together can be removed, each tag can be removed
         return result
     by_name: dict[str, list[Declared]] = {}
     for declared in unused:

@@ -39,7 +39,7 @@ class Need(NamedTuple):
 
     @property
     def role(self) -> Role:
-        """All roles of the certain uses, or of all uses if no use is certain."""
+        """All roles (build, run, test ...) of the certain uses, or of all uses if no use is certain."""
         uses = [use for use in self.uses if use.certain] or self.uses
         role = Role(0)
         for use in uses:
@@ -54,16 +54,17 @@ _TEST = Role.TEST
 
 @cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return the needs that result from the required uses of a package, sorted by the position of their first use.
+    """Return the needs of a package: the packages and rosdep keys that its required uses need, with these uses.
 
-    A package of ROS 1 has no needs, because its dependencies are not analysed.
+    The needs are sorted by the position of their first use. A package of ROS 1 has none, because its dependencies are not
+    analysed.
     """
     return _gathered(package, workspace, [use for use in package.uses if not use.optional])
 
 
 @cached_by_package
 def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return the undeclared needs of a package that result only from optional uses, sorted by the position of their first use.
+    """Return the undeclared packages and rosdep keys that only optional uses need, sorted by the position of their first use.
 
     An optional use is, for example, an import in a ``try`` block. Left out are:
     - uses of C++ symbols, because a header of another package may define the symbol,

@@ -13,7 +13,7 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def tag_for(package: Package, workspace: Workspace, name: str, role: Role) -> str:
-    """Return the tag that covers all roles of a dependency (REP 149), such as "depend" or "exec_depend".
+    """Return the tag that covers all roles (build, run, test ...) of a dependency (REP 149), e.g. "exec_depend".
 
     Exceptions:
     - The result is "depend" instead of "exec_depend" if package.xml declares even run-time dependencies by ``<depend>``, unless

@@ -38,7 +38,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     - packages named only by CMake macros, if another undeclared package provides them.
 
     Not certain are:
-    - packages named only in launch modules, because the package whose launch file imports the module may declare them,
+    - packages named only in modules that launch files import, because the package of the launch file may declare them,
     - packages declared under a false condition, unless CMake needs them, because the files that use them may be unused then,
     - metapackages whose files are looked up, because a metapackage has no files, so the name is probably wrong,
     - packages that package.xml probably declares by a misspelled name, because another rule reports that name,
@@ -129,7 +129,7 @@ def distros_providing(package: Package, workspace: Workspace, name: str) -> tupl
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:
-    """Return the needs, with two needs for one package joined into one need.
+    """Return the ``missing`` needs (packages with their uses), with two needs for one package joined into one.
 
     Example: find_package(Eigen3) and an include of ``Eigen/Dense`` give two needs for one package.
     """
@@ -183,7 +183,7 @@ def uses_not_explained_by(unknown: Sequence[str], uses: Iterable[Use], workspace
 def only_launched(package: Package, uses: Sequence[Use]) -> bool:
     """Return whether all uses of a package are in launch files, and at least one of them is not for tests.
 
-    Launch modules that other files call count as ordinary code.
+    Helper modules that launch files import count as ordinary code.
     """
     if any(use.via != "launch" for use in uses) or all(use.role is _TEST for use in uses):
         return False

@@ -41,7 +41,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, impr
             continue
         if library:
             return True
-        if brings is False:  # known well enough, if the name means the same there
+        if brings is False:  # the dependencies in another distribution are known, and probably the same
             continue
         if workspace.world.knowledge.elsewhere(unknown_name):
             return True
@@ -62,7 +62,7 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
         return False
     world = workspace.world
     if world.resolution(name) == "elsewhere":
-        return False  # packages of that distribution provide it
+        return False  # packages of another distribution provide the name
     most = int(len(world.knowledge.index) * _CHANCE / len(unknown))
     if most < 1 or any(name in world.closure((local,)) for local in workspace.by_name if local != name):
         return False

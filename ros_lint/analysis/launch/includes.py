@@ -183,7 +183,7 @@ def _is_read_completely(file: LaunchFile) -> bool:
 def configurations_read(file: LaunchFile) -> set[str]:
     """Return the configurations that a launch file reads, and UNKNOWN if the file may read further configurations."""
     names = set(file.configurations_read)
-    if file.language == "python":  # in XML and YAML files, the text is complete
+    if file.language == "python":  # in XML and YAML files, ``configurations_read`` is complete
         for action in walk_actions(file.actions):
             for text, _ in values_of_action(action):
                 if not text.isascii():

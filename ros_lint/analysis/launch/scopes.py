@@ -58,7 +58,7 @@ class _Readers:
     """The last action in a scope that may read a launch configuration, by the name of the configuration."""
 
     def __init__(self, scope: Sequence[LaunchAction], source: LaunchFile, links: IncludeResolver) -> None:
-        self.scope = scope  # the owner finds this object by the id of the scope
+        self.scope = scope  # keeps the scope alive, because ScopeLeaks finds this object by the id of the scope
         self._last: dict[str, int] = {}
         self._known: dict[str, int] = {}
         """Results of :meth:`last` by name of the configuration."""

@@ -73,7 +73,7 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evalua
                 )
             elif script := _python(tree, parts.package):
                 result[number] = with_files(tree, parts.package, parts.commands, script)
-        except Exception as error:  # a bug in ros-lint for one script must not cost the user the others
+        except Exception as error:  # a bug in ros-lint that one script triggers must not stop the evaluation of the others
             result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
     return Evaluation(packages, result, helpers)
 
@@ -176,7 +176,7 @@ def _helping(packages: Sequence[Parts]) -> Iterator[int]:
     while remaining:
         names = frozenset(remaining.values())
         ready = [number for number, name in remaining.items() if not _needed(packages[number]) & (names - {name})]
-        for number in ready or list(remaining):  # a cycle has no correct order
+        for number in ready or list(remaining):  # packages on a cycle have no correct order
             del remaining[number]
             yield number
 

@@ -130,7 +130,7 @@ def _read_in_sources(package: DiscoveredPackage, uninstalled: Mapping[str, Seque
     part = re.compile(rb"(?<=[\"'])(%s)(?=[\"'])" % folders)
     below = b"/%s/" % to_bytes(top)
     for path, data in referring:
-        if below in data:  # the pattern takes a hundred times as long
+        if below in data:  # a quick check, because the pattern takes a hundred times as long
             named = {from_bytes(match[1]) for match in place.finditer(data)}
             yield from (f"{folder}/" for folder in sorted(named) if not path.startswith(f"{join(package.path, folder)}/"))
         if _OF_SOURCES.search(data) and not path.endswith(".md"):
@@ -197,7 +197,7 @@ def _looks_up(path: str, data: bytes, resource: str, match: re.Match[bytes]) -> 
     if _is_comment_line(path, data, match.start(1)):
         return False
     if b"share" not in data and _WORKING_FOLDER.search(data):
-        return False  # it is looked up in the working directory
+        return False  # the resource is looked up in the working directory
     if _is_below_sources(data, match.start()):
         return False
     above = to_bytes(parent(parent(resource)).rpartition("/")[2])

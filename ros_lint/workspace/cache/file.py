@@ -49,7 +49,7 @@ class CacheFile:
         return tuple(self._notes)
 
     def read(self, wanted: Callable[[str], bool], codec: Codec[T]) -> dict[str, T]:
-        """Return the decoded records whose names are ``wanted``, the oldest first; {} if the file cannot be used."""
+        """Return the decoded records for whose names ``wanted`` returns True, the oldest first; {} if the file cannot be used."""
         if not os.path.lexists(self._path):
             return {}
         try:

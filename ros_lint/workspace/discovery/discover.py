@@ -235,7 +235,7 @@ class _Walk:
         try:
             return colcon_yaml.meta(read(path, self._tree.read(path)))
         except FileNotFoundError:
-            return None  # colcon.meta is a folder without such a file
+            return None  # colcon.meta is a folder that contains no colcon.meta
         except OSError as error:
             self._not_checked.append(UnreadFile.of(path, error))
         except colcon_yaml.ColconYamlError as error:
@@ -316,7 +316,7 @@ class _PackageFiles:
             try:
                 subdirectories = colcon_cmake.subdirectories(read(path, self._tree.read(path)))
             except OSError:
-                continue  # usually there is none
+                continue  # usually the folder has no CMakeLists.txt
             if "/".join(parts[depth:]) in subdirectories:
                 return False
         return True

@@ -218,7 +218,7 @@ def uninstalled_imports(files: Sequence[str], script: BuildScript, facts: Mappin
     for name, source in modules:
         top = source.removesuffix(f"{name.replace('.', '/')}.py") + name.partition(".")[0]
         if any(path.startswith(f"{top}/") for path in path_setters):
-            continue  # usually to make these modules importable
+            continue  # a file that changes sys.path usually makes these modules importable
         for module, neighbour, span in _imported_neighbours(source, facts[source], known_files, folders):
             if f"{module}.py" not in names:
                 yield UninstalledImport(name, module, neighbour, span, sure=True)

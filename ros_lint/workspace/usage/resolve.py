@@ -295,11 +295,11 @@ class _Uses:
                 is_optional = is_optional or self._may_be_missing(name, span, providers[0])
                 certain = certain and name.partition(".")[0] not in self._uncloned
             elif certain and self._includes_outside and via == "include" and "/" not in name:
-                certain = False  # any include directory may have it
+                certain = False  # any include directory may contain the header
             elif self._uncloned and certain:
                 certain = self._is_available(name, providers[0])
             if not certain and providers[0] in self._found_always and _INTERFACES.match(name):
-                certain = True  # certainly in use: the build fails without it
+                certain = True  # certainly in use: the build fails without the package
             name_space: Via = "macro" if purpose == "helper" else via
             uses[span, providers[0], name_space] = _make(
                 Use,

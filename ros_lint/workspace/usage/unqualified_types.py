@@ -74,7 +74,7 @@ class Types:
         for name, type_names in wanted_names.items():
             tail = to_bytes(name.partition("_")[2])
             for word in (*sorted(type_names.types), *([tail] if tail in type_names.spaces else [])):
-                texts_with_word = [(path, text) for path, text in texts if word in text]  # few have it, and this is fast
+                texts_with_word = [(path, text) for path, text in texts if word in text]  # a quick check that excludes most files
                 code.update((path, cpp_types.without_comments(text)) for path, text in texts_with_word if path not in code)
                 place = cpp_types.first_use([(path, code[path]) for path, _ in texts_with_word], word, type_names.spaces)
                 if place:
