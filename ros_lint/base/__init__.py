@@ -1,1 +1,1 @@
-"""Texts, spans, trees, paths and graphs: everything that is independent of ROS."""
+"""Modules that are independent of ROS: texts, places in files, file trees, paths, graphs and parsers."""

@@ -16,15 +16,15 @@ _DISCARDED_FOLDERS = frozenset({"attic", "backup", "backups", "deprecated", "leg
 _EXAMPLE_FOLDERS = frozenset({"example", "examples", "sample", "samples", "template", "templates", "doc", "docs"})
 _AUXILIARY_FOLDERS = _EXAMPLE_FOLDERS | _DISCARDED_FOLDERS | EDITOR_COPY_FOLDERS
 _COPY_SUFFIX = re.compile(r" (?:copy(?: \d+)?|\((?:\d+|(?:another |\d+\w\w )?copy)\))\.\w+\Z")
-"""Suffix that editors and file managers add to the name of a copy."""
+"""Pattern of the end of a file name that an editor or a file manager gives to a copy, e.g. " (copy).py"."""
 _OLD_VERSION_SUFFIX = re.compile(r"[ _.-](?:backup|bak|old)\d*(?:(?:[ _.-]v?|v)\d+)*(?:\.launch)?\.\w+\Z")
-"""Suffix that users add to the name of an old version."""
+"""Pattern of the end of a file name that a user gives to an old version, e.g. "_old.py"."""
 
 _TEST_WORD = re.compile(r"(?:^|_)(?:tests?|testing)(?:_|$)")
 
 
 def is_for_tests(package: str) -> bool:
-    """Return whether the name of a package has the word "test", "tests" or "testing": the whole package serves tests."""
+    """Return whether a package serves tests only, because its name has the word "test", "tests" or "testing"."""
     return _TEST_WORD.search(package) is not None
 
 
@@ -43,8 +43,8 @@ def is_backup_copy(path: str) -> bool:
 def in_auxiliary_folder(path: str) -> bool:
     """Return whether a file is in a folder for tests, examples, templates or discarded files.
 
-    A path with "{" is the path of a template. The file name is ignored, because files named like tests are often started
-    by hand.
+    Only the folders of the path count, because a file with a name such as ``test_arm.launch.py`` is often started by
+    hand. A path with "{" also counts, because it is the path of a template.
     """
     folders = path.split("/")[:-1]
     return not (TEST_FOLDERS.isdisjoint(folders) and _AUXILIARY_FOLDERS.isdisjoint(folders)) or "{" in path

@@ -1,14 +1,17 @@
-"""The work that the evaluation of one file may take. It is taken from the budget before it is done."""
+"""Limits of the work that ros-lint does to evaluate one file.
+
+Each evaluator takes work from its budget before it does the work.
+"""
 
 from __future__ import annotations
 
 
 class BudgetExceeded(Exception):  # noqa: N818
-    """An evaluation needs more steps or more characters than its budget has."""
+    """The evaluation of a file needs more steps or more characters than its budget has left."""
 
 
 class Budget:
-    """The steps that an evaluation may still take, and the characters that it may still write and read."""
+    """The remaining steps of an evaluation, and the remaining characters of the texts that it reads and writes."""
 
     __slots__ = ("characters", "steps")
 
@@ -17,18 +20,21 @@ class Budget:
         self.characters = characters
 
     def step(self, count: int = 1) -> None:
-        """Take steps. Raises BudgetExceeded if fewer are left."""
+        """Take ``count`` steps from the budget. Raises BudgetExceeded if fewer are left."""
         self.steps -= count
         if self.steps < 0:
             raise BudgetExceeded
 
     def charge(self, count: int) -> None:
-        """Take characters; other work that costs memory or time is converted into characters. Raises BudgetExceeded."""
+        """Take ``count`` characters from the budget. Raises BudgetExceeded if fewer are left.
+
+        Callers express other costs of memory or time as a number of characters.
+        """
         self.characters -= count
         if self.characters < 0:
             raise BudgetExceeded
 
     def affords(self, count: int = 1) -> bool:
-        """Take steps, and return whether as many were left."""
+        """Take ``count`` steps from the budget, and return False if fewer were left."""
         self.steps -= count
         return self.steps >= 0

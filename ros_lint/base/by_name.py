@@ -1,4 +1,4 @@
-"""Sequences whose items are found by their names."""
+"""A tuple with a fast look-up of its items by name."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from typing import Generic, Protocol, TypeVar
 
 
 class Named(Protocol):
-    """A value with a name."""
+    """An object with an attribute ``name``."""
 
     @property
     def name(self) -> str:
-        """The name, by which other values refer to this one."""
+        """The name by which other objects refer to this object."""
 
 
 T = TypeVar("T", bound=Named)
 
 
 class ByName(tuple[T, ...], Generic[T]):
-    """A tuple that finds its items by their names without a scan. The index is built when it is first used."""
+    """A tuple of objects with names, and a look-up by name without a scan. Its index is built at the first look-up."""
 
     @cached_property
     def _index(self) -> dict[str, tuple[list[int], list[T]]]:
-        """The positions and the items by name."""
+        """For each name, the positions in the tuple of the items with this name, and these items."""
         index: dict[str, tuple[list[int], list[T]]] = {}
         for position, item in enumerate(self):
             positions, items = index.setdefault(item.name, ([], []))
@@ -32,7 +32,7 @@ class ByName(tuple[T, ...], Generic[T]):
         return index
 
     def named(self, *names: str) -> Sequence[T]:
-        """Return the items that have one of the names, in the order of the tuple."""
+        """Return the items whose name is one of ``names``, in the order of the tuple."""
         known = [self._index[name] for name in dict.fromkeys(names) if name in self._index]
         if len(known) == 1:
             return known[0][1]

@@ -1,8 +1,9 @@
 """Encode values of a declared type as bytes, column by column.
 
-The types are named tuples, enumerations, tuples, texts, bytes, integers and truth values, as their annotations say.
-The fields of all values of a type are stored next to each other, so that the C code of ``array``, ``map`` and ``zip``
-does most of the work. Decoding can create only values of these types: the data contains no name of a type or function.
+The types are named tuples, enumerations, tuples, str, bytes, int and bool. The annotations of the fields of named tuples
+define the encoding. The values of one field of all objects of a type are stored next to each other, so that the C code of
+``array``, ``map`` and ``zip`` does most of the work. Decoding can create only values of these types, because the bytes
+contain no name of a type or function.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ _CODES = {1: "B", 2: "H", 4: "I", 8: "q"}
 """Type codes of ``array`` by the number of bytes of an integer."""
 
 _MOST_VALUES = 1 << 25
-"""Maximum number of values in the columns of one encoding: a crafted file must not use up the memory."""
+"""Maximum number of values in all columns of one encoding, because the bytes of a manipulated file could need all memory."""
 
 
 class DecodeError(ValueError):
-    """The bytes are no encoding of a value of the type."""
+    """The bytes are not an encoding of a value of the expected type."""
 
 
 class Codec(Generic[T]):
@@ -41,7 +42,7 @@ class Codec(Generic[T]):
         plan = _Plan()
         self._column = plan.column(kind)
         self.schema = f"{sys.byteorder} {plan.name(kind)} {plan.definitions}"
-        """The definitions of all types in the encoding, as text: equal texts mean that encodings are compatible."""
+        """The definitions of all types in the encoding, as text. Two encodings with equal texts are compatible."""
 
     def encode(self, value: T) -> bytes:
         """Return ``value`` as bytes.
@@ -65,7 +66,10 @@ class Codec(Generic[T]):
 
 
 class _Writer:
-    """Collects the columns of the encoded values. They contain the numbers of texts, because most texts occur several times."""
+    """Collects the columns of the encoded values.
+
+    A column of str has the numbers of the texts, because most texts occur several times.
+    """
 
     def __init__(self) -> None:
         self.numbers: defaultdict[str, int] = defaultdict()
@@ -73,7 +77,10 @@ class _Writer:
         self._columns: list[bytes] = []
 
     def integers(self, column: Sequence[int]) -> None:
-        """Add integers. Each takes as many bytes as the largest of them needs. If all are equal, the integer is stored once."""
+        """Add a column of integers.
+
+        If all are equal, the value is stored once. Otherwise each takes as many bytes as the largest one needs.
+        """
         if not column:
             return
         low, high = min(column), max(column)
@@ -84,11 +91,11 @@ class _Writer:
         self._columns += (bytes([width]), array(_CODES[width], column).tobytes())
 
     def octets(self, data: bytes) -> None:
-        """Add bytes as they are."""
+        """Add bytes unchanged."""
         self._columns.append(data)
 
     def data(self) -> bytes:
-        """Return the texts and the columns."""
+        """Return all distinct texts, followed by the columns, as bytes."""
         together = "".join(self.numbers)
         separator = next(number for number in count() if chr(number) not in together)
         texts = chr(separator).join(self.numbers).encode("utf-8", "surrogatepass")
@@ -97,7 +104,7 @@ class _Writer:
 
 
 class _Reader:
-    """Reads the columns in the order in which they were written."""
+    """Returns the columns in the order in which :class:`_Writer` wrote them."""
 
     def __init__(self, data: bytes) -> None:
         self._data = data
@@ -128,13 +135,16 @@ class _Reader:
         return self._data[start : self._at]
 
     def finish(self) -> None:
-        """Raise ValueError if there are further bytes."""
+        """Raise ValueError if not all bytes have been read."""
         if self._at != len(self._data):
             raise ValueError("there are further bytes")
 
 
 class _Column(Protocol):
-    """Writes and reads all values of one type at one place of the structure. A column without values has no bytes."""
+    """Encodes and decodes all values at one position in the structure of a type, e.g. one field.
+
+    No values are encoded as no bytes.
+    """
 
     def write(self, writer: _Writer, values: Sequence[Any]) -> None:
         """Add the values to the writer."""
@@ -169,7 +179,7 @@ class _Octets:
 
 
 class _Choices:
-    """Values of which there are few: truth values, literals and absent functions."""
+    """Values from a short fixed list, stored as indexes into the list: bool, literals, and functions (encoded as None)."""
 
     def __init__(self, choices: Sequence[Any]) -> None:
         self._choices = choices
@@ -186,7 +196,7 @@ _TRUTH = _Choices((False, True))
 
 
 class _Members:
-    """Members of an enumeration of integers, and their combinations if it is a Flag."""
+    """Members of an enumeration of integers. For a Flag, combinations of members are also encoded."""
 
     def __init__(self, enumeration: type[Enum]) -> None:
         self._enumeration: Callable[[int], Enum] = enumeration
@@ -218,7 +228,7 @@ class _Optional:
 
 
 class _Sequences:
-    """Tuples of any length: the lengths, then the elements of all tuples."""
+    """Tuples of any length. The lengths of all tuples are stored first, then the elements of all tuples."""
 
     def __init__(self, column: _Column) -> None:
         self._column = column
@@ -237,7 +247,7 @@ class _Sequences:
 
 
 class _Rows:
-    """Tuples of a fixed length, or named tuples: one column for each field."""
+    """Tuples of a fixed length, or named tuples. Each field is stored as one column."""
 
     def __init__(self, make: Callable[[Iterable[tuple[Any, ...]]], list[Any]]) -> None:
         self._make = make
@@ -255,15 +265,15 @@ class _Rows:
 
 
 class _Plan:
-    """Derives the columns from the annotations of the types, and notes the definitions."""
+    """Derives the column for a type from its annotations, and records the definitions of all classes in it."""
 
     def __init__(self) -> None:
         self.definitions: dict[str, str] = {}
-        """The fields of each class by the name of the class."""
+        """For each class, by its name, the text of its fields or enumeration members."""
         self._classes: dict[type, _Column] = {}
 
     def column(self, kind: Any) -> _Column:
-        """Return the column for values of a type. Raises TypeError if there is none."""
+        """Return the column that encodes values of the type ``kind``. Raises TypeError if the type has no encoding."""
         if kind in _SIMPLE:
             return _SIMPLE[kind]
         if kind in self._classes:
@@ -316,7 +326,7 @@ _SIMPLE: dict[Any, _Column] = {int: _Integers(), str: _Texts(), bool: _TRUTH, by
 
 
 class _Names(dict[str, Any]):
-    """Names in annotations of a module. A name that is imported for the type checker only is ``object``."""
+    """The names that annotations of a module can use. A name that is imported under ``if TYPE_CHECKING`` only is ``object``."""
 
     def __missing__(self, name: str) -> Any:
         scope = vars(sys.modules["builtins"])

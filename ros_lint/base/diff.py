@@ -19,7 +19,7 @@ def unified(path: str, before: str | None, after: str) -> str:
 
 
 def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
-    """Return the unified diff of two contents of a file in any encoding; see :func:`unified`."""
+    """Return the unified diff of two versions of a file as bytes, in any encoding; see :func:`unified`."""
     # latin-1 maps each byte to a character, because difflib compares texts.
     was = None if before is None else before.decode("latin-1")
     return unified(to_bytes(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
@@ -28,15 +28,16 @@ def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
 def _lines(text: str) -> list[str]:
     """Return the lines of a text with their line ends.
 
-    Only line feeds end a line, as for the tool patch; str.splitlines splits at further characters.
+    Only line feeds end a line, as in the program ``patch``. str.splitlines() also splits at other characters, such as
+    form feeds.
     """
     return re.findall(r"[^\n]*\n|[^\n]+", text)
 
 
 def line_before(before: str, after: str, line: int) -> int:
-    """Return the line in the text ``before`` that corresponds to ``line`` of the text ``after``. Lines count from 1.
+    """Return the number of the line in ``before`` that corresponds to line number ``line`` of ``after``. Lines count from 1.
 
-    An inserted line corresponds to the old line that precedes it, or to the first line.
+    For an inserted line, return the old line before it; for a line inserted at the start, return line 1.
     """
     old, new = _lines(before), _lines(after)
     for _, old_start, old_end, new_start, new_end in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():

@@ -1,4 +1,4 @@
-"""A text edit: the replacement of a span."""
+"""An edit of a file: the replacement of the text between two places."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from ros_lint.base.text import Span
 
 
 class Edit(NamedTuple):
-    """Replaces the text of ``span`` by ``text``. An empty span inserts."""
+    """The replacement of the text in ``span`` by ``text``. If ``span`` is empty, ``text`` is inserted there."""
 
     span: Span
-    """The text to replace; an empty span is a place to insert at."""
+    """The place of the text to replace. An empty span is a place of insertion."""
     text: str
-    """The new text; "" deletes."""
+    """The new text. "" deletes the old text."""
     kind: int = 0
-    """Rank among several insertions at one place: the lowest kind comes first.
+    """Rank among several insertions at the same place: the lowest number comes first.
 
-    Insertions of one kind form a group. Groups are separated by a blank line. Kind 0 forms no group.
+    Insertions with equal numbers form a group, and a blank line separates groups. Insertions of kind 0 form no group.
     """
     order: str = ""
-    """Sort key among insertions of one kind; equal keys keep the order of the edits."""
+    """Sort key among insertions of the same ``kind`` at a place. Insertions with equal keys keep their order."""

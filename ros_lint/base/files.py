@@ -1,4 +1,4 @@
-"""Read files of the machine: regular files only, and never more bytes than a limit.
+"""Read regular files with a size limit.
 
 Files are opened without blocking, so that a FIFO, a socket or a device is rejected at once.
 """
@@ -14,19 +14,19 @@ MOST_BYTES = 4 << 20
 
 _FLAGS: int = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
 _WRITABLE_BY_OTHERS = 0o022
-"""Write permission of the group and of others."""
+"""Permission bits with which the group or other users can write a file."""
 _NO_LINK: int = getattr(os, "O_NOFOLLOW", 0)
 
 
 def read(place: str, most: int = MOST_BYTES, *, links: bool = True, private: bool = False) -> bytes:
-    """Return the bytes of a regular file. Bytes that are appended after the file was opened are left out.
+    """Return the bytes of the regular file at the path ``place``. Bytes that another process appends meanwhile are left out.
 
-    Raises OSError with one of these errors:
+    Raises OSError, in particular with these error numbers:
 
     * EFBIG for a file of more than ``most`` bytes,
-    * EINVAL for a FIFO, socket or device,
-    * ELOOP for a link, unless ``links``,
-    * EPERM, with ``private``, for a file that another user owns or can write, or that has further hard links.
+    * EISDIR for a folder, EINVAL for a FIFO, socket or device,
+    * ELOOP for a symbolic link, if ``links`` is False,
+    * EPERM if ``private`` is True and another user owns or can write the file, or the file has further hard links.
     """
     # os.open and one read of the right size are twice as fast as open() on the many small files of a workspace.
     handle = os.open(place, _FLAGS if links else _FLAGS | _NO_LINK)
@@ -50,15 +50,15 @@ def read(place: str, most: int = MOST_BYTES, *, links: bool = True, private: boo
 
 
 def too_large(size: int, most: int, place: str) -> OSError:
-    """Return the error for a file of more than ``most`` bytes."""
+    """Return the error for a file of ``size`` bytes at the path ``place``, if the limit is ``most`` bytes."""
     return OSError(errno.EFBIG, f"{_amount(size)} is more than the limit of {_amount(most)}", place)
 
 
 def is_private(folder: str) -> bool:
-    """Return whether a folder belongs to the user and no other user can write into it.
+    """Return whether a folder belongs to the current user and no other user can write into it.
 
-    A link to the folder must belong to the user, too. On a system without user ids (Windows), every folder counts
-    as private.
+    If ``folder`` is a symbolic link, the link must belong to the user, too. On a system without user ids (Windows), every
+    folder counts as private.
     """
     try:
         link, target = os.lstat(folder), os.stat(folder)
@@ -76,7 +76,7 @@ def _is_of_user(status: os.stat_result) -> bool:
 
 
 def _amount(size: int) -> str:
-    """Return a number of bytes in MB or KB, rounded up."""
+    """Return a number of bytes as text in MB or KB, rounded up: "4 MB"."""
     return f"{-(-size >> 20)} MB" if size >= 1 << 20 else f"{-(-size >> 10)} KB"
 
 

@@ -14,35 +14,36 @@ from typing import Final, NamedTuple
 from ros_lint.base import files
 
 _MOST_BYTES: Final = 64 << 20
-"""Size limit of an index in bytes: about half a million files."""
+"""Size limit of an index file in bytes, enough for about half a million files."""
 _HASHES: Final = (("sha1", 20), ("sha256", 32))
 _SIGNATURE: Final = b"DIRC"
 _VERSIONS: Final = (2, 3, 4)
 _HEADER: Final = 12
-"""Bytes of the header: signature, version and number of entries."""
+"""Length of the header of an index in bytes: signature, version and number of entries."""
 _MODE: Final = 24
-"""Offset of the mode in an entry: behind the times, the device and the inode."""
+"""Offset of the mode (kind of file and permissions) in an entry, after the times, the device and the inode."""
 _HASH: Final = 40
-"""Offset of the hash in an entry."""
+"""Offset of the hash of the contents in an entry."""
 _EXTENDED: Final = 0x4000
-"""Flag of an entry with two more bytes of flags."""
+"""Bit in the flags of an entry that has two more bytes of flags."""
 _LINK: Final = 0o120000
 _SUBMODULE: Final = 0o160000
 
 
 class Tracked(NamedTuple):
-    """The files that git tracks, relative to the root of the repository."""
+    """The paths that git tracks, relative to the root of the repository."""
 
     files: frozenset[str]
-    """Files and links."""
+    """Paths of all entries: files, symbolic links and submodules."""
     links: frozenset[str]
-    """Links and submodules: what is below them is not in the index."""
+    """Paths of symbolic links and submodules. The index has no entries for files below these paths."""
 
 
 def read_index(repository: str, environment: Mapping[str, str]) -> Tracked | None:
-    """Return what git tracks in the repository at an absolute folder, None if its index is missing, damaged or incomplete.
+    """Return the tracked paths of the repository at an absolute folder, None if its index is missing, damaged or incomplete.
 
-    ``GIT_INDEX_FILE`` names another index, as in the hooks of ``git commit FILE``.
+    The variable ``GIT_INDEX_FILE`` in ``environment`` names another index file. git sets it in the hooks of ``git commit
+    FILE``.
     """
     try:
         place = environment.get("GIT_INDEX_FILE", "") or os.path.join(_git_folder(repository), "index")
@@ -52,7 +53,7 @@ def read_index(repository: str, environment: Mapping[str, str]) -> Tracked | Non
 
 
 def _git_folder(repository: str) -> str:
-    """Return the git folder of a work tree: ``.git``, or the folder that a file ``.git`` names. Raises OSError."""
+    """Return the git folder of a work tree: ``.git``, or the folder whose path the file ``.git`` contains. Raises OSError."""
     place = os.path.join(repository, ".git")
     if os.path.isdir(place):
         return place
@@ -61,7 +62,7 @@ def _git_folder(repository: str) -> str:
 
 
 def parse_index(data: bytes) -> Tracked | None:
-    """Return what an index of version 2, 3 or 4 lists, None if it is damaged, split or sparse."""
+    """Return the tracked paths in the bytes of an index of version 2, 3 or 4; None if it is damaged, split or sparse."""
     for name, size in _HASHES:
         content, checksum = data[:-size], data[-size:]
         # With index.skipHash, git writes zeros in place of the checksum.
@@ -75,7 +76,10 @@ def parse_index(data: bytes) -> Tracked | None:
 
 
 def _parse(data: bytes, hash_size: int) -> Tracked | None:
-    """Return what an index without its checksum lists. Raises IndexError or ValueError if it ends early."""
+    """Return the tracked paths in the bytes of an index without its checksum; None for other formats and incomplete indexes.
+
+    ``hash_size`` is the length of a hash in bytes. Raises IndexError or ValueError if the bytes end too early.
+    """
     version, count = _number(data, 4, 4), _number(data, 8, 4)
     if data[:4] != _SIGNATURE or version not in _VERSIONS:
         return None
@@ -102,9 +106,10 @@ def _parse(data: bytes, hash_size: int) -> Tracked | None:
 
 
 def _is_complete(data: bytes, at: int) -> bool:
-    """Return whether the optional extensions at an offset fill the rest of an index.
+    """Return whether an index lists all files: only optional extensions follow its last entry, which ends at the offset ``at``.
 
-    Required extensions, whose names begin with a lower-case letter, mean that entries are missing: a split or sparse index.
+    The name of a required extension begins with a lower-case letter. It means that the index is split or sparse, so
+    entries are missing.
     """
     while at < len(data):
         if not data[at : at + 1].isupper():
@@ -114,7 +119,7 @@ def _is_complete(data: bytes, at: int) -> bool:
 
 
 def _number(data: bytes, at: int, size: int) -> int:
-    """Return a number in network byte order. Raises IndexError beyond the end."""
+    """Return the big-endian number of ``size`` bytes at the offset ``at``. Raises IndexError if the data ends before it."""
     part = data[at : at + size]
     if len(part) < size:
         raise IndexError
@@ -122,7 +127,7 @@ def _number(data: bytes, at: int, size: int) -> int:
 
 
 def _variable_number(data: bytes, at: int) -> tuple[int, int]:
-    """Return a number of variable length, as git writes offsets in packs, and the offset behind it."""
+    """Return the number of variable length at the offset ``at``, in git's encoding of offsets, and the offset after it."""
     byte = data[at]
     value = byte & 0x7F
     while byte & 0x80:

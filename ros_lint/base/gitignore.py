@@ -1,4 +1,4 @@
-"""The patterns of ``.gitignore`` files. They matter because an ignored file is generated or downloaded."""
+"""Find out which paths the patterns of ``.gitignore`` files ignore, because ignored files are generated or downloaded."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ _NAME = ".gitignore"
 
 
 class Pattern(NamedTuple):
-    """A pattern of a ``.gitignore`` (gitignore(5))."""
+    """One pattern of a ``.gitignore`` file (gitignore(5))."""
 
     folder: str
-    """Folder of the ``.gitignore``; the pattern applies below it."""
+    """Folder of the ``.gitignore`` file. The pattern applies to paths below this folder."""
     glob: str
-    """Wildcard for a path below the folder. It is compiled at its first use, because most runs use no pattern."""
+    """The pattern as a wildcard for a path relative to ``folder``, e.g. "**/*.pyc". It is compiled when it is first used."""
     negated: bool
-    """True if the pattern re-includes paths that an earlier pattern ignores."""
+    """True if the pattern begins with "!": it re-includes paths that an earlier pattern ignores."""
 
 
 def patterns(folder: str, text: str) -> Iterator[Pattern]:
-    """Yield the patterns in the text of the ``.gitignore`` of a folder, in order."""
+    """Yield the patterns of a ``.gitignore`` file, in order. ``folder`` is its folder and ``text`` its contents."""
     for raw_line in text.split("\n"):
         line = _trimmed(raw_line.removesuffix("\r"))
         if line.startswith("#"):
@@ -45,9 +45,10 @@ def _trimmed(line: str) -> str:
 
 
 def is_ignored(candidates: Iterable[Pattern], path: str) -> bool:
-    """Return whether git ignores a path, or a folder that contains it. The path need not exist.
+    """Return whether git ignores a path because of patterns for the path itself or for a folder above it.
 
-    ``candidates`` are the patterns in the order in which git reads them: the last match decides.
+    The path need not exist. ``candidates`` are the patterns in the order in which git reads them. The last matching
+    pattern decides.
     """
     applicable = [
         (regex, len(octets(pattern.folder)) + 1 if pattern.folder else 0, pattern.negated)
@@ -68,23 +69,26 @@ def is_ignored(candidates: Iterable[Pattern], path: str) -> bool:
 _TOKEN = re.compile(r"((?:\A|(?<=/))\*\*+(?=/|\Z))|(\*+)|(\?)|(\[)|(\\?/)|\\(.)|([^\\])", re.DOTALL)
 # Groups: 1 any number of folders, 2 star, 3 question mark, 4 bracket, 5 slash, 6 escaped and 7 other characters.
 _ELEMENT = re.compile(r"\[:([^\]]*):\]|(?:\\(.)|([^\\]))(?:-(?:\\(.)|([^\]\\])))?", re.DOTALL)
-"""An item in brackets: a named class (group 1), or a character (2, 3) or a range up to (4, 5)."""
+"""An item in brackets, such as ``[:alpha:]`` or ``a-z``.
+
+Groups: 1 a class name, 2 or 3 the first character, 4 or 5 the last one.
+"""
 _CLASSES: Final = {
     "alnum": "09AZaz", "alpha": "AZaz", "blank": "\t\t  ", "cntrl": "\0\x1f\x7f\x7f", "digit": "09", "graph": "!~",
     "lower": "az", "print": " ~", "punct": "!/:@[`{~", "space": "\t\n\r\r  ", "upper": "AZ", "xdigit": "09AFaf",
 }  # fmt: skip
-"""Pairs of the first and the last character of a range."""
+"""Ranges of characters by class name, e.g. "AZaz" for A to Z and a to z."""
 
 
 class _MalformedError(Exception):
-    """A pattern that git never matches."""
+    """The pattern is malformed, so git never matches it."""
 
 
 @lru_cache(maxsize=1024)
 def _compiled(glob: str) -> re.Pattern[str] | None:
-    """Return the regular expression of a pattern, None if it is malformed.
+    """Return the regular expression for a wildcard, None if the wildcard is malformed.
 
-    It matches a path as encoded by :func:`ros_lint.base.text.octets`.
+    The expression matches a path that :func:`ros_lint.base.text.octets` has encoded.
     """
     try:
         names = _names(octets(glob))
@@ -101,9 +105,9 @@ def _compiled(glob: str) -> re.Pattern[str] | None:
 
 
 def _names(glob: str) -> list[list[str]]:
-    """Return the parts of a pattern as regular expressions: a list for each path component, split at ``*``; [] for ``**``.
+    """Return a wildcard as regular expressions: for each path component a list of its pieces between ``*``; [] for ``**``.
 
-    ``src/**/a*b`` -> ``[["src"], [], ["a", "b"]]``. Raises _MalformedError.
+    Example: ``src/**/a*b`` -> ``[["src"], [], ["a", "b"]]``. Raises _MalformedError.
     """
     if len(glob) > LONGEST:
         raise _MalformedError
@@ -133,7 +137,7 @@ def _names(glob: str) -> list[list[str]]:
 
 
 def _letter(glob: str, at: int) -> tuple[str, int]:
-    """Return the regular expression of a bracket such as ``[a-z]``, and the offset after it.
+    """Return the regular expression for a bracket expression such as ``[a-z]``, and the offset after its closing bracket.
 
     ``at`` is the offset after the opening bracket.
     """

@@ -9,16 +9,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
 _MOST_STEPS = 20_000
-"""Maximum number of steps of a search, because a graph with many cycles has too many paths."""
+"""Maximum number of steps of a search, because the number of paths grows exponentially in a graph with many cycles."""
 
 
 class GraphPaths(NamedTuple):
-    """Paths from one node to another."""
+    """The shortest paths from one node of a graph to another node."""
 
     paths: tuple[tuple[str, ...], ...]
-    """Paths without repeated nodes, from start to end, sorted by length, then by name."""
+    """The paths as tuples of node names, without repeated nodes, sorted by length, then by name."""
     more: bool
-    """True if there are or may be further paths."""
+    """True if further paths exist or may exist."""
 
 
 def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most: int) -> GraphPaths:
@@ -47,7 +47,7 @@ def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most
 
 
 def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str) -> dict[str, int]:
-    """Return the number of edges to ``end`` for each node on a path from ``start`` to ``end``."""
+    """Return the number of edges to ``end``, by node, for each node on a path from ``start`` to ``end``."""
     predecessors: dict[str, list[str]] = {}
     visited = {start}
     stack = [start]
@@ -67,7 +67,7 @@ def _distances(successors: Callable[[str], Iterable[str]], start: str, end: str)
 
 
 def _set_distance(distance: dict[str, int], name: str, successor: str) -> bool:
-    """Set the distance of a node to the distance of its successor plus 1; return False if the node has a distance already."""
+    """Set the distance of ``name`` to that of ``successor`` plus 1. Return False if ``name`` already has a distance."""
     if name in distance:
         return False
     distance[name] = distance[successor] + 1

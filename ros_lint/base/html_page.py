@@ -1,4 +1,4 @@
-"""Pages in HTML that need no other file: a template with places for its parts."""
+"""Fill templates of HTML pages that need no other file."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from importlib import resources
 
 
 def resource(package: str, name: str) -> str:
-    """Return the text of a file in the folder of a Python package."""
+    """Return the text of the file ``name`` in the folder of a Python package."""
     return (resources.files(package) / name).read_text("utf-8")
 
 
 def fill(template: str, parts: Mapping[str, str]) -> str:
-    """Return a template in which each place, such as ``<!--TITLE-->``, is replaced by the part of this name.
+    """Return the template with each placeholder ``<!--NAME-->`` replaced by the value of ``NAME`` in ``parts``.
 
-    Parts are not searched for places. Raises KeyError for a place without a part.
+    Placeholders in the values are not replaced. Raises KeyError for a placeholder without a value.
     """
     head, *pieces = template.split("<!--")
     named = [piece.partition("-->") for piece in pieces]

@@ -1,4 +1,4 @@
-"""JSON that can be read and compared line by line: only its upper levels span several lines."""
+"""Write JSON in which only the outermost levels are split into lines, so that versions are easy to read and compare."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ _HARMFUL = re.compile("[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def encode(value: Any, levels: int) -> str:
-    """Return a value as JSON, with a line feed at the end.
+    """Return ``value`` as JSON, with a line feed at the end.
 
-    The outermost ``levels`` levels have a line for each entry. Lone surrogates, which represent undecodable bytes,
-    become U+FFFD.
+    Lists and mappings in the outermost ``levels`` levels have one line for each entry; deeper levels are on one line.
+    Lone surrogates, which represent undecodable bytes, become U+FFFD.
     """
     text = _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
     return _HARMFUL.sub(lambda match: f"\\u{ord(match[0]):04x}", text)

@@ -1,4 +1,4 @@
-"""Paths of a workspace: POSIX strings relative to a base folder."""
+"""Functions for paths in a workspace: strings with forward slashes, relative to a base folder."""
 
 from __future__ import annotations
 
@@ -8,12 +8,15 @@ from collections.abc import Iterable, Iterator
 
 
 def join(directory: str, name: str) -> str:
-    """Return the path of an entry of a directory: ``a``, ``b/c`` -> ``a/b/c``, and ``""``, ``b`` -> ``b``."""
+    """Return the path of ``name`` in ``directory``, e.g. ``a/b/c`` for ``a`` and ``b/c``.
+
+    For ``""``, the base, return ``name``.
+    """
     return f"{directory}/{name}" if directory else name
 
 
 def resolve(directory: str, path: str) -> str:
-    """Return a path relative to the base, given ``path`` relative to ``directory``: ``a/b``, ``../c.py`` -> ``a/c.py``.
+    """Return the path relative to the base, given ``path`` relative to ``directory``: ``a/b``, ``../c.py`` -> ``a/c.py``.
 
     The result begins with ``..`` if it is outside the base.
     """
@@ -39,7 +42,7 @@ def strip_folder(directory: str, path: str) -> str:
 
 
 def parent(path: str) -> str:
-    """Return the directory that contains a path: ``a/b/c`` -> ``a/b``, and ``a`` -> ``""``, the base."""
+    """Return the directory that contains a path: ``a/b`` for ``a/b/c``; for ``a``, the base, which is ``""``."""
     return path.rpartition("/")[0]
 
 
@@ -49,18 +52,18 @@ def is_below(path: str, folder: str) -> bool:
 
 
 def is_below_any(path: str, folders: Iterable[str]) -> bool:
-    """Return whether ``path`` is one of the folders or is inside one."""
+    """Return whether ``path`` is one of ``folders`` or is inside one of these folders."""
     return any(is_below(path, folder) for folder in folders)
 
 
 def folders_of(path: str) -> Iterator[str]:
-    """Yield the directories that contain a path, innermost first: ``a/b/c`` -> ``a/b``, ``a``. The base is left out."""
+    """Yield the directories that contain a path, without the base, innermost first: ``a/b/c`` -> ``a/b``, ``a``."""
     while path := parent(path):
         yield path
 
 
 def upwards(folder: str) -> Iterator[str]:
-    """Yield an absolute folder and the folders that contain it, innermost first."""
+    """Yield an absolute folder and each folder that contains it, innermost first."""
     while True:
         yield folder
         above = os.path.dirname(folder)

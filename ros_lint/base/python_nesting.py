@@ -1,7 +1,7 @@
-"""Fast checks of a Python source without its strings and comments: whether it is plain, and how deep it nests.
+"""Fast checks of Python sources by regular expressions: whether a source is plain, and how deep its expressions nest.
 
-A source is plain if each Python from 3.10 on parses it to the same tree. Nearly all sources are plain; sources that are
-not need the slower :mod:`ros_lint.collectors.python.newer_syntax`.
+A source is plain if all versions of Python from 3.10 on parse it to the same tree. Nearly all sources are plain. For
+other sources, :mod:`ros_lint.collectors.python.newer_syntax` is needed, which is slower.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ STRINGS: Final = (
     r'""(?!")',
     r"''(?!')",
 )
-"""Patterns of strings without their prefix, with the flag DOTALL."""
+"""Patterns of string literals without their prefix, such as ``r``. They need the flag re.DOTALL."""
 DEEPEST: Final = 200
 """Maximum nesting of expressions. Published workspaces have up to 52 levels."""
 
 _MOST_BRACKETS: Final = 3
-"""Maximum nesting of brackets in a field of a simple f-string."""
+"""Maximum nesting of brackets in a replacement field ``{...}`` of an f-string that the patterns of this module match."""
 
 
 @cache
 def _skipped(*, complete: bool) -> re.Pattern[str]:
-    """Return a pattern of comments, strings and simple f-strings.
+    """Return a pattern of comments, strings and simple f-strings, which do not affect how Python parses the rest of a source.
 
-    With ``complete`` False, the fields of f-strings may only be names. This is enough for most sources, and the
-    pattern is compiled in a quarter of the time.
+    If ``complete`` is False, the pattern matches only f-strings whose fields are names. This is enough for most sources,
+    and such a pattern is compiled in a quarter of the time.
     """
     starts = ('"', "'")
     strings = (f"{quote}(?:{_template(quote, _field(quote) if complete else _NAME_FIELD)}|{_string(quote)})" for quote in starts)
@@ -44,9 +44,9 @@ _NAME_FIELD: Final = r"\{[\w.]+(?::[\w.]*)?\}"
 
 
 def _field(quote: str) -> str:
-    """Return a pattern of a field such as ``{name!r:>{width}}`` in an f-string. ``quote`` is the quote of the f-string.
+    """Return a pattern of a replacement field such as ``{name!r:>{width}}`` in an f-string with the quote character ``quote``.
 
-    The pattern only matches fields that every Python from 3.10 on parses to the same tree.
+    The pattern matches only fields that every version of Python from 3.10 on parses to the same tree.
     """
     other_quote = "'" if quote == '"' else '"'
     string = rf"{other_quote}[^{{}}\"'\\\#\r\n]*{other_quote}"
@@ -63,7 +63,7 @@ def _field(quote: str) -> str:
 def _template(quote: str, field: str) -> str:
     """Return a pattern of an f-string without its prefix and its first quote character.
 
-    ``quote`` is this character, ``field`` the pattern of a field in braces.
+    ``quote`` is the quote character, and ``field`` the pattern of a replacement field in braces.
     """
     piece = rf"\\[^N{{}}\r\n]|\{{\{{|\}}\}}|{field}"
     before = rf"(?:(?<=[fF]{quote})|(?<=[fF][rR]{quote}))"
@@ -72,13 +72,13 @@ def _template(quote: str, field: str) -> str:
 
 
 def _string(quote: str) -> str:
-    """Return a pattern of a string without its first quote character. It excludes f-strings and t-strings."""
+    """Return a pattern of a string without its first quote character ``quote``. It does not match f-strings and t-strings."""
     bodies = "|".join(body.removeprefix(quote) for body in STRINGS if body.startswith(quote))
     return rf"(?<![fFtT]{quote})(?<![fFtT][rR]{quote})(?:{bodies})"
 
 
 def _code(text: str) -> str:
-    """Return a source in which comments, strings and simple f-strings are replaced by ``_``."""
+    """Return a source with ``_`` in place of each comment, string and simple f-string."""
     code = _skipped(complete=False).sub("_", text)
     return _skipped(complete=True).sub("_", text) if '"' in code or "'" in code else code
 
@@ -93,7 +93,7 @@ _PERHAPS_NEWER: Final = (
     ("lazy", rf"lazy{_BLANK}+(?:from|import)\b"),
     ("0", r"0[xXoObB]\w{1000}"),
 )
-"""Syntax that is newer than Python 3.10 or exceeds a limit: a word that it contains, and its pattern."""
+"""Syntax that is newer than Python 3.10 or exceeds a limit: pairs of a word and a pattern. The word occurs in each match."""
 _STAR: Final = re.compile(r"\*\*?")
 _UNPACKED: Final = re.compile(r"[^,(){}\[\]]*\sfor\b")
 _ANNOTATED: Final = re.compile(r"\*\s*\w+\s*:\s*\*")
@@ -101,7 +101,7 @@ _LONGEST_SUBSCRIPT: Final = 500
 
 
 def plain(text: str) -> bool:
-    """Return whether each Python from 3.10 on parses a source to the same tree, or rejects it."""
+    """Return whether all versions of Python from 3.10 on parse a source to the same tree, or reject it."""
     code = _code(text)
     if '"' in code or "'" in code:
         return False
@@ -109,7 +109,7 @@ def plain(text: str) -> bool:
 
 
 def _is_in_subscript(before: str) -> bool:
-    """Return whether the innermost bracket that is still open at the end of a text may begin a subscript."""
+    """Return whether the innermost bracket that is open at the end of ``before`` may begin a subscript, as in ``a[``."""
     closed = 0
     for at in range(len(before) - 1, -1, -1):
         if before[at] in ")]}":
@@ -122,7 +122,7 @@ def _is_in_subscript(before: str) -> bool:
 
 
 def _has_newer_star(code: str) -> bool:
-    """Return whether ``code`` may have a star as in ``a[*b]``, ``*args: *Ts`` or ``[*a for a in b]``, which is newer syntax."""
+    """Return whether ``code`` may have a star that Python 3.10 rejects: ``a[*b]``, ``*args: *Ts`` or ``[*a for a in b]``."""
     for match in _STAR.finditer(code):
         before = code[max(0, match.start() - _LONGEST_SUBSCRIPT) : match.start()].rstrip()
         if before.endswith(("(", "[", "{")) and _UNPACKED.match(code, match.end()):
@@ -137,9 +137,9 @@ def _has_newer_star(code: str) -> bool:
 # --- nesting
 
 LAMBDA: Final = "\x01"
-"""The symbol that replaces the keyword ``lambda``."""
+"""The symbol in place of the keyword ``lambda``; see :func:`first_too_deep`."""
 PREFIX: Final = "~"
-"""The symbol that replaces keywords before an operand, such as ``not``."""
+"""The symbol in place of keywords before an operand, such as ``not``; see :func:`first_too_deep`."""
 SYMBOLS: Final = {**dict.fromkeys(("await", "else", "not", "yield"), PREFIX), "lambda": LAMBDA}
 _WORDS: Final = rf"\b(?:{'|'.join(SYMBOLS)})\b"
 _UNCOUNTED: Final = dict.fromkeys(map(ord, f"{ascii_letters}{digits}_ \t\f"))
@@ -148,29 +148,29 @@ _JOINED: Final = r"\\\r?\n"
 
 
 def may_be_paired(text: str) -> bool:
-    """Return whether a source has as many opening brackets of each kind as closing ones."""
+    """Return whether a source has as many opening as closing brackets of each kind."""
     code = _code(text)
     return all(code.count(opening) == code.count(closing) for opening, closing in ("()", "[]", "{}"))
 
 
 def most_levels(text: str) -> int:
-    """Return an upper bound for the nesting of the expressions of a source. It is 0 for short sources."""
+    """Return an upper bound for the nesting of expressions in a source. It is 0 for a source of at most DEEPEST characters."""
     return sum(map(text.count, _COUNTED)) if len(text) > DEEPEST else 0
 
 
 def nests_too_deep(statement: str) -> bool:
-    """Return whether the expressions of a plain statement may nest more deeply than DEEPEST."""
+    """Return whether the expressions of a statement may nest more deeply than DEEPEST. The statement must be plain."""
     code = re.sub(_JOINED, "", _code(statement))
     symbols = re.sub(_WORDS, lambda word: SYMBOLS[word[0]], code).translate(_UNCOUNTED)
     return first_too_deep(symbols) is not None
 
 
 def first_too_deep(symbols: Iterable[str]) -> int | None:
-    """Return the index of the first symbol at which expressions may nest more deeply than DEEPEST, else None.
+    """Return the index of the first symbol at which expressions may nest more deeply than DEEPEST, None if there is none.
 
     ``symbols`` are all operators, brackets, commas, colons and line ends of a source, and the values of SYMBOLS for
-    keywords. Operators and brackets count, because each can make the syntax tree deeper. A comma resets the count to
-    that before its bracket, except in the parameters of a lambda.
+    keywords. Operators and brackets count, because each can make the syntax tree deeper. A comma resets the count to the
+    value before its bracket, except in the parameters of a lambda.
     """
     total = count = parameters = 0
     outer_levels: list[tuple[int, int]] = []

@@ -1,7 +1,7 @@
-"""The parser of the running Python, without its warnings.
+"""Parse texts with the parser of the running Python, without its warnings.
 
-It may overflow the stack of the process for deeply nested texts. :mod:`ros_lint.collectors.python.syntax` rejects
-such texts before.
+The parser can overflow the stack of the process for deeply nested texts, so :mod:`ros_lint.collectors.python.syntax`
+rejects such texts before.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from ros_lint.base.text import to_bytes
 
 
 class TooDeepForPythonError(Exception):
-    """The parser exceeded the limits of stack or memory."""
+    """The parser of Python exceeded its limits of stack or memory."""
 
 
 def module(text: str) -> ast.Module:
@@ -59,9 +59,9 @@ def literal(text: str) -> object:
 
 
 def compile_error(tree: ast.Module) -> SyntaxError | None:
-    """Return the compiler's error for a tree; None if there is none or the compiler exceeds its stack.
+    """Return the error that Python's compiler reports for a syntax tree; None if there is none or the compiler's stack overflows.
 
-    Nothing is executed. The file name is empty, because the compiler would open the named file to quote a line.
+    No code is executed. The file name is empty, because the compiler would open the named file to quote a line.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -1,7 +1,7 @@
-"""The tokens of Python sources, independent of the interpreter that runs ros-lint.
+"""Split Python sources into tokens, with the same result for each version of Python that runs ros-lint.
 
 ``tokenize`` of the standard library is not used, because from Python 3.12 on it returns other tokens for f-strings and
-raises errors for other sources than before. The grammar here is that of Python 3.14: f-strings nest (PEP 701), and
+raises errors for other sources than before. This module uses the grammar of Python 3.14: f-strings nest (PEP 701), and
 t-strings exist (PEP 750). Source: "Lexical analysis" of the language reference.
 """
 
@@ -54,7 +54,7 @@ _MOST_TEMPLATES: Final = 5
 
 
 class Token(NamedTuple):
-    """A token with its offsets. Blanks, line ends in brackets and line continuations are not tokens."""
+    """A token with its start and end offset. Blanks, line ends in brackets and line continuations are not tokens."""
 
     kind: Kind
     start: int
@@ -62,17 +62,17 @@ class Token(NamedTuple):
 
 
 class Field(NamedTuple):
-    """A replacement field of an f-string or t-string."""
+    """A replacement field of an f-string or t-string, such as ``{width:>8}``."""
 
     start: int
     """Offset of the opening brace."""
     expression: tuple[int, int]
     debug: str
-    """Text that ``f"{a = }"`` shows before the value: the expression and the equals sign. Otherwise ""."""
+    """For a field such as ``{a = }``, the expression with the equals sign, which Python shows before the value. Otherwise ""."""
     conversion: str
     """Letter of the conversion (a, r, s), or ""."""
     format: tuple[Piece, ...] | None
-    """Pieces of the format specification, None if the field has none."""
+    """Pieces of the format specification (the part after ":"), None if the field has none."""
 
 
 class Piece(NamedTuple):
@@ -94,11 +94,11 @@ class Template(NamedTuple):
     """True for a t-string."""
     pieces: tuple[Piece, ...]
     newer: tuple[str, ...]
-    """Names of its constructs that require Python 3.12, in the plural: "comments in braces"."""
+    """Names, in the plural, of syntax in the string that requires Python 3.12: "comments in braces"."""
 
 
 class TokenError(Exception):
-    """A source that is not valid Python in any version."""
+    """The source is not valid in any version of Python. ``offset`` is the offset of the error."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -107,7 +107,7 @@ class TokenError(Exception):
 
 
 class TemplateDepthError(TokenError):
-    """F-strings nested more deeply than supported. They may be valid Python."""
+    """F-strings nest more deeply than this module supports. The source may be valid Python."""
 
 
 def tokens(text: str) -> Iterator[Token]:
@@ -139,12 +139,15 @@ def tokens(text: str) -> Iterator[Token]:
 
 
 def template(text: str, start: int) -> Template:
-    """Return the f-string or t-string whose prefix begins at an offset. Raises TokenError."""
+    """Return the f-string or t-string whose prefix begins at the offset ``start``. Raises TokenError."""
     return _TemplateParser(text).template(start, 0)
 
 
 def _no_token(text: str, at: int) -> TokenError:
-    """Return the error that explains why no token begins at an offset, such as "this string is not closed"."""
+    """Return the error for the offset ``at``, at which no token begins.
+
+    Its message is, for example, "this string is not closed".
+    """
     match = _QUOTE.match(text, at)
     if match is None and (prefix := re.compile(r"[a-zA-Z]{1,2}(?=[\"'])").match(text, at)):
         match = _QUOTE.match(text, prefix.end())
@@ -181,10 +184,11 @@ class _TemplateParser:
         return result
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
-        """Return the pieces of an f-string, or of a format specification in it, from the offset ``at`` on, and their end.
+        """Return the pieces of an f-string, or of a format specification in it, from the offset ``at`` on, and their end offset.
 
-        ``level`` is 0 for the string, which ends at ``quote``. Else it is the depth of the format specification, which ends at
-        a closing brace. ``start`` is the offset of the string, and ``depth`` the number of f-strings around it.
+        ``level`` is 0 for the f-string itself, which ends at ``quote``. Otherwise it is the nesting depth of the format
+        specification, which ends at a closing brace. ``start`` is the offset of the f-string, and ``depth`` the number of
+        f-strings around it.
         """
         text, pieces = self._text, list[Piece]()
         literal = _literal(quote, raw)
@@ -240,9 +244,9 @@ class _TemplateParser:
         return Field(start, (start + 1, end), debug, conversion, form), at + 1
 
     def _expression_end(self, at: int, depth: int) -> int:
-        """Return the offset of the end of a field's expression, which starts at the offset ``at``.
+        """Return the offset of the end of the expression in a replacement field. The expression starts at the offset ``at``.
 
-        The expression ends before a closing brace, a colon, a conversion (``!r``) or the final equals sign.
+        It ends before a closing brace, a colon, a conversion (``!r``) or the final equals sign.
         """
         text, closing_brackets = self._text, list[str]()
         while at < len(text):
@@ -268,9 +272,10 @@ class _TemplateParser:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the offset of the end of the literal text in an f-string that starts at ``at`` and matches ``literal``.
+    """Return the offset of the end of the literal text in an f-string. The text starts at ``at`` and matches ``literal``.
 
-    In a format specification, literal text also ends at doubled braces, because they are not an escape there.
+    In a format specification (``in_format``), literal text ends before any brace, because doubled braces are not an
+    escape there.
     """
     match = literal.match(text, at)
     end = match.end() if match is not None else at

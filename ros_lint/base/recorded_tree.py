@@ -1,4 +1,4 @@
-"""A tree that records queries and answers, so that a later run can find out whether the answers are still the same."""
+"""A file tree that records each query to the disk with its answer, so that a later run can check whether anything changed."""
 
 from __future__ import annotations
 
@@ -12,33 +12,36 @@ from typing import Literal, NamedTuple
 from ros_lint.base.tree import DiskTree, Entry, Stamp, Tree
 
 Query = Literal["list", "read", "stamp", "identity", "untracked"]
-"""The method of the tree that was called; "untracked" is ``is_untracked``."""
+"""The method of the tree that was called: "list", "read", "stamp", "identity", or "untracked" for ``is_untracked``."""
 
 TreeAnswer = list[Entry] | Stamp | str | int
-"""The answer of a tree to a query, or the errno of the error."""
+"""The answer of a file tree to a query, or the errno of the error that it raised."""
 
 
 class Answers(NamedTuple):
-    """The answers of a tree during a run, in few objects: a later run usually only compares them."""
+    """All answers of a file tree during a run.
+
+    They are packed into few objects, because a later run mostly only compares them.
+    """
 
     lists: tuple[tuple[str, str], ...] = ()
-    """Folders with their entries (:func:`_listing`)."""
+    """Pairs of a folder and the text of its entries (:func:`_listing`)."""
     files: tuple[str, ...] = ()
-    """Paths of the files whose stamps were asked for."""
+    """Paths of the files whose stamps (time, size and other metadata) were requested."""
     stamps: bytes = b""
-    """The stamps of the files, as an array of integers of 64 bits."""
+    """The stamps of ``files``, as an array of 64-bit integers."""
     settled: bytes = b""
-    """For each file 1 if an equal stamp means equal contents (:meth:`Stamp.is_settled`), else 0."""
+    """One byte for each of ``files``: 1 if an equal stamp guarantees equal contents (:meth:`Stamp.is_settled`), else 0."""
     digests: bytes = b""
-    """For each file the digest of its contents (:func:`content_digest`); zeros if they were not read."""
+    """For each of ``files`` the digest of its contents (:func:`content_digest`), NOT_READ if the contents were not read."""
     identities: tuple[tuple[str, str], ...] = ()
     untracked: tuple[tuple[str, bool], ...] = ()
     errors: tuple[tuple[str, Query, int], ...] = ()
-    """Paths with the query and the errno."""
+    """Failed queries: path, kind of the query, and errno of the error."""
 
 
 class RecordedTree:
-    """A disk that records queries and answers. ``steady`` is False if a file changed during the run."""
+    """A disk tree that records all queries and answers. ``steady`` is False if a file changed during the run."""
 
     def __init__(self, disk: DiskTree) -> None:
         self.disk = disk
@@ -75,10 +78,10 @@ class RecordedTree:
         )
 
     def is_unchanged(self, answers: Answers) -> bool:
-        """Return whether the disk still gives these answers. Keeps the current answers for reuse.
+        """Return whether the disk still gives these answers of an earlier run. Stores the current answers for later queries.
 
-        A file with another stamp counts as unchanged if its mode, its size and, if they were read, its contents are the
-        same: no other part of a stamp affects a result.
+        A file with a different stamp counts as unchanged if its mode and size are the same, and its contents if they were
+        read. The other parts of a stamp, such as the time, affect no result.
         """
         others: list[tuple[Query, str, TreeAnswer]] = [
             *(("identity", path, identity) for path, identity in answers.identities),
@@ -113,7 +116,7 @@ class RecordedTree:
         return True
 
     def renewed(self, answers: Answers) -> Answers | None:
-        """Return unchanged answers with the current stamps, if those make the next comparison faster; else None."""
+        """Return the unchanged ``answers`` with the current stamps; None if these would not make the next comparison faster."""
         if not self._renewed:
             return None
         settled = [
@@ -124,7 +127,7 @@ class RecordedTree:
         return answers._replace(stamps=_packed(stamps), settled=bytes(settled))
 
     def note_contents(self, path: str, digest: bytes) -> None:
-        """Record that the contents of a file were read from the disk, or that they could not be read (``NOT_READ``)."""
+        """Record the digest of the contents that were read from a file. ``NOT_READ`` means that the file could not be read."""
         if digest != NOT_READ:
             self.steady &= self._digests.setdefault(path, digest) == digest
         else:
@@ -198,11 +201,11 @@ class RecordedTree:
 
 
 NOT_READ = bytes(16)
-"""In place of the digest of a file that was not read."""
+"""Value in place of the digest of a file whose contents were not read."""
 
 
 def _listing(entries: Iterable[Entry]) -> str:
-    """Return the entries of a folder as one text."""
+    """Return the entries of a folder as one text, for comparisons."""
     return "\0".join([f"{name}/{kind}/" if link else f"{name}/{kind}" for name, kind, link in entries])
 
 
@@ -225,9 +228,10 @@ def content_digest(data: bytes) -> bytes:
 
 
 def has_contents(disk: Tree, path: str, current: Stamp, earlier: Stamp, digest: bytes) -> bool:
-    """Return whether a file has the mode, the size and the contents that it had earlier.
+    """Return whether a file has the same mode, size and contents as earlier.
 
-    The contents do not count if ``digest`` is ``NOT_READ``.
+    ``current`` and ``earlier`` are its stamps, and ``digest`` is that of the earlier contents. If ``digest`` is
+    ``NOT_READ``, the contents are not compared.
     """
     if (current.mode, current.size) != (earlier.mode, earlier.size):
         return False

@@ -1,7 +1,7 @@
-"""Safe reading of YAML of unknown origin. This is the only module that calls the yaml library.
+"""Read YAML of unknown origin safely. This is the only module that calls the library PyYAML.
 
-libyaml recurses for each level of nesting, so a text of a hundred kilobytes can overflow the stack, which ends the
-process. A few aliases can expand to any number of values. Both are rejected before a node or an object is created.
+Two kinds of text are rejected before a node or an object is created. libyaml recurses for each level of nesting, so a
+text of 100 KB could overflow the stack and end the process. A few aliases can expand to any number of values.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ _Result = TypeVar("_Result")
 DEEPEST: Final = 100
 """Maximum nesting of lists and mappings. Published workspaces have up to 27 levels."""
 _MOST_REPEATED: Final = 200_000
-"""Maximum number of values that aliases repeat, including values within repeated values."""
+"""Maximum number of values that aliases repeat in a text, including the values within repeated values."""
 _MOST_BITS: Final = 4_096
-"""Maximum size of an integer. Python does not convert integers of more than 4,300 digits to text."""
+"""Maximum size of an integer in bits. Python does not convert integers of more than 4,300 digits to text."""
 _LONGEST_FOR_PYTHON: Final = 50_000
-"""Maximum number of characters for the library's pure Python code, which is slow."""
+"""Maximum length in characters of a text that is read with PyYAML's pure Python code, which is slow."""
 _LIMIT_OF_LIBRARY: Final = "exceeded maximum nesting depth"
-"""The problem that libyaml reports for brackets or indentation deeper than its own limit of 1,000 levels."""
+"""Error message of libyaml for nesting deeper than its own limit of 1,000 levels."""
 _LEADING: Final = re.compile(r"^[ \t?:-]+", re.MULTILINE)
 
 
 class YamlError(Exception):
-    """A text is not YAML, or a value in it cannot be constructed. ``offset`` is from 0 to the length of the text."""
+    """The text is not YAML, or a value in it cannot be constructed. ``offset`` is the offset of the error in the text."""
 
     def __init__(self, message: str, offset: int = 0) -> None:
         super().__init__(message)
@@ -40,32 +40,32 @@ class YamlError(Exception):
 
 
 class YamlBoundError(YamlError):
-    """A text exceeds a limit of this module. It may be valid YAML."""
+    """The text exceeds a limit of this module. It may be valid YAML."""
 
 
 def compose(text: str) -> yaml.Node | None:
     """Return the root node of a text with at most one document, None if there is no document. Raises YamlError.
 
-    The marks of the nodes count characters of the text. launch and colcon read with the library's pure Python code,
-    which rejects a tab within a plain text and treats "?" in brackets as a key marker; libyaml does neither. A text
-    with a tab or a "?" in brackets is therefore read with the Python code.
+    The positions in the nodes count characters of the text. launch and colcon read YAML with PyYAML's pure Python code,
+    which rejects a tab within plain text and reads "?" in brackets as a key marker; libyaml does neither. Therefore a
+    text with a tab or a "?" is read with the pure Python code, unless the text is very long.
     """
     strict = len(text) <= _LONGEST_FOR_PYTHON and ("\t" in text or "?" in text)
     return _read(text, _loader(fast=not strict), _root)
 
 
 def load(text: str) -> Any:
-    """Return the value of a text with at most one document, None if there is no document. Raises YamlError."""
+    """Return a text with at most one document as Python values, None if there is no document. Raises YamlError."""
     return _read(text, _loader(fast=True), _value)
 
 
 def scalar(node: yaml.ScalarNode) -> Any:
-    """Return the Python value of a scalar node. Raises YamlError."""
+    """Return the Python value of a scalar node, such as 5 for the node ``5``. Raises YamlError."""
     return _read("", _loader(fast=True), lambda loader, _: loader.construct_object(node))
 
 
 def tokens(text: str) -> list[tuple[int, int]]:
-    """Return the start and end offsets of the tokens of a text, in order. Raises YamlError."""
+    """Return pairs of the start and end offset of each token of a text, in order. Raises YamlError."""
     import yaml  # noqa: PLC0415
 
     text = _bounded(text)
@@ -77,14 +77,14 @@ def tokens(text: str) -> list[tuple[int, int]]:
 
 @cache
 def _loader(*, fast: bool) -> Any:
-    """Return a subclass of the library's safe loader that limits the size of integers.
+    """Return a subclass of PyYAML's safe loader class that limits the size of integers.
 
-    With ``fast`` it is the loader in C, if the library has it, else the loader in Python.
+    If ``fast`` is True and PyYAML has its loader in C, this is the base class; otherwise the loader in Python.
     """
     import yaml  # noqa: PLC0415
 
     class LimitedLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
-        """The class to which ``integer`` is added. Added to the base class, it would change the library for all its users."""
+        """A class of its own, because a constructor added to PyYAML's class would affect all users of PyYAML in the process."""
 
     def integer(loader: Any, node: yaml.ScalarNode) -> int:
         value: int = loader.construct_yaml_int(node)
@@ -97,9 +97,9 @@ def _loader(*, fast: bool) -> Any:
 
 
 def _read(text: str, kind: Any, take: Callable[[Any, str], _Result]) -> _Result:
-    """Return ``take(loader, text)``, where ``loader`` is a loader of the class ``kind`` for the text.
+    """Return ``take(loader, text)``, where ``loader`` is an instance of the class ``kind`` for the text.
 
-    Raises YamlError for every error of the library.
+    Raises YamlError for every error of PyYAML.
     """
     text = _bounded(text)
     loader = None
@@ -142,9 +142,9 @@ def _as_yaml_error(error: Exception, length: int) -> YamlError:
 
 
 def _bounded(text: str) -> str:
-    """Return a text as a plain ``str``, because the library rejects subclasses of it.
+    """Return the text as a plain ``str``, because PyYAML rejects subclasses of ``str``.
 
-    Raises YamlBoundError if the text nests more deeply than DEEPEST.
+    Raises YamlBoundError if lists and mappings in the text nest more deeply than DEEPEST.
     """
     import yaml  # noqa: PLC0415
 
@@ -171,7 +171,7 @@ def _bounded(text: str) -> str:
 
 
 def _check_aliases(root: yaml.Node) -> None:
-    """Raise YamlBoundError if aliases repeat too many values, or a value contains itself."""
+    """Raise YamlBoundError if aliases below the node ``root`` repeat too many values, or if a value contains itself."""
     sizes: dict[int, int] = {}
     waiting: list[tuple[yaml.Node, bool]] = [(root, False)]
     entered: set[int] = set()

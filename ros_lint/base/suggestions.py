@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 
 def similar_names(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) -> list[str]:
-    """Return at most ``most`` of ``names`` that resemble ``name``, nearest first.
+    """Return at most ``most`` of ``names`` that resemble ``name``, the most similar first.
 
     ``least`` is the minimum similarity, from 0 to 1.
     """
@@ -16,7 +16,7 @@ def similar_names(name: str, names: Iterable[str], most: int = 1, least: float =
 
 
 def nearest_names(name: str, names: Iterable[str]) -> list[str]:
-    """Return those of ``names`` that resemble ``name`` most: several if they are equally near, [] if none is near."""
+    """Return the members of ``names`` that resemble ``name`` most: several if they are equally similar, [] if none is similar."""
     from difflib import SequenceMatcher  # noqa: PLC0415  (slow to import, and needed for unknown names only)
 
     near = similar_names(name, names, most=3)
@@ -29,10 +29,11 @@ _SAME_KIND = {"world": "sdf", "yml": "yaml"}
 
 
 def of_same_kind(path: str, paths: Iterable[str]) -> list[str]:
-    """Return those of ``paths`` that may be meant by ``path``: robot.srdf is not meant by robot.urdf.xacro.
+    """Return the members of ``paths`` that the misspelled ``path`` can mean by the kind of the file.
 
-    The kind is the last suffix before ``.xacro`` or the suffix of the language (``.launch.py``). Only descriptions, launch
-    files and parameters have kinds that exclude each other; a mesh, for example, may be stored in another format.
+    Example: robot.srdf cannot mean robot.urdf.xacro. The kind is the last suffix, without ``.xacro`` and without the
+    suffix of the language (``.launch.py``). Only robot descriptions, launch files and parameter files have kinds that
+    exclude each other. A mesh, for example, may be stored in another format.
     """
     kind = _kind_of_file(path)
     return [other for other in paths if not kind or _kind_of_file(other) in ("", kind)]
@@ -45,25 +46,28 @@ def _kind_of_file(path: str) -> str:
 
 
 def did_you_mean(names: Sequence[str], after: str = "; ") -> str:
-    """Return the end of a message that suggests ``names``: "; did you mean 'a' or 'b'?"; "" without names.
+    """Return the end of a message that suggests ``names``: "; did you mean 'a' or 'b'?". Return "" if ``names`` is empty.
 
-    ``after`` separates the suggestion from the beginning of the message.
+    ``after`` is the text between the message and the suggestion.
     """
     return f"{after}did you mean {' or '.join(map(_quoted, names))}?" if names else ""
 
 
 def ask_if_meant(names: Sequence[str]) -> str:
-    """Return the end of a message that suggests the first of ``names``: "; did you mean 'a'?"; "" without names."""
+    """Return the end of a message that suggests only the first of ``names``: "; did you mean 'a'?".
+
+    Return "" if ``names`` is empty.
+    """
     return did_you_mean(names[:1])
 
 
 def _quoted(name: str) -> str:
-    """Return a name as messages show it: in quotes, except for tags such as <depend>."""
+    """Return a name as it appears in messages: in quotes, except for tags such as <depend>."""
     return name if name.startswith("<") else f"'{name}'"
 
 
 def and_list(words: Sequence[str]) -> str:
-    """Return words as a list in a sentence: "a, b and c"."""
+    """Return words joined for a sentence: "a, b and c"."""
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
@@ -71,7 +75,7 @@ _MOST_NAMES = 3
 
 
 def shorten_list(names: Iterable[str]) -> str:
-    """Return up to three names in quotes, and the number of the others: "'a', 'b', 'c' and 2 more"."""
+    """Return the first three names in quotes, followed by the number of further names: "'a', 'b', 'c' and 2 more"."""
     names = list(names)
     first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])
     return f"{first} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else first

@@ -1,4 +1,4 @@
-"""Texts of files, and places in them."""
+"""Texts of files, and places (spans) in these texts."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from typing import NamedTuple
 
 
 class Span(NamedTuple):
-    """A place in a file. Lines and columns count from 1, columns in code points; the end is exclusive.
+    """A place in a file: from a line and column to an end that is exclusive.
 
-    Spans sort by file, then by place. ``str(span)`` is ``path:line:column``.
+    Lines and columns count from 1, columns in code points. Spans sort by file, then by place. ``str(span)`` is
+    ``path:line:column``.
     """
 
     path: str
-    """Path of the file, relative to the base of the run, with forward slashes."""
+    """Path of the file, relative to the base folder of the run, with forward slashes."""
     line: int
     """First line, from 1."""
     column: int
@@ -40,9 +41,10 @@ class Span(NamedTuple):
         return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)
 
     def inner(self, text: str) -> Span | None:
-        """Return the span of ``text`` without quotes, if this span is the place of ``text`` or of ``text`` in quotes.
+        """Return the span of ``text`` without its quotes. This span must be the place of ``text``, or of ``text`` in quotes.
 
-        None if this span has another length, for example because the source writes ``text`` with an escape.
+        Return None if this span has another length, for example because the source contains ``text`` with an escape
+        sequence.
         """
         quotes, odd = divmod(self.end_column - self.column - len(text), 2)
         if self.line != self.end_line or odd or quotes not in (0, 1):
@@ -66,9 +68,9 @@ _NEWLINE = re.compile(r"\r\n|\r|\n")
 
 
 class Text:
-    """The text of a file; converts between offsets and spans.
+    """The text of a file, with conversions between offsets and spans.
 
-    ``codec`` encodes the text to the original bytes, see :func:`decode`.
+    ``codec`` is the codec that encodes the text to the original bytes; see :func:`decode`.
     """
 
     __slots__ = ("_starts", "codec", "path", "text")
@@ -81,13 +83,13 @@ class Text:
 
     @property
     def newline(self) -> str:
-        """First line end in the file, or a line feed."""
+        """The first line end in the file; a line feed if the file has none."""
         match = _NEWLINE.search(self.text)
         return match[0] if match else "\n"
 
     @property
     def line_count(self) -> int:
-        """Number of lines; a text that ends with a line end has an empty last line."""
+        """Number of lines. After a line end at the end of the text, an empty last line counts."""
         return len(self._line_starts())
 
     def span(self, start: int, end: int) -> Span:
@@ -101,9 +103,9 @@ class Text:
         return _make(Span, (self.path, line, start - before, line, end - before))
 
     def spans(self, ranges: Iterable[tuple[int, int]]) -> Iterator[Span]:
-        """Yield the spans of sorted pairs of offsets, each pair within one line.
+        """Yield the spans of pairs of offsets. The pairs are sorted, and each pair is within one line.
 
-        This is faster than :meth:`span` for a few places in a long file, because ``str.count`` counts the lines.
+        For a few places in a long file this is faster than :meth:`span`, because ``str.count`` counts the lines.
         """
         text, path = self.text, self.path
         if "\r" in text:
@@ -135,7 +137,7 @@ class Text:
         return self.text[starts[number - 1] : end].rstrip("\r\n")
 
     def slice(self, span: Span) -> str:
-        """Return the text of a span of this file."""
+        """Return the text that ``span`` covers in this file."""
         return self.text[self.offset(span.line, span.column) : self.offset(span.end_line, span.end_column)]
 
     def encode(self, text: str) -> bytes:
@@ -170,7 +172,7 @@ _PYTHON_ENCODING = re.compile(rb"\A(?:[^\n]*\n)?[ \t\f]*#[^\n]*?coding[:=][ \t]*
 
 
 def decode(data: bytes) -> tuple[str, str]:
-    """Return the text of a file, and the codec that encodes it to the same bytes.
+    """Return the bytes of a file as text, and the name of the codec that encodes the text to the same bytes.
 
     The encoding is determined by, in this order:
 
@@ -179,7 +181,7 @@ def decode(data: bytes) -> tuple[str, str]:
     * an XML declaration or a Python coding line,
     * the default UTF-8.
 
-    Bytes that are not UTF-8 become lone surrogates, so nothing raises and nothing is lost.
+    Bytes that are not UTF-8 become lone surrogates, so that no error is raised and no byte is lost.
     """
     head = data[:400]
     has_coding = b"coding" in head
@@ -209,9 +211,9 @@ def decode(data: bytes) -> tuple[str, str]:
 
 
 def span_in(path: str, data: bytes, start: int, end: int) -> Span:
-    """Return the span between two byte offsets in one line of a file. Its columns count code points.
+    """Return the span between two byte offsets in one line of a file. ``data`` has the bytes of the file.
 
-    It serves searches in undecoded files: few files have a match, so decoding all of them would take longer.
+    It serves searches in the bytes of files. Few files have a match, so decoding all of them would take longer.
     """
     line_start = data.rfind(b"\n", 0, start) + 1
     line = data.count(b"\n", 0, start) + 1
@@ -220,12 +222,12 @@ def span_in(path: str, data: bytes, start: int, end: int) -> Span:
 
 
 def to_bytes(text: str) -> bytes:
-    """Return a text or a path as its bytes on disk: surrogate escapes become the original bytes."""
+    """Return a text or a path as its bytes on disk. Lone surrogates that represent undecodable bytes become these bytes."""
     return text.encode("utf-8", "surrogateescape")
 
 
 def octets(text: str) -> str:
-    """Return a text with one character for each of its bytes (:func:`to_bytes`), for byte-wise matching."""
+    """Return a text with one character (U+0000 to U+00FF) for each of its bytes on disk, for matching by bytes."""
     return text if text.isascii() else to_bytes(text).decode("latin-1")
 
 
@@ -235,6 +237,6 @@ def from_bytes(data: bytes) -> str:
 
 
 def read(path: str, data: bytes) -> Text:
-    """Return the bytes of a file as a Text; see :func:`decode`."""
+    """Return the bytes of the file at ``path`` as a Text; see :func:`decode`."""
     text, codec = decode(data)
     return Text(path, text, codec)

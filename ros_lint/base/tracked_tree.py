@@ -1,4 +1,4 @@
-"""The files of a repository that git tracks, as in a fresh clone."""
+"""A file tree with only the files of a repository that git tracks, as in a fresh clone."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from ros_lint.base.paths import folders_of, join
 from ros_lint.base.tree import DiskTree, Entry, Stamp
 
 _MOST_NESTING: Final = 2
-"""Number of folders between an untracked folder and a repository in it: ``external/vendor/robot``."""
+"""Maximum number of levels from an untracked folder down to a repository in it, e.g. 2 in ``external/vendor/robot``."""
 _MOST_FOLDERS: Final = 200
-"""Number of subfolders of an untracked folder to search for repositories."""
+"""Maximum number of subfolders of an untracked folder in which repositories are searched for."""
 
 
 class TrackedTree(DiskTree):
-    """A disk without the untracked files of the repository in its base.
+    """A disk tree without the untracked files of the git repository in its base folder.
 
-    Files below tracked links, submodules and other repositories, such as those that vcstool has cloned, are visible.
+    The tree includes all files below tracked links, submodules and other repositories, such as clones by vcstool.
     """
 
     __slots__ = ("_folders", "_foreign", "_tracked")
@@ -57,7 +57,7 @@ class TrackedTree(DiskTree):
         return folder and self._leads_to_repository(path, _MOST_NESTING)
 
     def _is_foreign(self, path: str) -> bool:
-        """Return whether the path is, or is below, a tracked link, a submodule or another repository."""
+        """Return whether a path is, or is below, a tracked link, a submodule or another repository."""
         return any(self._is_foreign_folder(folder) for folder in (path, *folders_of(path)) if folder)
 
     def _is_foreign_folder(self, folder: str) -> bool:

@@ -1,7 +1,7 @@
-"""Trees of files: on a disk, in memory, or a disk with changed files.
+"""File trees: interfaces to the files on a disk, in memory, or on a disk with some contents replaced.
 
-All other modules read files through a tree, so that a patched workspace or a test case is read by the same code as
-a real one. Paths are relative to the base of the tree, with forward slashes; the base itself is ``""``.
+All other modules read files through a tree, so that the same code reads a real workspace, a workspace with fixes in
+memory and a test case. Paths are relative to the base of the tree, with forward slashes; the base itself is ``""``.
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ Kind = Literal["file", "directory", "other"]
 
 
 class Entry(NamedTuple):
-    """A file or folder in a directory. For a link, ``kind`` is that of its target; broken links and devices are ``other``."""
+    """An entry of a directory. For a link, ``kind`` is the kind of its target, "other" for a broken link.
+
+    A device is "other", too.
+    """
 
     name: str
     kind: Kind
@@ -28,11 +31,11 @@ class Entry(NamedTuple):
 
 
 class Stamp(NamedTuple):
-    """The state of a file, to detect changes.
+    """The metadata of a file by which changes are detected.
 
-    The fields are the modification time in nanoseconds, the size in bytes, the permission bits, the inode's change
-    time and the inode. Tools can restore the first three (``cp -p``, ``rsync -t``, git-restore-mtime). No tool sets
-    the change time (st_ctime), and the inode changes when a link leads to another file.
+    The fields are the modification time in nanoseconds, the size in bytes, the permission bits, the inode's change time
+    (st_ctime, in nanoseconds) and the inode number. Tools can restore the first three (``cp -p``, ``rsync -t``,
+    git-restore-mtime). No tool sets the change time, and the inode number changes when a link leads to another file.
     """
 
     time: int
@@ -47,20 +50,20 @@ class Stamp(NamedTuple):
         return bool(self.mode & 0o111)
 
     def is_settled(self, time: int) -> bool:
-        """Return whether each change of the file after ``time``, in nanoseconds since the epoch, results in another stamp.
+        """Return whether any change of the file after ``time`` must change the stamp. ``time`` is in nanoseconds since the epoch.
 
-        A file system counts time in ticks: two changes within one tick have the same times. The coarsest tick is that of
+        A file system counts time in ticks, so two changes within one tick have equal times. The coarsest tick is that of
         FAT, two seconds.
         """
         return max(self.time, self.changed) + _COARSEST_TICK < time
 
 
 _COARSEST_TICK = 2_000_000_000
-"""In nanoseconds."""
+"""Longest tick of a file system's clock, in nanoseconds."""
 
 
 class Tree(Protocol):
-    """Files to read. Each method may raise OSError for the given path."""
+    """A tree of files to read. Each method raises OSError if the path does not exist or cannot be read."""
 
     def list(self, path: str) -> list[Entry]:
         """Return the entries of a directory, sorted by name."""
@@ -69,16 +72,17 @@ class Tree(Protocol):
         """Return the bytes of a file."""
 
     def stamp(self, path: str) -> Stamp:
-        """Return the state of a file, to detect changes."""
+        """Return the metadata of a file by which changes are detected."""
 
     def identity(self, path: str) -> str:
-        """Return the real path: links are resolved, so that two paths of the same directory have equal identities.
+        """Return the real path of a file or directory.
 
-        The identity of an entry that is not a link is the identity of its directory joined with its name.
+        Links are resolved, so two paths of the same directory have equal identities. The identity of an entry that is not
+        a link is the identity of its directory joined with its name.
         """
 
     def is_untracked(self, path: str) -> bool:
-        """Return whether a path exists on the disk, but is left out because git does not track it."""
+        """Return whether a path exists on the disk, but is not in this tree because git does not track it."""
 
 
 def text_of(tree: Tree, path: str) -> Text | None:
@@ -90,7 +94,7 @@ def text_of(tree: Tree, path: str) -> Text | None:
 
 
 def contents(tree: Tree, folder: str, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
-    """Yield path and contents of files given relative to a folder. Unreadable files are left out."""
+    """Yield pairs of the path and contents of ``files``, which are relative to ``folder``. Unreadable files are left out."""
     for path in (join(folder, file) for file in files):
         try:
             yield path, tree.read(path)
@@ -103,7 +107,7 @@ _make = tuple.__new__
 
 
 def repository_of(folder: str) -> str:
-    """Return the root of the git repository that contains an absolute folder, or ""."""
+    """Return the root of the git repository that contains an absolute folder, "" if there is none."""
     return next((above for above in upwards(folder) if os.path.exists(os.path.join(above, ".git"))), "")
 
 
@@ -119,11 +123,11 @@ LEADS_OUT = "links to a place outside the workspace"
 
 
 class DiskTree:
-    """The files below a directory, read-only.
+    """The files below a directory of the disk, read-only.
 
-    A link to a file is followed only if its target is
+    A symbolic link to a file is followed only if its target is
 
-    * in a folder of ``inside`` (real paths, by default only the directory itself),
+    * in one of the folders ``inside`` (real paths; by default only the directory itself),
     * or, if the folder of the file is reached by a link, in the target of that link or in the git repository of that
       target.
     """
@@ -153,7 +157,7 @@ class DiskTree:
         return result
 
     def read(self, path: str) -> bytes:
-        """Return the bytes of a file. Raises OSError, with EXDEV for a link that leads out of the workspace."""
+        """Return the bytes of a file. Raises OSError; the errno is EXDEV for a link that leads out of the workspace."""
         try:
             return files.read(self.place(path), links=False)
         except OSError as error:
@@ -165,7 +169,7 @@ class DiskTree:
         return files.read(target)
 
     def _may_lead_to(self, target: str, folder: str) -> bool:
-        """Return whether a link to a file in ``folder`` may lead to the real path ``target``; see the class."""
+        """Return whether this tree follows a link to a file in ``folder`` whose real path is ``target``; see the class."""
         inside = self._inside or (self.identity(""),)
         if is_below_any(target, inside):
             return True
@@ -187,14 +191,14 @@ class DiskTree:
 
 
 _INODE_BITS = (1 << 63) - 1
-"""The bits of an inode that a stamp has. Some file systems have inodes of 64 and 128 bits."""
+"""Mask for the part of an inode number that a stamp stores, because some file systems have numbers of 64 and 128 bits."""
 
 _IS_LINK = (errno.ELOOP, errno.EMLINK)
-"""Errors of O_NOFOLLOW for a link: ELOOP on Linux and macOS, EMLINK on FreeBSD."""
+"""Error numbers of os.open() with O_NOFOLLOW for a symbolic link: ELOOP on Linux and macOS, EMLINK on FreeBSD."""
 
 
 class MachineTree(DiskTree):
-    """All files of the machine, by absolute path. Links may lead anywhere."""
+    """All files of the machine, by absolute path. All links are followed."""
 
     __slots__ = ()
 
@@ -209,7 +213,7 @@ class MachineTree(DiskTree):
 
 
 class MemoryTree:
-    """Files in memory, from a mapping of path to contents. ``executable`` has the paths of the executable files."""
+    """Files in memory, given as a mapping from path to contents. ``executable`` has the paths of the executable files."""
 
     __slots__ = ("_directories", "_executable", "_files")
 
@@ -248,7 +252,7 @@ class MemoryTree:
 
 
 class OverlayTree:
-    """A tree with changed contents of some files. New files must be in existing directories."""
+    """Another tree in which the contents of some files are replaced or added. Added files must be in existing directories."""
 
     __slots__ = ("_below", "_changed", "_names")
 

@@ -1,6 +1,6 @@
-"""Parts of regular expressions for wildcards, which match in linear time.
+"""Build regular expressions for wildcards such as ``*``. The expressions match in linear time.
 
-The callers define the syntax of the wildcards, because it differs between git, CMake and others.
+The callers define the syntax of their wildcards, because it differs between git, CMake and others.
 """
 
 from __future__ import annotations
@@ -9,15 +9,15 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 LONGEST = 4096
-"""Maximum length of a pattern or a path in characters: PATH_MAX of Linux."""
+"""Maximum length in characters of a pattern or a path: PATH_MAX of Linux."""
 
 
 def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
-    """Return a regular expression for ``pieces`` in order, with ``gap`` between each two: ``a``, ``b`` -> ``a[^/]*b``.
+    """Return a regular expression that matches ``pieces`` in order, with ``gap`` between them: ``a``, ``b`` -> ``a[^/]*b``.
 
-    ``pieces`` and ``gap`` are regular expressions; ``gap`` ends with ``*``. ``numbers`` are unused numbers for the
-    names of groups. Each piece except the last one keeps its first match, because a later match would leave less text
-    for the following pieces.
+    ``pieces`` and ``gap`` are regular expressions; ``gap`` ends with ``*``. ``numbers`` yields unused numbers for the
+    names of groups. The expression never backtracks to a later match of a piece other than the last, because a later
+    match would leave less text for the following pieces.
     """
     first, *later_pieces = pieces
     if not later_pieces:
@@ -29,9 +29,9 @@ def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
 
 
 def letters(ranges: Iterable[tuple[int, int]], *, negated: bool) -> str:
-    """Return a regular expression for one character in the given ranges of code points, but not a slash.
+    """Return a regular expression for one character other than a slash in the given ranges of code points.
 
-    With ``negated`` the character must be in none of the ranges.
+    If ``negated`` is True, the character must be in none of the ranges.
     """
     inside = "".join([f"{_escaped(low)}-{_escaped(high)}" for low, high in ranges if low <= high])
     if negated:

@@ -1,4 +1,4 @@
-"""XML as a tree of elements with exact offsets. Entities and external files are not resolved."""
+"""Parse XML into a tree of elements with exact offsets. Entities and external files are not resolved."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.base.text import from_bytes, to_bytes
 
 
 class XmlError(Exception):
-    """The text is not XML, or not safe to read. ``offset`` is from 0 to the length of the text."""
+    """The text is not XML, or not safe to read. ``offset`` is the offset of the error in the text."""
 
     def __init__(self, message: str, offset: int) -> None:
         super().__init__(message)
@@ -20,7 +20,7 @@ class XmlError(Exception):
 
 
 class XmlElement:
-    """An element; ``start`` is the offset of its ``<``. Comments and text between elements are left out."""
+    """An XML element. ``start`` is the offset of its ``<``. Comments and text between elements are not stored."""
 
     __slots__ = ("attributes", "children", "start", "tag")
 
@@ -53,15 +53,15 @@ _E = TypeVar("_E", bound=_Parent)
 
 
 def parse(text: str) -> XmlElement:
-    """Return the root element. Raises XmlError, also for a declared entity.
+    """Return the root element of a text. Raises XmlError if the text is not XML or declares an entity.
 
-    An entity could expand without limit or read other files.
+    Entities are rejected, because an entity could expand without limit or read other files.
     """
     return parse_as(text, XmlElement)
 
 
 def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
-    """Return the root element of a text. ``make`` creates an element from tag, attributes and offset.
+    """Return the root element of a text. ``make`` creates an element from its tag, attributes and offset.
 
     Raises XmlError like :func:`parse`.
     """
@@ -101,13 +101,14 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
 def unmarked(data: bytes) -> bytes:
     """Return ``data`` with a byte order mark at its start replaced by an invalid character, so that expat rejects it.
 
-    The mark is the second of the file, because decoding removed the first. XML forbids it, but expat would ignore it.
+    Such a mark is the second one of the file, because decoding has removed the first. XML forbids it, but expat would
+    ignore it.
     """
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 
 
 def attribute_places(text: str, element: XmlElement) -> dict[str, tuple[int, int]]:
-    """Return the start and end offsets of each attribute value, without its quotes, by attribute name."""
+    """Return the start and end offset of each attribute value of an element, without the quotes, by attribute name."""
     name = _NAME.match(text, element.start)
     at = name.end() if name else element.start
     places = {}
@@ -118,7 +119,7 @@ def attribute_places(text: str, element: XmlElement) -> dict[str, tuple[int, int
 
 
 class _Offsets:
-    """Converts offsets of bytes to offsets of characters; fast if they increase."""
+    """Converts byte offsets in ``data`` to character offsets. This is fast if the offsets increase."""
 
     __slots__ = ("_ascii", "_byte", "_character", "_data")
 
