@@ -36,7 +36,7 @@ def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
             blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _depends_on_tests(command)))
             enclosing, for_tests = _enclosing(blocks)
         elif name == "return":
-            test = test or for_tests  # if(NOT BUILD_TESTING) return() endif(): the rest is for tests
+            test = test or for_tests  # after if(NOT BUILD_TESTING) return() endif(), all commands are for tests
         elif name not in _BLOCK_WORDS:
             _, _, args, start, end, line, column, breaks = command
             yield Call(name, path, args, start, end, line, column, breaks, enclosing, test or for_tests)

@@ -91,7 +91,7 @@ _TOKEN = re.compile(
       (?:\$\([A-Za-z0-9_]*\)|[^ \t\r\n()\#"\\\0]|\\[^\0\n]               #    with quotes inside (legacy)
         |"(?:\$\([A-Za-z0-9_]*\)|[^()\#"\\\r\n\0]|\\[^\0\n])*")*)
     |\Z
-    |((?s:.)))                                                      # 8: nothing begins so
+    |((?s:.)))                                                      # 8: no token
     """,
     re.VERBOSE,
 )

@@ -81,7 +81,7 @@ def _is_launch(text: str) -> bool:
 def _is_xml(text: str) -> bool:
     if not _is_launch(text):
         return False
-    # The plain words first, because a search by the regular expressions takes as long as reading the file.
+    # The words are searched first, because a search with the regular expressions takes as long as reading the file.
     return any(word in text for word in _ROS2_WORDS) or not _ROS1.search(text) or bool(_ROS2.search(text))
 
 

@@ -205,7 +205,7 @@ class References:
         ``reads`` returns the part of a text that is a file to read.
         """
         texts, default = self._filled(value)
-        # A literal place in a command does not depend on defaults in other words of the command.
+        # A literal path in a command does not depend on defaults in other words of the command.
         fixed = {place for text in value.texts for place in installed(text) if place.share is not None} if default else set()
         for text in texts:
             if text.isascii() and not runs_xacro(text):
@@ -221,7 +221,7 @@ class References:
                 path = place.share
                 from_default = default and place not in fixed
                 is_computed = from_default and self._is_computed(place.package, value)
-                # A default that is an empty text as a folder, as in ``robots//a.yaml``, is meant to be replaced.
+                # An empty default as the name of a folder, as in ``robots//a.yaml``, is meant to be replaced.
                 if path and not (from_default and "//" in text):
                     self._add(
                         "file",

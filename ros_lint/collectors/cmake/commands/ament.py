@@ -43,7 +43,7 @@ _GENERATES: Final = "rosidl_generate_interfaces"
 
 
 def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
-    """Run a command that neither CMake nor the package defines, and return its possible exits (None for NEXT).
+    """Run a command that neither CMake nor the package defines; return how it may end (Exit; None: normally).
 
     A macro of a released package runs in its reduced form. The effects of any other command are recorded as unknown.
     """
@@ -387,7 +387,7 @@ RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
-    """Run the CMake command ``name``. Its possible exits are ignored."""
+    """Run the CMake command ``name``. The result of its handler (how it may end) is ignored."""
     HANDLERS[name](run, args)
 
 

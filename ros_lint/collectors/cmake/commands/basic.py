@@ -259,7 +259,10 @@ _NOT_SINGLE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
 
 
 def _language(run: Run, args: list[str]) -> int | None:
-    """Run ``cmake_language(CALL command args...)`` or ``cmake_language(EVAL CODE text...)``; return the possible exits."""
+    """Run ``cmake_language(CALL command args...)`` or ``cmake_language(EVAL CODE text...)``.
+
+    Return how the code may end (Exit; None: normally).
+    """
     mode = args[0] if args else ""
     if mode == "CALL" and len(args) > 1 and is_known(args[1]):
         return run_named(run, args[1].lower(), args[2:])
@@ -297,7 +300,8 @@ def _folder_sources(run: Run, args: list[str]) -> None:
 def _execute_process(run: Run, args: list[str]) -> None:
     """Run ``execute_process()``: set its output variables to unknown values, and record the programs that it starts.
 
-    ``COMMAND cmake -S folder ...`` builds a project in a folder of the package, which is recorded as a bundled project.
+    ``COMMAND cmake -S folder ...`` builds a project in a folder of the package. The project is recorded as bundled, that is,
+    built together with the package.
     """
     folder = run.paths.source(args[args.index("-S") + 1]) if "-S" in args[:-1] else None
     if folder and run.paths.is_folder(folder) and not run.muted:

@@ -118,7 +118,7 @@ def _argument(text: str, kind: int) -> str | _Reference:
 
 
 def run_released(run: Run, macro: ReleasedMacros, args: list[str]) -> Exit:
-    """Run a macro or function of a released package with evaluated arguments, and return its possible exits."""
+    """Run a macro or function of a released package with evaluated arguments; return how it may end (Exit)."""
     text = "".join(args)
     if macro.direct is not None and ";" not in text:
         primitive, words = macro.direct

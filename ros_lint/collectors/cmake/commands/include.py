@@ -70,14 +70,17 @@ def _include_file(run: Run, name: str, optional: bool) -> int | None:
 
 
 def include_own(run: Run, path: str) -> int | None:
-    """Run the script of the package at ``path``, relative to the package, in the current scope; return its possible exits."""
+    """Run the script of the package at ``path``, relative to the package, in the current scope.
+
+    Return how the script may end (Exit; None: normally).
+    """
     return _run_script(run, path, run.paths.sources.scripts[path])
 
 
 def _run_script(run: Run, path: str, parsed: ParsedScript) -> int | None:
-    """Run a script of the package, or a script of the workspace outside of the package; return its possible exits.
+    """Run a script of the package, or a script of the workspace outside of the package.
 
-    ``path`` is relative to the package.
+    ``path`` is relative to the package. Return how the script may end (Exit; None: normally).
     """
     outside = is_outside(path)
     if outside:
@@ -119,7 +122,10 @@ _BEGINS: Final = re.compile(r"\$\{(\w+)\}/[\w./-]+\Z")
 
 
 def include_of_package(run: Run, package: str, source: str) -> int | None:
-    """Run the script ``source`` of another package of the workspace in the current scope; return its possible exits."""
+    """Run the script ``source`` of another package of the workspace in the current scope.
+
+    Return how the script may end (Exit; None: normally).
+    """
     helper = run.helpers[package]
     install_path = f"share/{package}/cmake/{posixpath.basename(source).removesuffix('.in')}"
     install_path = next((file.path for file in helper.script.products.installs if file.source == source), install_path)

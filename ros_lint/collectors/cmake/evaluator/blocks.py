@@ -96,7 +96,7 @@ class _Open:
 
 
 def blocks(commands: Sequence[Command]) -> Body:
-    """Return the commands of a file as a tree of blocks. Raises UnbalancedError."""
+    """Return the commands of a file as a tree of blocks. Raises UnbalancedError if a block is not closed or not open."""
     nodes: list[Node] = []
     stack: list[_Open] = []
     outer_nodes: list[list[Node]] = []

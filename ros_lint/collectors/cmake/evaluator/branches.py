@@ -62,7 +62,7 @@ def _run_if(run: Run, node: If) -> Exit:
 
 
 def _run_single(run: Run, node: If) -> Exit:
-    """Run an if() without elseif() and else(), the most frequent form, and return the possible exits."""
+    """Run an if() without elseif() and else(), the most frequent form; return how it may end (Exit)."""
     ((command, body),) = node.branches
     assert command is not None
     run.frames[-1].command = command

@@ -73,7 +73,10 @@ def _substituted(macro_arguments: dict[str, str], args: tuple[Argument, ...]) ->
 
 
 def _run_scope(run: Run, node: ScopeBlock) -> Exit:
-    """Run a block() and return its possible exits. Its variables, except those after PROPAGATE, are removed at its end."""
+    """Run a block(), and return how it may end (Exit).
+
+    The variables of the block, except those after PROPAGATE, are removed at its end.
+    """
     run.frames[-1].command = node.command
     args = run.arguments(node.command)
     if "SCOPE_FOR" in args and "VARIABLES" not in args:

@@ -162,7 +162,7 @@ def _marked(pieces: list[str]) -> str:
     pieces = [piece for piece in pieces if piece]
     texts = []
     for previous, piece, following in zip([";", *pieces], pieces, [*pieces[1:], ";"], strict=False):
-        # A list that may be empty would leave an empty element, which the marks cannot express.
+        # A list that may be empty would leave an empty element, which MAYBE cannot express.
         is_element = previous.endswith(";") and following.startswith(";") and certainly_set(piece)
         texts.append(piece if is_element else embeddable(piece))
     return "".join(texts)

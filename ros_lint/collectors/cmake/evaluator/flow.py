@@ -36,7 +36,7 @@ BLOCKS: Final[dict[type, Callable[[Run, Any], Exit]]] = {}
 
 
 def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
-    """Run commands and blocks in order from index ``start``, and return the possible exits."""
+    """Run commands and blocks in order from index ``start``; return how they may end (Exit)."""
     run.budget.step(len(body) - start + 1)
     frame = run.frames[-1]
     procedures = run.procedures
@@ -70,7 +70,7 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
 
 
 def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -> tuple[Exit, Changes]:
-    """Run ``piece``, code that may not run, and undo its changes. Return its possible exits and its changes.
+    """Run ``piece``, code that may not run, and undo its changes. Return how it may end (Exit), and its changes.
 
     ``exits`` describes the condition of the code: BY_DEFAULT if it runs with default options, IF_TESTING if it runs only if
     tests are enabled.
@@ -85,7 +85,7 @@ def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -
 
 
 def run_named(run: Run, name: str, args: list[str]) -> Exit:
-    """Run the command ``name`` (in lower case) with evaluated arguments, and return its possible exits."""
+    """Run the command ``name`` (in lower case) with evaluated arguments; return how it may end (Exit)."""
     run.command_names.add(name)
     procedure = run.procedures.get(name)
     if procedure is not None:
@@ -97,13 +97,16 @@ def run_named(run: Run, name: str, args: list[str]) -> Exit:
 
 
 def _without(run: Run, name: str, args: list[str]) -> Exit:
-    """Run the built-in CMake command ``name``, even if the package defines a function or macro with this name."""
+    """Run the built-in CMake command ``name``, even if the package defines a function or macro with this name.
+
+    Return how the command may end (Exit).
+    """
     handler = HANDLERS.get(name)
     return (handler(run, args) or NEXT) if handler is not None else NEXT
 
 
 def call(run: Run, procedure: Procedure | Choice, args: list[str]) -> Exit:
-    """Run a function or macro with evaluated arguments, and return its possible exits."""
+    """Run a function or macro with evaluated arguments; return how it may end (Exit)."""
     if type(procedure) is Choice:
         return _call_one_of(run, procedure, args)
     assert type(procedure) is Procedure
@@ -204,7 +207,7 @@ def _list_of(args: Sequence[str], possibly_empty: Container[str]) -> str:
 
 
 def run_file(run: Run, commands: Sequence[Command], frame: CallFrame) -> Exit:
-    """Run the commands of a file and return the possible exits. A return() in the file ends only the file."""
+    """Run the commands of a file; return how they may end (Exit). A return() in the file ends only the file."""
     if len(run.frames) > DEEPEST:
         raise BudgetExceeded
     run.enter_file(frame)

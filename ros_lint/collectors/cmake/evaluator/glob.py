@@ -83,7 +83,7 @@ def _letter(inside: str) -> str | None:
     The result is None if the set has an inverted range such as ``z-a``.
     """
     negated = inside[:1] in ("!", "^")
-    body = inside[negated:].replace("\\", "\\\\")  # KWSys escapes it so, which adds a second backslash to the set
+    body = inside[negated:].replace("\\", "\\\\")  # as in KWSys, which adds a second backslash to the set
     ranges = [(ord(letter), ord(letter)) for letter in body[:1]]
     at = 1
     while at < len(body):

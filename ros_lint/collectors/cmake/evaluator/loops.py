@@ -163,7 +163,7 @@ def _run_round(run: Run, body: Body, names: list[str], items: Sequence[str]) -> 
 
 
 def _run_any_number(run: Run, round_: partial[Exit]) -> Exit:
-    """Run the body of a loop whose number of rounds is unknown, and return the possible exits.
+    """Run the body of a loop whose number of rounds is unknown; return how the loop may end (Exit).
 
     The body runs twice. The first round records no results; it shows which variables change. Before the second round, these
     variables become unknown.

@@ -42,9 +42,10 @@ class Searcher(NamedTuple):
     budget: Budget
 
     def search(self, text: str, at: int = 0) -> Match | None:
-        """Return the first match at or after the offset ``at``, None if there is none. Raises BudgetExceeded.
+        """Return the first match at or after the offset ``at``, None if there is none.
 
-        ``text`` has one character for each byte (see :func:`~ros_lint.base.text.octets`).
+        ``text`` has one character for each byte (see :func:`~ros_lint.base.text.octets`). Raises BudgetExceeded if the search
+        takes too many steps.
         """
         return self.expression.search(text, self.budget, at)
 

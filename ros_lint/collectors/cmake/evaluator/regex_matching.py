@@ -99,7 +99,10 @@ class Expression(NamedTuple):
     """True if Python's re may take exponential time: a repetition has alternatives, or the expression has many alternatives."""
 
     def search(self, text: str, budget: Budget, at: int = 0) -> Match | None:
-        """Return the first match at or after the offset ``at``, None if there is none. Raises BudgetExceeded."""
+        """Return the first match at or after the offset ``at``, None if there is none.
+
+        Raises BudgetExceeded if the search takes too many steps.
+        """
         length = len(text) - at + 1
         steps: int = length if not self.repeats else length ** (self.repeats + 1)
         if steps <= _QUICK and not self.ambiguous:

@@ -145,7 +145,7 @@ class Run(State):
         if name.endswith("_FOUND") and self.packages.certain.get(name[:-6]) == "1":
             return "1"
         if name in (f"{self.results.project.name}_LIBRARIES", f"{self.results.project.name}_EXECUTABLES"):
-            return HOLE if self.may_define_targets else None  # ament_auto lists the targets of the package here
+            return HOLE if self.may_define_targets else None  # ament_auto stores the targets of the package in these variables
         if self.any_variable_may_be_set and not name.startswith("CMAKE_"):
             return HOLE
         if self.packages.may_set(name):
@@ -426,4 +426,6 @@ class Run(State):
 
 
 Handler = Callable[[Run, list[str]], "int | None"]
-"""A function that runs a CMake command. It takes the run and the evaluated arguments, and returns an Exit or None for NEXT."""
+"""A function that runs a CMake command, given the run and the evaluated arguments.
+
+It returns how the command may end (Exit), None if it ends normally."""

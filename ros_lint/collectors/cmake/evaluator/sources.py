@@ -1,4 +1,4 @@
-"""Input of the evaluation of CMake scripts: the files of a package, files outside of it, and helper packages."""
+"""Input of the evaluation of a package's CMake scripts: its files, files outside of it, and other packages with CMake code."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.facts.build import BuildScript
 
 OUTSIDE: Final = ".."
-"""The provider (name of the defining package) of scripts of the workspace outside of the package.
+"""The value that replaces the package name for scripts of the workspace outside of the package.
 
 Such scripts run like scripts of the package."""
 

@@ -40,7 +40,7 @@ class BlockVariables(Variables):
 
 
 class Properties(dict[str, str]):
-    """The known properties of a target, a directory or the whole run, by the name of the property."""
+    """The known properties of a target or of the project (GLOBAL), by name. Also used for the cache and the environment."""
 
     __slots__ = ()
 
@@ -226,7 +226,7 @@ class State:
     # --- branching
 
     def branch(self, run: Callable[[], Exit]) -> tuple[Exit, Changes]:
-        """Call ``run``, which runs a branch, and undo its changes. Return the possible exits of the branch and its changes.
+        """Call ``run``, which runs a branch, and undo its changes. Return how the branch may end (Exit), and its changes.
 
         Raises BudgetExceeded if branches are nested too deeply.
         """

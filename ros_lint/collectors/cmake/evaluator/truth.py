@@ -60,7 +60,7 @@ def negated(truth: Truth) -> Truth:
 
 def both(left: Truth, right: Truth) -> Truth:
     """Return the truth value of ``left AND right``."""
-    # min() is Kleene's AND. With LIKELY and UNLIKELY ordered between the others, it also gives the default answer.
+    # min() is Kleene's AND. It also gives the value with default options, because of the order UNLIKELY, UNKNOWN, LIKELY.
     return Truth(
         min(left.value, right.value), left.test_if_true or right.test_if_true, left.test_if_false and right.test_if_false
     )

@@ -25,13 +25,13 @@ MAYBE: Final = "\2"
 UNPAIRED_HOLE: Final = f"{HOLE}\3{HOLE}"  # a search for a HOLE also finds a UNPAIRED_HOLE, even at the ends of a text
 
 TREE: Final = f"/{ATOM}source"
-"""The root folder of the analysed workspace, whose place on the disk is unknown."""
+"""Placeholder for the root folder of the analysed workspace, whose place on the disk is unknown."""
 BINARY: Final = f"/{ATOM}build"
-"""The build folder of the package, whose place on the disk is unknown."""
+"""Placeholder for the build folder of the package, whose place on the disk is unknown."""
 PREFIX: Final = f"/{ATOM}prefix"
-"""The install prefix of the package, whose place on the disk is unknown."""
+"""Placeholder for the install prefix of the package, whose place on the disk is unknown."""
 OTHER_PACKAGE: Final = f"/{ATOM}package-"
-"""The install prefix of another package of the workspace. The name of this package is appended."""
+"""Start of the placeholder for the install prefix of another package of the workspace. The package name follows."""
 
 LONGEST: Final = 1 << 20
 """Maximum length of a value, in characters.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Type = Literal["str", "int", "float", "bool", "any", "strs", "ints", "floats", "bools"]
 """The requested type of an attribute. ``any`` is the type that YAML infers from the text."""
 
-_make = tuple.__new__  # half the time of the constructor
+_make = tuple.__new__  # takes half the time of the constructor
 
 _SCALARS: Mapping[str, type] = {"str": str, "int": int, "float": float, "bool": bool}
 _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools": bool}
@@ -114,7 +114,7 @@ class Entity:
         source, text = self._source, self._source.text
         if self._spots is not None:
             return self._from_spots(self._spots)
-        # Nearly all attributes are literal, and in the order of the parser, so one pass from line to line suffices.
+        # Nearly all attributes are literal, and in the order of the parser, so one pass over the lines suffices.
         places: dict[str, tuple[Span, bool]] = {}
         at = self.end
         path, line, column, _, _ = source.span(at, at)
@@ -222,7 +222,7 @@ class Entity:
         if self.form == "mapping":
             if self.attributes.get("children") == "":
                 self.read.add("children")
-                return []  # the front end iterates over an empty text as well
+                return []  # launch.frontend iterates over an empty text as well
             if "children" in self.attributes:
                 raise Rejected("wrong-type", f"'children' of <{self.tag}> is not a list of mappings", self.place("children"))
             self._read_children = (self._read_children or set()) | {CHILDREN}
@@ -352,7 +352,7 @@ def _as_yaml(value: str) -> Any:
 
     try:
         output = load(value)
-    except YamlError:  # the front end takes any failure for "not YAML"
+    except YamlError:  # launch.frontend takes any failure for "not YAML"
         return value
     if not _is_valid(output):
         raise ValueError(value)
@@ -366,7 +366,7 @@ _WORDS: Mapping[str, bool] = {
     for word in (plain, plain.capitalize(), plain.upper())
 }
 
-# YAML's result is obvious for these, and importing yaml takes 20 ms.
+# These texts are parsed here, because importing yaml takes 20 ms.
 _INTEGER = re.compile(r"[-+]?(?:0|[1-9][0-9]{0,17})", re.ASCII)
 _DECIMAL = re.compile(r"[-+]?[0-9]+\.[0-9]*", re.ASCII)
 _ITEM = r" *(?:[-+]?(?:0|[1-9][0-9]{0,17})|[-+]?[0-9]+\.[0-9]*|[A-Za-z/$][\w/.$()-]*(?: [\w/.$()-]+)*) *"

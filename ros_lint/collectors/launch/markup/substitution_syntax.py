@@ -45,7 +45,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _ESCAPE = re.compile(r"\\(.)")
 _MAX_DEPTH = 50
 
-# The characters that end a piece, by its context: unquoted, quoted, or an argument inside quotes.
+# The characters that end a literal, by its context: unquoted, quoted, or an argument inside quotes.
 _BARE_STOPS = " '\")("
 _INNER_STOPS = {"'": " ')(", '"': ' ")('}
 _STOPS = {

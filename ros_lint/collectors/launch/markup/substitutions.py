@@ -28,7 +28,7 @@ def texts(pieces: Pieces) -> Texts:
     return joined(rows, "".join)
 
 
-# A substitution without quotes, escapes or nesting, as nearly all are.
+# Nearly all substitutions have no quotes, escapes or nesting.
 _SIMPLE = re.compile(r"""\$\(([A-Za-z][A-Za-z0-9_-]*)((?:[ ][^ '"\\$()]+)*)\)""")
 
 
@@ -60,7 +60,10 @@ def simple_text(value: str) -> str | None:
 
 
 def package_of(pieces: Pieces) -> Pieces:
-    """Return the argument of the first package look-up in a value, such as ``a`` in ``$(find-pkg-share a)``, () if none."""
+    """Return the argument of the first package look-up in a value, such as ``a`` in ``$(find-pkg-share a)``.
+
+    The result is () if the value has no package look-up.
+    """
     for piece in pieces:
         if isinstance(piece, Substitution):
             if piece.name in ("find-pkg-share", "find-pkg-prefix") and piece.arguments:

@@ -209,7 +209,7 @@ def _other(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
         return started_node(walker, launch_object, conditions)
     if launch_object.name in SUBSTITUTIONS:
         return []
-    if launch_object.name.endswith("LaunchDescription"):  # judging by the name, a function that returns one
+    if launch_object.name.endswith("LaunchDescription"):  # the name suggests a function that returns a LaunchDescription
         walker.unknown_launches.append((f"{launch_object.name}() cannot be followed", place_of(launch_object)))
     if _DECLARES.match(launch_object.name):
         (action,) = _declare(walker, launch_object, conditions)

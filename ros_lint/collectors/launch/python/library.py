@@ -65,7 +65,7 @@ def call_library(
         return _create(call, last)
     machine.escape([arguments, keywords])
     if "package" in keywords and "executable" in keywords:
-        _create(call, "Node").escaped = True  # judging by the keywords, a function that creates a node
+        _create(call, "Node").escaped = True  # the keywords suggest a function that creates a node
     return Unknown("" if callee.partition(".")[0] in _STANDARD else f"{last}() cannot be followed")
 
 

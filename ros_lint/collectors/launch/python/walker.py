@@ -268,7 +268,7 @@ def _plain(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 def _guards(texts: Iterable[str], choices: tuple[str, ...]) -> tuple[Conditions, ...]:
-    """Return the conditions of each of ``choices``, which are the distinct ones among ``texts``.
+    """Return the conditions of each of ``choices``, which are ``texts`` without duplicates.
 
     The result is () if there is only one choice, or if no choice has conditions. A choice with different conditions in
     ``texts`` has the conditions ().
