@@ -30,7 +30,7 @@ class Started(NamedTuple):
     kind: str
     """The kind of the started action: ``node``, ``component``, ``process`` or ``include``."""
     package: Texts
-    """Possible packages, () if there is no package. A text with an unknown part is not plain (``launch.is_plain``)."""
+    """Possible packages, () if there is no package. ``launch.is_plain`` returns False for a text with an unknown part."""
     target: Texts
     """Possible values of the executable, the component class, the command line or the path of the included file."""
     name: Texts

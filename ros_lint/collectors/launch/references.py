@@ -289,7 +289,7 @@ class References:
         return tuple(texts), by_default
 
     def _narrow(self, conditions: Iterable[LaunchCondition]) -> None:
-        """Restrict the values of launch configurations to those that conditions such as "configuration equals x" allow."""
+        """Restrict the values of launch configurations to those that ``conditions`` allow, such as "configuration equals x"."""
         for (text, *further_texts), equals, wanted in conditions:
             name = next((name for name, _, symbolic in configurations(text) if symbolic == text), "")
             if name and equals is not None and not further_texts and is_plain(equals):

@@ -38,7 +38,10 @@ _OF_LIBRARY = re.compile(
     r"(?:boost|catch2?|clang|cuda|doctest|doxygen|ecm|flex|bison|gettext|grpc|hip|itk|kde|ki18n|nanobind|protobuf|pybind11"
     r"|python[23]?|qt[4-6]?|sdl|sphinx|swig|vtk|xsdcxx)_"
 )
-"""Pattern of the names of unknown commands of libraries and tools without ROS. They do not export with ament macros."""
+"""Pattern of the names of unknown commands that belong to libraries and tools outside of ROS.
+
+These commands do not call macros such as ament_export_targets().
+"""
 _GENERATES: Final = "rosidl_generate_interfaces"
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 PACKAGE_VARIABLE: Final = re.compile(
     r"\$\{([A-Za-z0-9_+.-]+?)_(?:TARGETS|LIBRARIES|LIBRARY|LIBS|INCLUDE_DIRS?|INCLUDES|DEFINITIONS|LDFLAGS|CFLAGS)\}"
 )
-"""Pattern of a reference to a variable of a found package, such as ``${foo_LIBRARIES}``. The group is the package."""
+"""Pattern of a reference to a variable of a found package, such as ``${foo_LIBRARIES}``. Group 1 is the package name."""
 
 ALL_TARGETS: Final = ""
 """The key, instead of a target name, for arguments of include_directories() and link_libraries() (for all targets)."""

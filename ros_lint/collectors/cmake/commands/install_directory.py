@@ -122,7 +122,7 @@ def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
 def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> None:
     """Record as installed the files that configure_file() wrote to ``value``, a folder in the build folder.
 
-    The files may be incomplete, because the build may write further files to the folder.
+    Some files may be missing in the record, because the build may write further files to the folder.
     """
     plain, certain = strip_mark(value)
     folder = run.paths.build_path(plain)

@@ -143,7 +143,7 @@ def _set_property(run: Run, args: list[str]) -> None:
 
 
 def _get_property(run: Run, args: list[str]) -> None:
-    """Run ``get_property(variable GLOBAL|TARGET t|... PROPERTY name [SET|DEFINED])``: set a variable to a property."""
+    """Run ``get_property(variable GLOBAL|TARGET t|... PROPERTY name [SET|DEFINED])``: assign a property to a variable."""
     if len(args) < 4 or "PROPERTY" not in args[:-1] or HOLE in args[0]:
         return
     name = args[args.index("PROPERTY") + 1]

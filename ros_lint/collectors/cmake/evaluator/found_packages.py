@@ -60,7 +60,7 @@ class FoundPackages:
         return next((name for name in names if self.prefixes[name]), names[0] if names else "")
 
     def _folded_prefixes(self) -> Mapping[str, Sequence[str]]:
-        """Return the prefixes of variables by their name without case, ``_`` and ``-``. New prefixes are added to the index."""
+        """Return the known prefixes of variables, grouped by their form in lower case without ``_`` and ``-``."""
         if len(self.prefixes) != self._indexed:
             for name in islice(self.prefixes, self._indexed, None):
                 letters = folded(name)

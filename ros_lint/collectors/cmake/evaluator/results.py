@@ -35,7 +35,7 @@ class Results:
         self.links: dict[str, dict[str, Span]] = {}
         """By target: the linked libraries, each with the place of the library in the link command."""
         self.headers: dict[str, dict[str, None]] = {}
-        """By target: the packages and targets that may provide include directories for it."""
+        """By target: the packages and targets from which the target may get include directories."""
         self.modified_targets: dict[tuple[str, str], Span] = {}
         """By target and command name: the place of the first command that certainly modifies the target."""
         self.undefined_targets: list[tuple[str, Span, bool]] = []

@@ -74,7 +74,10 @@ def either(left: Truth, right: Truth) -> Truth:
 
 
 def reversible(value: int) -> int:
-    """Return LIKELY for TRUE and UNLIKELY for FALSE, because an option of the user can reverse the condition; else ``value``."""
+    """Return the truth value of a condition that a user option can reverse: LIKELY for TRUE, UNLIKELY for FALSE.
+
+    Any other ``value`` is returned unchanged.
+    """
     return {TRUE: LIKELY, FALSE: UNLIKELY}.get(value, value)
 
 

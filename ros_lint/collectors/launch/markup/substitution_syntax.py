@@ -52,7 +52,7 @@ _STOPS = {
     stops: re.compile(rf"[\\$(){stops}]" if stops not in ("", "'", '"') else rf"[\\${stops}]")
     for stops in ("", "'", '"', _BARE_STOPS, *_INNER_STOPS.values())
 }
-"""Patterns that find the next special character: a backslash, a dollar sign, or the end of the literal."""
+"""By the characters that end a literal: the pattern of such a character, a backslash or a dollar sign."""
 
 
 def parse(text: str) -> tuple[Piece, ...]:

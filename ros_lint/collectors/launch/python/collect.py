@@ -174,7 +174,7 @@ class _Interpretation:
     def configurations_read(self) -> tuple[str, ...]:
         """Return the names of the launch configurations that the file reads, sorted.
 
-        UNKNOWN is among the names if the file may read further configurations.
+        UNKNOWN is among the names if the file may read further configurations, for example with a computed name.
         """
         evaluation = TextEvaluation()
         names = {

@@ -55,7 +55,7 @@ def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction
 
 
 def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[LaunchAction]:
-    """Return the actions in the arguments ``names`` of a launch object, which run at an event: ``on_exit=[action]``.
+    """Return the actions in the arguments ``names`` of an object such as a Node, which run at an event: ``on_exit=[action]``.
 
     Each argument may also be a function that returns the actions.
     """

@@ -125,7 +125,10 @@ def _started(
 
 
 def _is_passed_by_caller(value: Value) -> bool:
-    """Return whether a text in the model of a helper function is an argument of its call, so its place is in the file."""
+    """Return whether the launch file passed a text to a helper function.
+
+    Otherwise, the text comes from ros-lint's model of the helper function.
+    """
     return all(
         isinstance(alternative.value, Written) and not alternative.value.source.lent for alternative in alternatives(value)
     )
@@ -166,8 +169,8 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
     """Return the texts in the arguments ``names`` of a node, which are lists or dictionaries, and in ``prefix`` and ``cwd``.
 
-    Each text has a name: "" in ``arguments`` and ``ros_arguments``, the variable (``$A``) in an environment dictionary, else
-    the name of the argument.
+    Each text is paired with a name: "" in ``arguments`` and ``ros_arguments``, the variable (``$A``) in a dictionary of
+    environment variables, else the name of the argument.
     """
     result: list[tuple[str, LaunchValue]] = []
     for name in names:

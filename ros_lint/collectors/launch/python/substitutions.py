@@ -169,7 +169,7 @@ def _join(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str,
 def _logic(name: str) -> Callable[[LaunchObject, TextEvaluation], tuple[str, ...]]:
     """Return the function that converts a logical substitution, such as AndSubstitution, to its possible texts.
 
-    A text is the call of the function ``name`` of ``ros_lint.collectors.launch.expressions``.
+    Each text is a call of the function ``name`` in ``ros_lint.collectors.launch.expressions``, such as ``_and(a, b)``.
     """
 
     def read(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:

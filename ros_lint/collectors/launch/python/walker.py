@@ -182,7 +182,7 @@ class Walker:
             self.unknown_launches.append((reason, at or file_start(self._source.text.path)))
 
     def value(self, launch_object: LaunchObject, position: int, *names: str, absent: str = UNKNOWN) -> LaunchValue | None:
-        """Return the possible texts of an argument of a launch object, None if the argument is missing.
+        """Return the possible texts of an argument of a launch object (such as a Node), None if the argument is missing.
 
         An argument that unknown ``**keywords`` may contain has the text UNKNOWN. ``absent`` is the text of an alternative
         that is None, as in ``name="a" if condition else None``.
@@ -195,7 +195,7 @@ class Walker:
         return self.text(argument, launch_object.written(position, *names), launch_object.source)
 
     def unknown(self, launch_object: LaunchObject) -> LaunchValue:
-        """Return the value of an argument of a launch object if the argument is entirely unknown."""
+        """Return the value that represents an unknown argument of a launch object (such as a Node)."""
         return LaunchValue((UNKNOWN,), place_of(launch_object))
 
     def text(self, value: Value, node: ast.expr, source: Source) -> LaunchValue:
