@@ -1,7 +1,7 @@
-"""Data about released ROS 2 packages: distributions, rosdep keys and name maps.
+"""Data about released ROS 2 packages: indexes of distributions, rosdep keys, and maps from names to packages.
 
-The data are shipped with ros-lint and dated. Data that ``ros-lint index refresh`` wrote to the user's data folder
-override them. Each file is read at its first use. Formats and accuracy: docs/knowledge.md.
+The data are shipped with ros-lint and have a date. Data that ``ros-lint index refresh`` wrote to the user's data folder
+override them. Each file is read when it is first needed. Formats and accuracy: docs/knowledge.md.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class RosDistribution(NamedTuple):
-    """A ROS 2 distribution for which there is an index of packages."""
+    """A ROS 2 distribution whose package index is in the data."""
 
     name: str
     long_term: bool
@@ -31,16 +31,20 @@ class RosDistribution(NamedTuple):
 
 
 def distros(places: Sequence[str] = ()) -> tuple[RosDistribution, ...]:
-    """Return the distributions with an index, oldest first, rolling last.
+    """Return the distributions with a package index, oldest first, rolling last.
 
-    ``places`` are folders that override the shipped data, e.g. :func:`ros_lint.knowledge.store.user_directory`.
+    ``places`` are folders whose data files override the shipped ones, e.g.
+    :func:`ros_lint.knowledge.store.user_directory`.
     """
     names = sorted(Store(places).names(".idx"), key=lambda name: name == "rolling")
     return tuple([RosDistribution(name, name != "rolling" and _is_long_term(name)) for name in names])
 
 
 def newest_lts(places: Sequence[str] = ()) -> str:
-    """Return the newest long-term support release with an index. ``places`` are folders with data as for :func:`distros`."""
+    """Return the newest long-term support release with a package index.
+
+    ``places`` are folders with data as in :func:`distros`.
+    """
     return [distro.name for distro in distros(places) if distro.long_term][-1]
 
 
@@ -53,7 +57,7 @@ def _is_long_term(name: str) -> bool:
 
 
 class _DataFiles:
-    """The contents of the data files about all distributions. Each file is read at its first use."""
+    """The parsed data files of all distributions. Each file is read when it is first needed."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
@@ -80,14 +84,14 @@ class _DataFiles:
 
     @cached_property
     def distros(self) -> tuple[str, ...]:
-        """All distributions with an index, oldest first."""
+        """All distributions with a package index, oldest first."""
         return tuple(distro.name for distro in distros(self._store.places))
 
 
 class Knowledge:
-    """The data about one distribution, with look-ups in the data about other distributions.
+    """The data about one distribution, with look-ups in the data of other distributions.
 
-    Each look-up may raise KnowledgeError if a data file is damaged. For a distribution without an index,
+    Each look-up raises KnowledgeError if a data file is damaged. For a distribution without a package index,
     :attr:`covered` is False and all look-ups of packages are empty.
     """
 
@@ -99,25 +103,28 @@ class Knowledge:
         self._supplemented: dict[tuple[str, str, ContentKind], Known] = {}
 
     def of(self, distro: str) -> Knowledge:
-        """Return the data about another distribution. Files that are read for both are read once."""
+        """Return the data about another distribution. It shares the parsed data files with this object."""
         other = Knowledge(distro)
         other._data = self._data
         return other
 
     @property
     def covered(self) -> bool:
-        """True if the distribution has an index."""
+        """True if the distribution has a package index."""
         return len(self.index) > 0
 
     @property
     def distributions(self) -> Mapping[str, bool]:
-        """Return all distributions by name, with whether each has an index: those at their end of life mostly have none."""
+        """All known distributions by name.
+
+        The value is True if the distribution has a package index; most ended ones have none.
+        """
         ended = dict.fromkeys([name.rpartition(" ")[2].lower() for name in names.END_OF_LIFE.values()], False)
         return {**ended, **dict.fromkeys(self._order, True)}
 
     @property
     def date(self) -> str:
-        """Date of the index as YYYY-MM-DD, or ""."""
+        """Date of the package index as YYYY-MM-DD, "" if there is no index."""
         date: str = self.index.date
         return date
 
@@ -126,12 +133,13 @@ class Knowledge:
         return self._data.index(self.distro)
 
     def provided(self, package: str, kind: ContentKind) -> Known:
-        """Return the names of one kind, such as executables, that a released package provides, as far as they are known.
+        """Return the known names of one kind, such as executables, that a released package provides.
 
-        If the sources of the release were not read, the lists of earlier and later distributions are used. A name in
-        any of them may exist. Other names are missing if one earlier and one later list are complete, because nearly
-        no name exists in a middle distribution only: of packages whose sources were read for three distributions, 0
-        of 995 executables, 0 of 304 components, 0 of 1,182 plugins, 2 of 772 launch files and 4 of 1,855 interfaces.
+        If the sources of the release were not read, the lists of earlier and later distributions are used. A name in any
+        of these lists may exist. Other names are missing if one earlier and one later list are complete, because nearly
+        no name exists in a middle distribution only. Of packages whose sources were read for three distributions, this
+        holds for 0 of 995 executables, 0 of 304 components, 0 of 1,182 plugins, 2 of 772 launch files and 4 of 1,855
+        interfaces.
         """
         return self._provided(self.distro, package, kind)
 
@@ -145,7 +153,7 @@ class Knowledge:
         return self._supplemented[key]
 
     def _neighbours(self, distro: str, package: str, kind: ContentKind) -> tuple[list[Known], list[Known]]:
-        """Return the names of one kind that a package provides: a list for each distribution before ``distro``, and after it."""
+        """Return the names of one kind in a package: for each distribution before ``distro``, and for each after it."""
         at = self._order.index(distro)
         parts = self._order[:at], self._order[at + 1 :]
         before, after = ([self._provides(name).known(package, kind) for name in part] for part in parts)
@@ -164,12 +172,12 @@ class Knowledge:
 
     @cached_property
     def others(self) -> tuple[Index, ...]:
-        """Indexes of the other distributions, oldest first."""
+        """Package indexes of the other distributions, oldest first."""
         return tuple(self._data.index(distro) for distro in self._order if distro != self.distro)
 
     @property
     def _order(self) -> tuple[str, ...]:
-        """All distributions with an index, oldest first."""
+        """All distributions with a package index, oldest first."""
         return self._data.distros
 
     def _index(self, distro: str) -> Index:
@@ -186,17 +194,17 @@ class Knowledge:
         return distributions
 
     def may_exist_elsewhere(self, package: str, kind: ContentKind, name: str) -> bool:
-        """Return whether a package may provide ``name``, a name of one kind such as an executable, in any other distribution."""
+        """Return whether a package may provide ``name``, a name of a kind such as "executables", in any other distribution."""
         return any(contents.ask(name) != "missing" for contents in self.known_elsewhere(package, kind))
 
     def known_elsewhere(self, package: str, kind: ContentKind) -> tuple[Known, ...]:
-        """Return the names of one kind that a package provides: an entry for every other distribution with the package."""
+        """Return the names of a kind that a package provides, with one entry for each other distribution with the package."""
         return tuple([self._provided(entry.distro, package, kind) for entry in self._indexes_with(package)])
 
     def provides_elsewhere(self, package: str, name: str) -> bool | None:
-        """Return whether ``name`` is a transitive dependency of a package in any other distribution.
+        """Return whether ``name`` is a transitive dependency of ``package`` in any other distribution.
 
-        None if no other distribution contains the package, or if the name is unknown there.
+        Return None if no other distribution contains the package, or if ``name`` is unknown in those that do.
         """
         distributions = self._indexes_with(package)
         is_known = name in self.rosdep or any(distribution in distributions for distribution in self._indexes_with(name))
@@ -218,14 +226,14 @@ class Knowledge:
 
     @property
     def active(self) -> tuple[str, ...]:
-        """Active distributions with an index, oldest first."""
+        """Distributions before their end of life, with a package index, oldest first."""
         return self._order
 
     def rosdep_resolves(self, name: str, distro: str) -> bool:
-        """Return whether ``rosdep install`` resolves a name in a distribution, as a released package or as a key.
+        """Return whether ``rosdep install`` resolves a name in a distribution, as a released package or as a rosdep key.
 
-        ``distro`` is an active distribution or the distribution of this object. If the platforms of the distribution are
-        unknown, all keys count as resolved.
+        ``distro`` is the distribution of this object, or another one with a package index. If the platforms of the
+        distribution are unknown, all rosdep keys count as resolved.
         """
         if self._index(distro).releases(name):
             return True
@@ -233,13 +241,13 @@ class Knowledge:
 
     @property
     def platform(self) -> str:
-        """First platform of the distribution, such as "ubuntu:noble", or "" if unknown."""
+        """First platform of the distribution, such as "ubuntu:noble"; "" if unknown."""
         return next(iter(PLATFORMS.get(self.distro, ())), "")
 
     def distros_resolving(self, key: str) -> tuple[str, ...]:
-        """Return the distributions for which a rosdep key resolves, oldest first."""
+        """Return the distributions on whose platforms a rosdep key resolves, oldest first."""
         return tuple(distro for distro in self._data.distros if self.rosdep.resolves(key, distro))
 
     def resolves(self, key: str) -> bool | None:
-        """Return whether a rosdep key has a rule for a platform of the distribution; None if unknown."""
+        """Return whether a rosdep key has a rule for a platform of the distribution; None if either is unknown."""
         return self.rosdep.resolves(key, self.distro)

@@ -1,23 +1,26 @@
-"""Names that the language or the build tool provides, so that no package has to be declared for them."""
+"""Names that Python, the C++ tool chain or CMake provide, so that a manifest need not declare a package for them."""
 
 from __future__ import annotations
 
 from ros_lint.collectors.python.versions import PYTHON_OF, STANDARD_LIBRARY
 
 _SEPARATE_MODULES = frozenset({"tkinter"})
-"""Modules that Debian and Ubuntu ship in separate packages."""
+"""Modules of Python's standard library that Debian and Ubuntu ship in packages other than that of Python."""
 PYTHON_MODULES = STANDARD_LIBRARY - _SEPARATE_MODULES
 """Top-level modules of Python's standard library in any version from 3.10 to 3.14, without ``_SEPARATE_MODULES``."""
 
 _REMOVED_MODULES = {"distutils": ((3, 12), "python3-setuptools")}
-"""Modules that Python removed: the first version without the module, and the rosdep key that brings a replacement.
+"""Modules that Python removed: for each, the first version without the module, and the rosdep key of a replacement.
 
-``distutils``: PEP 632; setuptools installs a replacement under the same name (``distutils-precedence.pth``).
+``distutils`` was removed by PEP 632; setuptools installs a module of the same name (``distutils-precedence.pth``).
 """
 
 
 def replacement_key(module: str, distro: str) -> str:
-    """Return the rosdep key for a top-level module that was removed from the Python of a distribution, else ""."""
+    """Return the rosdep key of the replacement for a top-level module that Python removed, "" if there is none.
+
+    The result is also "" if the Python version of the distribution still has the module.
+    """
     version, key = _REMOVED_MODULES.get(module, ((0, 0), ""))
     return key if key and PYTHON_OF.get(distro, (0, 0)) >= version else ""
 
@@ -36,7 +39,7 @@ osgDB osgFX osgGA osgIntrospection osgManipulator osgParticle osgPresentation os
 osgTerrain osgText osgUtil osgViewer osgVolume osgWidget osg_functions
 """
 CMAKE_MODULES = frozenset(_CMAKE_MODULES.split())
-"""Names of the find modules of CMake 3.25 and 4.4. Many of them find a library for which there is a rosdep key."""
+"""Names of the find modules of CMake 3.25 and 4.4. Many of these modules find a library for which there is a rosdep key."""
 
 _CXX_HEADERS = """
 algorithm any array atomic barrier bit bitset cassert ccomplex cctype cerrno cfenv cfloat charconv chrono cinttypes
@@ -64,4 +67,4 @@ CXX_HEADERS = frozenset(_CXX_HEADERS.split())
 
 _FOLDERS = "sys linux net netinet netpacket arpa asm asm-generic bits gnu rpc scsi experimental ext parallel tr1 mach"
 SYSTEM_HEADER_FOLDERS = frozenset(_FOLDERS.split())
-"""First folders in the paths of headers that a C or C++ tool chain provides."""
+"""First folders in the paths of headers that a C or C++ tool chain provides, e.g. "sys" in ``sys/types.h``."""

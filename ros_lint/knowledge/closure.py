@@ -1,8 +1,8 @@
 """Transitive closures of the dependencies of packages, each computed once.
 
-A package provides the names of its run-time and exported dependencies: a dependent of the package gets them, too.
-A closure is an integer with a bit for each name. A workspace of 850 packages needs 850 closures of some hundred names,
-and as sets of strings they would take as much time as reading all its files.
+A package provides the names of its run-time and exported dependencies: a package that depends on it can use these, too. A
+closure is stored as an integer with a bit for each name. A workspace of 850 packages needs 850 closures of some hundred
+names, and sets of strings would take as much time as reading all files of the workspace.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Closure:
-    """A set of package names and rosdep keys, together with all names that these provide transitively.
+    """A set of package names and rosdep keys, together with all names that these provide directly or indirectly.
 
     ``x in closure`` is as fast as in a set.
     """
@@ -41,24 +41,24 @@ class Closure:
         return frozenset(self._reach.expand(self._bits))
 
     def difference(self, other: Closure) -> Iterator[str]:
-        """Yield the names of this closure that ``other`` lacks. Both belong to the same Reach."""
+        """Yield the names of this closure that are not in ``other``. Both closures must be created by the same Reach object."""
         return self._reach.expand(self._bits & ~other._bits)
 
     @property
     def complete(self) -> bool:
-        """True if the dependencies of each name are known, so that no name is missing."""
+        """True if the dependencies of every name in the closure are known, so that no name can be missing."""
         return not self._bits & self._reach.unknown
 
     @property
     def unknown(self) -> tuple[str, ...]:
-        """Names whose dependencies are unknown, sorted."""
+        """Names in the closure whose own dependencies are unknown, sorted."""
         return tuple(sorted(self._reach.expand(self._bits & self._reach.unknown)))
 
 
 class Reach:
-    """The graph of the names that packages and rosdep keys provide: their run-time and exported dependencies.
+    """The graph from which closures are computed: the run-time and exported dependencies of packages and rosdep keys.
 
-    ``provided_by`` returns the names that a package or key provides directly, None if unknown.
+    ``provided_by`` is a function that returns the direct dependencies of a package or key, None if they are unknown.
     """
 
     def __init__(self, provided_by: Callable[[str], tuple[str, ...] | None]) -> None:
@@ -70,7 +70,7 @@ class Reach:
         self.unknown = 0
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return the given names with all names that they provide transitively."""
+        """Return the closure of the given names: these names and all names that they provide directly or indirectly."""
         bits = 0
         for name in names:
             known_bits = self._bits.get(name)
@@ -99,7 +99,7 @@ class Reach:
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
         """Return a shortest path from one of ``starts`` to ``goal``, with both ends; () if there is none.
 
-        Of several shortest paths, the first one is returned in the order of ``starts`` and of ``provided_by``.
+        Of several shortest paths, the first is returned in the order of ``starts`` and of the results of ``provided_by``.
         """
         first = tuple(dict.fromkeys(starts))
         if goal in first:
@@ -142,9 +142,9 @@ class Reach:
         return followers
 
     def _explore(self, root: str) -> int:
-        """Return the closure of ``root`` as bits, and store it with the closures of all names that ``root`` provides.
+        """Return the closure of ``root`` as bits. Also store it, with the closures of all names that ``root`` provides.
 
-        The names of a cycle share one closure. The algorithm is Tarjan's, without recursion.
+        The names in a cycle share one closure. The algorithm is that of Tarjan, without recursion.
         """
         finished = self._bits
         low: dict[str, int] = {}

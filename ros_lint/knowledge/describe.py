@@ -1,4 +1,4 @@
-"""Describe a manifest as an entry of the package index."""
+"""Convert a package manifest to an entry of the package index."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 def context(distro: str) -> Mapping[str, str]:
-    """Return the values of variables in conditions of manifests, as bloom sets them for a release in ``distro``."""
+    """Return the values of the variables in manifest conditions that bloom uses for a release in the distribution ``distro``."""
     return {**ROS_2, "ROS_DISTRO": distro}
 
 
 def describe(manifest: Manifest, known_variables: Mapping[str, str]) -> Released:
-    """Return the entry of the package index for a manifest. Unknown variables in conditions are empty, as in all tools.
+    """Return the package index entry for a manifest. Unknown variables in conditions count as empty, as in all ROS tools.
 
-    The entry has the name in the manifest; the name of the folder or of the release may differ.
+    The name of the entry is the name in the manifest. The name of the folder or of the release may differ.
     """
     depends: dict[str, set[str]] = {}
     interfaces = False
@@ -46,7 +46,7 @@ def describe(manifest: Manifest, known_variables: Mapping[str, str]) -> Released
 
 
 def holds(condition: str, known_variables: Mapping[str, str]) -> bool:
-    """Return whether a condition (REP 149) is true if unknown variables are empty. An invalid condition is true."""
+    """Return whether a condition (REP 149) is true if unknown variables are empty. Return True for an invalid condition."""
     if not condition:
         return True
     try:

@@ -1,7 +1,7 @@
 """The index of the packages of a distribution, and its file format (``.idx``; docs/knowledge.md).
 
-A package has one line: name, version, flags and repository, then a field for each set of dependency kinds with the names
-that are declared with just these kinds.
+Each package has one line with tab-separated fields: name, version, flags and repository, then a field for each set of
+dependency kinds. Such a field has the letters of the kinds, and the names that are declared with exactly these kinds.
 
 Example: ``rclcpp_action<TAB>28.1.9<TAB>c<TAB>rclcpp<TAB>bex:action_msgs rclcpp<TAB>t:ament_cmake_ros``
 """
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 KINDS = "bteuxsd"
-"""Letters of build, buildtool, build_export, buildtool_export, exec, test and doc, in their order in a set."""
+"""Letters of the dependencies build, buildtool, build_export, buildtool_export, exec, test and doc, in the order of a field."""
 
 RUNTIME = frozenset("eux")
-"""Kinds of dependencies that a package provides transitively to its dependents."""
+"""Letters of the dependency kinds that also apply to the dependents of a package: build_export, buildtool_export and exec."""
 
 BUILD_TYPES: Mapping[str, str] = {
     "c": "ament_cmake",
@@ -44,27 +44,28 @@ class Released(NamedTuple):
     version: str
     """Version of the release."""
     flags: str
-    """Letter of the build type, followed by flags.
+    """Letter of the build type (a key of BUILD_TYPES), followed by letters for properties.
 
-    i interface package, m metapackage, D deprecated, E repository at its end of life, U listed but not released,
-    ``-`` only the name is known, ``~`` dependencies may be of an older version.
+    ``i`` interface package, ``m`` metapackage, ``D`` deprecated, ``E`` repository at its end of life, ``U`` listed in the
+    distribution file but not released, ``-`` only the name is known, ``~`` the dependencies may be those of an older
+    version.
     """
     repository: str
-    """Name of the repository."""
+    """Name of the repository that contains the package."""
     depends: Mapping[str, tuple[str, ...]]
-    """Sorted names by letter: a letter of KINDS for dependencies, ``M`` for groups that it is a member of, ``G`` for groups.
+    """Sorted names by letter: letters of KINDS for dependencies, ``M`` for groups with this package, ``G`` for required groups.
 
     b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc.
     """
 
     @property
     def build_type(self) -> str:
-        """Build type: ament_cmake, ament_python, cmake ..., or "" if unknown."""
+        """Build type such as "ament_cmake", "ament_python" or "cmake"; "" if unknown."""
         return BUILD_TYPES.get(self.flags[:1], "")
 
     @property
     def described(self) -> bool:
-        """True if the dependencies are known."""
+        """True if the dependencies of the package are known."""
         return not {"-", "U"} & set(self.flags)
 
     @property
@@ -74,16 +75,16 @@ class Released(NamedTuple):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Groups that the package is a member of, including the group of interface packages."""
+        """Dependency groups (REP 149) that the package is a member of, including the group of interface packages."""
         return (*self.depends.get("M", ()), *((GROUP,) if self.interfaces else ()))
 
     def on(self, kinds: Iterable[str]) -> tuple[str, ...]:
-        """Return the dependencies of any of these kinds (letters of KINDS), sorted."""
+        """Return the dependencies of the given kinds (letters of KINDS), sorted."""
         return tuple(sorted({name for kind in kinds for name in self.depends.get(kind, ())}))
 
 
 def parse(fields: list[str]) -> Released:
-    """Return the package in a line, given its tab-separated fields. Raises ValueError if they are invalid."""
+    """Return the index entry in a line, given its tab-separated fields. Raises ValueError if the fields are invalid."""
     name, version, flags, *rest = fields
     repository, *sets = rest or [""]
     depends: dict[str, tuple[str, ...]] = {}
@@ -98,7 +99,7 @@ def parse(fields: list[str]) -> Released:
 
 
 def render(package: Released) -> str:
-    """Return the line of a package without line end. The inverse of :func:`parse`, except for the order of names."""
+    """Return the line of an index entry, without line end. The inverse of :func:`parse`, except for the order of names."""
     kinds_of: dict[str, str] = {}
     for kind in KINDS:
         for name in package.depends.get(kind, ()):
@@ -117,14 +118,17 @@ def render(package: Released) -> str:
 
 
 def render_file(distro: str, commit: str, date: str, packages: Iterable[Released]) -> str:
-    """Return the contents of an ``.idx`` file. ``date`` is the date of the data, as in 2026-08-22."""
+    """Return the contents of an ``.idx`` file.
+
+    ``commit`` is that of rosdistro, ``date`` the date of the data, as in 2026-08-22.
+    """
     lines = sorted(render(package) for package in packages)
     head = f"#ros-index 1 distro={distro} rosdistro={commit or 'unknown'} date={date} packages={len(lines)}"
     return "\n".join([head, *lines, ""])
 
 
 class Index(Entries[Released]):
-    """The packages of one distribution."""
+    """The package index of one distribution."""
 
     def __init__(self, distro: str, head: str, table: Table) -> None:
         super().__init__(table, parse)
@@ -135,12 +139,12 @@ class Index(Entries[Released]):
         self._reach = Reach(self.runtime)
 
     def releases(self, name: str) -> bool:
-        """Return whether a package is released. Some are only listed in the distribution file, without a release."""
+        """Return whether a package is released. Some packages are listed in the distribution file without a release."""
         row = self._table.row(name)
         return row is not None and (len(row) < 3 or "U" not in row[2])
 
     def members(self, group: str) -> Iterator[str]:
-        """Yield the members of a group, sorted."""
+        """Yield the names of the packages that are members of a dependency group (REP 149), sorted."""
         # Few lines name a group, and parsing all of them takes long. Membership in the group of interface packages is
         # the flag i, because a sixth of all packages has it.
         lines = self._table.lines() if group == GROUP else self._grouped
@@ -152,11 +156,11 @@ class Index(Entries[Released]):
 
     @cached_property
     def _grouped(self) -> list[str]:
-        """Lines of packages that are members of groups."""
+        """Lines of the packages that are members of a dependency group, without the group of interface packages."""
         return [line for line in self._table.lines() if "\tM:" in line]
 
     def declared_as(self, name: str) -> Mapping[str, int]:
-        """Return how many packages declare a name with each set of kinds: {"t": 12, "bex": 1}."""
+        """Return how many packages declare ``name``, by the set of dependency kinds: {"t": 12, "bex": 1}."""
         counts: dict[str, int] = {}
         for kinds in self._declared.get(name, ()):
             counts[kinds] = counts.get(kinds, 0) + 1
@@ -164,9 +168,9 @@ class Index(Entries[Released]):
 
     @cached_property
     def _declared(self) -> Mapping[str, list[str]]:
-        """The sets of dependency kinds with which packages declare each name, by name: one item for each declaring package.
+        """For each name, the dependency kinds of its declarations, e.g. ["t", "bex"]: one item for each declaring package.
 
-        To collect them for all names takes 7 ms; for a single name it would take 0.3 ms.
+        All names are collected at once in 7 ms; one name alone would take 0.3 ms.
         """
         kinds_of: defaultdict[str, list[str]] = defaultdict(list)
         for line in self._table.lines():
@@ -178,7 +182,7 @@ class Index(Entries[Released]):
         return kinds_of
 
     def count_providers(self, name: str, most: int) -> int:
-        """Return how many packages provide a name transitively. Counting stops above ``most``."""
+        """Return how many packages provide a name directly or indirectly. Counting stops when it exceeds ``most``."""
         providers = {name}
         queue = [name]
         for provided in queue:
@@ -199,20 +203,20 @@ class Index(Entries[Released]):
         return providers
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return ``names`` together with all names that they provide transitively, through run-time and exported dependencies."""
+        """Return the closure of ``names``: with all their direct and indirect run-time and exported dependencies."""
         return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:
-        """Return the names that a package provides directly: run-time and exported dependencies, without groups.
+        """Return the run-time and exported dependencies of a package, without groups; None if they are unknown.
 
-        None if unknown. This is much faster than :meth:`get`, because it parses no other field.
+        This is much faster than :meth:`get`, because no other field is parsed.
         """
         row = self._table.row(name)
         return None if row is None else _runtime(row)
 
 
 def _runtime(row: list[str]) -> tuple[str, ...] | None:
-    """Return the names that a package provides directly, from the fields of its line in the index; None if unknown."""
+    """Return the run-time and exported dependencies of a package from the fields of its line in the index; None if unknown."""
     if len(row) < 3 or "-" in row[2] or "U" in row[2]:
         return None
     result: list[str] = []
@@ -227,7 +231,7 @@ _HEAD = re.compile(r"(\w+)=(\S+)")
 
 
 def load(store: Store, distro: str) -> Index:
-    """Return the index of a distribution: empty and without date if there is none.
+    """Return the package index of a distribution. If there is no file, the index is empty and its date is "".
 
     Raises KnowledgeError if the file is damaged.
     """

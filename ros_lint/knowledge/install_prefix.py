@@ -1,6 +1,6 @@
-"""Read an install prefix: a folder with the layouts of ament, colcon and setuptools.
+"""Read an install prefix: a folder such as /opt/ros/jazzy, with the folders that ament, colcon and setuptools create.
 
-Missing and unreadable files never raise, because an incomplete prefix is still useful.
+A missing or unreadable file raises no error, because an incomplete prefix is still useful.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ _LAUNCH_CONTENT = {
 }
 _LAUNCH_CONTENT[".yml"] = _LAUNCH_CONTENT[".yaml"]
 _CONFIGURATION = re.compile(r"(.+)(?:Config|-config)\.cmake")
-"""The file with which find_package() finds a CMake package in config mode."""
+"""Pattern of the file with which find_package() finds a CMake package in config mode, e.g. "rclcppConfig.cmake"."""
 _OTHER_SUFFIXES = (".egg-info", ".dist-info", ".pth", ".egg-link")
 
 
 class InstallPrefix:
-    """An install prefix in a tree. ``single`` is True if only one package is installed in it and owns all its files."""
+    """An install prefix at the path ``root`` of a tree. ``single`` is True if all its files belong to one package."""
 
     def __init__(self, tree: Tree, root: str, *, single: bool = False) -> None:
         self._tree = tree
@@ -42,11 +42,11 @@ class InstallPrefix:
         self.single = single
 
     def marked_single(self) -> InstallPrefix:
-        """Return this prefix with ``single`` set if it contains exactly one package."""
+        """Return this prefix, with ``single`` True if it contains exactly one package."""
         return InstallPrefix(self._tree, self.root, single=len(self.packages) == 1)
 
     def read(self, path: str) -> bytes | None:
-        """Return the bytes of a file by its path in the prefix, None if it cannot be read."""
+        """Return the bytes of the file at a path relative to the prefix, None if it cannot be read."""
         try:
             return self._tree.read(join(self.root, path))
         except OSError:
@@ -54,26 +54,26 @@ class InstallPrefix:
 
     @property
     def layout(self) -> str:
-        """Layout of the prefix as marked by colcon, "isolated" or "merged", else ""."""
+        """Layout of the prefix as recorded by colcon: "isolated" or "merged"; "" if colcon recorded none."""
         return (self.read(".colcon_install_layout") or b"").decode("ascii", "replace").strip()
 
     @property
     def indexed(self) -> bool:
-        """True if there is an ament index, even an empty one."""
+        """True if the prefix has an ament index, even an empty one."""
         return self._exists("share/ament_index")
 
     @cached_property
     def packages(self) -> tuple[str, ...]:
-        """Packages with a manifest or an entry in the index of ament or colcon, sorted."""
+        """Names of the packages with a manifest or with an entry in the index of ament or colcon, sorted."""
         names = {name for name, _ in self._list("share") if self._exists(f"share/{name}/package.xml")}
         names.update(name for name, _ in self._list(f"{_INDEX}/packages"))
         names.update(name for name, _ in self._list("share/colcon-core/packages"))
         return tuple(sorted(names))
 
     def recorded_dependencies(self, package: str) -> tuple[str, ...] | None:
-        """Return the run-time dependencies that ament or colcon recorded at build time, sorted; None without a record.
+        """Return the run-time dependencies of a package that ament or colcon recorded in the build, sorted; None if none did.
 
-        A record of ament includes test dependencies.
+        The record of ament includes test dependencies.
         """
         by_ament = f"{_INDEX}/package_run_dependencies/{package}"
         by_colcon = f"share/colcon-core/packages/{package}"
@@ -84,7 +84,7 @@ class InstallPrefix:
         return None
 
     def executables(self, package: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the names of executables in lib/<package>, and the names of broken links in it, each sorted.
+        """Return the names of the executables in lib/<package>, and the names of broken links in this folder, each sorted.
 
         Subfolders are left out, because launch_ros does not search them.
         """
@@ -100,15 +100,15 @@ class InstallPrefix:
 
     @property
     def programs(self) -> tuple[str, ...]:
-        """Names of programs in bin, sorted."""
+        """Names of the files in bin, sorted."""
         return tuple(name for name, kind in self._list("bin") if kind == "file")
 
     def share_files(self, package: str) -> tuple[str, ...]:
-        """Return the paths of the files in share/<package>, relative to this folder, sorted."""
+        """Return the paths of the files in share/<package>, relative to share/<package>, sorted."""
         return tuple(sorted(self._walk(f"share/{package}", "")))
 
     def launch_files(self, package: str) -> tuple[str, ...]:
-        """Return the paths of the launch files in share/<package>, relative to this folder, sorted.
+        """Return the paths of the launch files in share/<package>, relative to share/<package>, sorted.
 
         A launch file is recognized by a name that ``ros2 launch`` completes, or by its contents.
         """
@@ -141,10 +141,7 @@ class InstallPrefix:
 
     @cached_property
     def modules(self) -> Mapping[str, tuple[str, ...]]:
-        """The top-level Python modules by name, each with a tuple that contains the package of the module.
-
-        The tuple is empty if the package is unknown.
-        """
+        """The packages of each installed top-level Python module, by the name of the module; () if the package is unknown."""
         owners: dict[str, tuple[str, ...]] = {}
         for folder in self._python_folders():
             entries = self._list(folder)
@@ -164,7 +161,7 @@ class InstallPrefix:
         return owners
 
     def header_owners(self, path: str) -> tuple[str, ...]:
-        """Return the packages that install a header in include/ or include/<package>/."""
+        """Return the packages that install the header ``path`` in include/ or include/<package>/."""
         first = path.partition("/")[0]
         if self.single:
             (package,) = self.packages
@@ -175,7 +172,7 @@ class InstallPrefix:
         return tuple(name for name in self._include_folders.get(first, ()) if self._exists(f"include/{name}/{path}"))
 
     def cmake_names(self) -> Iterator[tuple[str, str]]:
-        """Yield the name of each CMake package, and the ROS package that installs it."""
+        """Yield pairs of the name of an installed CMake package and the ROS package that installs it."""
         for package in self.packages:
             places = [f"share/{package}/cmake"]
             if self.single:
@@ -185,7 +182,7 @@ class InstallPrefix:
 
     @cached_property
     def _include_folders(self) -> Mapping[str, tuple[str, ...]]:
-        """Names of the folders in include/<package>/, each with the packages that have it."""
+        """For each name of a folder in include/<package>/, the packages that have such a folder."""
         owners: dict[str, tuple[str, ...]] = {}
         for package, kind in self._list("include"):
             if kind == "directory" and package in self.packages:
@@ -245,7 +242,7 @@ class InstallPrefix:
                 yield f"{inside}{name}"
 
     def _list(self, path: str) -> list[tuple[str, Kind]]:
-        """Return the names and kinds of the entries of a folder, sorted; empty if the folder is missing."""
+        """Return pairs of the name and kind of each entry of a folder, sorted; [] if the folder is missing."""
         try:
             return [(name, kind) for name, kind, _ in self._tree.list(join(self.root, path))]
         except OSError:

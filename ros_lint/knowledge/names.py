@@ -1,7 +1,7 @@
-"""Map the names of Python modules, headers and CMake packages to ROS packages and rosdep keys.
+"""Map the names of Python modules, headers and CMake packages to ROS packages and rosdep keys that provide them.
 
-Each look-up returns the names of providers, best first. The maps serve all distributions, so the caller checks which of the
-names exist in its distribution, and whether they are packages or keys (docs/knowledge.md).
+Each look-up returns the names of providers, best first. The maps are not specific to a distribution. The caller must
+check which of the names exist in its distribution, and whether a name is a package or a key (docs/knowledge.md).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.store import Store, Table
 
 NOTHING_NEEDED = "-"
-"""Value in a map for a name that the tool chain provides, so that nothing has to be declared."""
+"""Value in a map for a name that the tool chain provides, so that no package has to be declared."""
 
 END_OF_LIFE: Mapping[str, str] = {
     "i": "ROS 2 Iron",
@@ -33,7 +33,10 @@ END_OF_LIFE: Mapping[str, str] = {
     "M": "ROS 1 Melodic",
     "K": "ROS 1 Kinetic",
 }
-"""Names of the distributions at their end of life, by their letter in the data: first ROS 2, newest first, then ROS 1."""
+"""Names of the distributions at their end of life, by their letter in the data files.
+
+ROS 2 is before ROS 1, each newest first.
+"""
 
 
 def has_ended(distro: str) -> bool:
@@ -44,15 +47,15 @@ def has_ended(distro: str) -> bool:
 _COMMON_WORDS = frozenset({
     "lib", "dev", "python", "python3", "pip", "all", "core", "cpp", "data", "json", "tools", "xml", "yaml",
 })  # fmt: skip
-"""Words in the names of rosdep keys that do not identify the library."""
+"""Words in the names of rosdep keys that do not identify a library."""
 
 _EVERYDAY_WORDS = frozenset({"scripts", "controller", "vehicle"})
-"""Top-level modules of released packages whose names are also common names of folders."""
+"""Top-level Python modules of released packages whose names are also usual names of folders."""
 
 _MACRO_ALTERNATIVES: Mapping[str, tuple[str, ...]] = {
     "rosidl_default_generators": ("rosidl_default_generators", "rosidl_core_generators", "rosidl_cmake"),
 }
-"""By package, the packages that provide the same macros.
+"""For a package, the alternative packages that provide the same CMake macros.
 
 Packages that rosidl_default_generators depends on use rosidl_core_generators, and tests of single generators use
 rosidl_cmake.
@@ -60,7 +63,10 @@ rosidl_cmake.
 
 
 class Names:
-    """The name maps. Each look-up raises KnowledgeError if a data file is damaged."""
+    """The maps from names of modules, headers and CMake packages.
+
+    Each look-up raises KnowledgeError if a data file is damaged.
+    """
 
     def __init__(self, store: Store) -> None:
         self._store = store
@@ -68,30 +74,31 @@ class Names:
         self._traceless: dict[str, bool] = {}
 
     def cmake(self, name: str) -> tuple[str, ...]:
-        """Return the ROS packages and rosdep keys that provide a name in find_package() but have another name.
+        """Return the ROS packages and rosdep keys, named differently, that provide the argument ``name`` of find_package().
 
-        Any of them suffices. ``("-",)`` means that the name is a module of CMake, which needs no package.
+        It is enough to declare one of them. ``("-",)`` means that a module of CMake has this name, so no package is
+        needed.
         """
         providers = (*self._cmake_ros.get(name, ()), *self._cmake_system.get(name, ()))
         return providers or ((NOTHING_NEEDED,) if name in CMAKE_MODULES else ())
 
     def alternatives(self, package: str) -> tuple[str, ...]:
-        """Return the names that provide the same CMake package or macros as ``package``, including itself.
+        """Return the packages and keys that provide the same CMake package or macros as ``package``, including ``package``.
 
-        Example: a vendor package and the rosdep key of its library.
+        Example: a vendor package and the rosdep key of the library.
         """
         return self._alternatives.get(package, (package,))
 
     def exports_targets(self, package: str) -> bool:
-        """Return whether a released package certainly exports its libraries in the CMake variable ``<package>_TARGETS``."""
+        """Return whether a released package is known to export its libraries in the CMake variable ``<package>_TARGETS``."""
         return package in self._targets
 
     def is_cmake_usually_declared(self, name: str) -> bool:
-        """Return whether packages with find_package(name) usually declare a result of :meth:`cmake`."""
+        """Return whether packages that call find_package(name) usually declare one of the results of :meth:`cmake`."""
         return name not in self._doubtful_names("cmake_system.tsv")
 
     def is_header_usually_declared(self, path: str) -> bool:
-        """Return whether packages that include a header usually declare a result of :meth:`header`."""
+        """Return whether packages that include a header usually declare one of the results of :meth:`header`."""
         ros, doubtful = self._include_ros, self._doubtful_names("include_system.tsv")
         for prefix in _prefixes(path):
             if prefix in ros or prefix in self._include_system:
@@ -99,14 +106,14 @@ class Names:
         return False
 
     def cmake_any_case(self, name: str) -> tuple[str, ...]:
-        """Return the providers of a name in find_package() written with other capitals, such as opencv for OpenCV."""
+        """Return the rosdep keys for an argument of find_package() with wrong capitals, such as opencv for OpenCV."""
         return self._cmake_lower.get(name.lower(), ())
 
     def header(self, path: str) -> tuple[str, ...]:
-        """Return the ROS packages and rosdep keys that provide a header, by the longest prefix in the maps.
+        """Return the ROS packages and rosdep keys that provide a header, from the longest matching path prefix in the maps.
 
-        Any of them suffices. ``path`` is the text between the brackets. ``("-",)`` means that the tool chain provides
-        the header.
+        It is enough to declare one of them. ``path`` is the text between the brackets of #include. ``("-",)`` means that
+        the tool chain provides the header.
         """
         if path in CXX_HEADERS or path.partition("/")[0] in SYSTEM_HEADER_FOLDERS:
             return (NOTHING_NEEDED,)
@@ -122,26 +129,26 @@ class Names:
         return ()
 
     def folder(self, name: str) -> tuple[str, ...]:
-        """Return the rosdep keys of the library whose headers are in a folder such as opencv2, best first.
+        """Return the rosdep keys of the library whose headers are in the folder ``name``, such as opencv2; best first.
 
-        A folder is left out if packages that include its headers rarely declare the keys (:meth:`is_header_usually_declared`).
+        Return () if packages that include such headers rarely declare the keys (:meth:`is_header_usually_declared`).
         """
         prefix = f"{name}/"
         return () if prefix in self._doubtful_names("include_system.tsv") else self._include_system.get(prefix, ())
 
     def maps(self, folder: str) -> bool:
-        """Return whether headers below a folder may belong to a package that is not named like the folder."""
+        """Return whether headers below a folder may belong to the tool chain or to a package not named like the folder."""
         return folder in self._mapped_folders or folder in SYSTEM_HEADER_FOLDERS or folder in self._shared_folders
 
     def shares(self, folder: str) -> bool:
-        """Return whether several packages install headers below a folder, so that its name is ambiguous."""
+        """Return whether several packages install headers below a folder, so that the folder does not identify a package."""
         return folder in self._shared_folders
 
     def module(self, module: str) -> tuple[str, ...]:
-        """Return the rosdep keys that provide a Python module, best first. ``("-",)`` means the standard library.
+        """Return the rosdep keys that provide a Python module, best first; ``("-",)`` for a module of the standard library.
 
-        ``module`` may be dotted. The evidence for a key is the name of its system package, its declaration by packages
-        that import the module, or a manual entry. Names from nixpkgs alone do not suffice.
+        ``module`` may be dotted. A key counts if the name of its system package fits, if packages that import the module
+        declare it, or if it was entered manually. Keys that only data from nixpkgs name do not count.
         """
         top, _, rest = module.partition(".")
         if top in PYTHON_MODULES:
@@ -151,29 +158,30 @@ class Names:
         return keys or self._py_import.get(top, ())
 
     def module_packages(self, module: str, distro: str) -> tuple[str, ...]:
-        """Return the ROS packages of a distribution that provide a Python module and are not named like the module."""
+        """Return the ROS packages of a distribution that provide a Python module and have another name than the module."""
         top = module.partition(".")[0]
         if top in _EVERYDAY_WORDS:
             return ()
         return tuple(package for package, distros in self._py_ros.get(top, ()) if distro in distros)
 
     def successor(self, name: str) -> str:
-        """Return the successor of a package of ROS 1 or of a former ROS 2 distribution, or ""."""
+        """Return the package that replaces a package of ROS 1 or of a former ROS 2 distribution, "" if there is none."""
         return self._successors.get(name, "")
 
     def end_of_life(self, name: str) -> tuple[str, ...]:
-        """Return the distributions at their end of life that have a package, newest first.
+        """Return the distributions at their end of life that contain a package, newest first.
 
-        The result is empty for a package of an active distribution.
+        The result is () for a package of an active distribution.
         """
         row = self._end_of_life.row(name)
         letters = row[1] if row and len(row) > 1 else ""
         return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
-        """Return words, at least one of which appears in each use of a rosdep key.
+        """Return words of which at least one occurs in every use of a rosdep key.
 
-        They are the words in the name of the key, in lower case, and the names of its headers, modules and CMake packages.
+        These are the words in the name of the key, in lower case, and the names of its headers, modules and CMake
+        packages.
         """
         parts = re.findall(r"[a-z0-9]+", key.lower())
         words = [part.removeprefix("lib") for part in parts if part not in _COMMON_WORDS and not part.isdigit()]
@@ -189,18 +197,18 @@ class Names:
         return names_of
 
     def provided_keys(self, key: str) -> tuple[str, ...]:
-        """Return the rosdep keys of the packages that the system package of a key depends on."""
+        """Return the rosdep keys of the packages that the system package of a rosdep key depends on."""
         return self._provided_keys.get(key, ())
 
     def leaves_no_trace(self, package: str) -> bool:
-        """Return whether the name of a package shows that its use cannot be recognized in the sources of dependents."""
+        """Return whether the use of a package leaves no trace in the sources of its dependents, judging by the package name."""
         matches = self._traceless.get(package)
         if matches is None:
             matches = self._traceless[package] = self._traceless_pattern.match(package) is not None
         return matches
 
     def provides_macros(self, package: str) -> bool:
-        """Return whether the name of a package shows that it provides CMake macros, whose use is not recognized."""
+        """Return whether a package provides CMake macros whose use is not recognized, judging by the package name."""
         return self._macros_pattern.match(package) is not None
 
     @cached_property
@@ -252,7 +260,7 @@ class Names:
 
     @cached_property
     def _mapped_folders(self) -> frozenset[str]:
-        """First folders of the header paths in the maps, and names of the headers without a folder."""
+        """First folders of the header paths in the maps, and the names of mapped headers without a folder."""
         return frozenset([prefix.partition("/")[0] for names in (self._include_ros, self._include_system) for prefix in names])
 
     @cached_property
@@ -292,7 +300,10 @@ class Names:
         return self._store.table("eol_names.tsv")[1]
 
     def _doubtful_names(self, file: str) -> frozenset[str]:
-        """Return the names in a map whose providers are entered manually, or are rarely declared where the name is used."""
+        """Return the names in a map file for which declarations by packages are no good evidence.
+
+        The providers of such a name were entered manually, or the packages that use the name rarely declare them.
+        """
         doubtful = self._doubtful.get(file)
         if doubtful is None:
             rows = (line.split("\t") for line in self._store.lines(file)[1])
@@ -311,7 +322,7 @@ class Names:
 
 
 def _prefixes(path: str) -> list[str]:
-    """Return the prefixes of a header by which a map may list it, longest first: a/b/c.h, a/b/, a/b, a/, a."""
+    """Return the prefixes of a header path that a map may contain, longest first: a/b/c.h, a/b/, a/b, a/, a."""
     prefixes = [path]
     at = len(path)
     while (at := path.rfind("/", 0, at)) > 0:

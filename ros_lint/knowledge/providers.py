@@ -1,6 +1,6 @@
-"""Resolve headers, Python modules, CMake packages and misspelled names to names that a manifest can declare.
+"""Find the packages and rosdep keys that a manifest can declare for a header, Python module, CMake package or misspelled name.
 
-Names are looked up in this order: workspace, underlays, index of the distribution, name maps.
+Names are looked up in this order: workspace, underlays, package index of the distribution, maps of names.
 """
 
 from __future__ import annotations
@@ -23,67 +23,68 @@ if TYPE_CHECKING:
 
 
 Layer = Literal["workspace", "underlay", "index"]
-"""Origin of a package: the topmost layer that contains it."""
+"""The origin of a package. If several origins have the package, the first of them counts."""
 
 
 class Providers(NamedTuple):
-    """The packages and rosdep keys that provide a header, a module or a CMake package.
+    """The packages and rosdep keys that provide a header, a Python module or a CMake package.
 
     It is enough to declare one of ``names``.
     """
 
     names: tuple[str, ...] = ()
-    """Packages and keys, best first: the first name is to be declared."""
+    """Packages and rosdep keys, best first. A fix declares the first one."""
     packages: tuple[str, ...] = ()
     """The members of ``names`` that are packages of the workspace, an underlay or the distribution."""
     keys: tuple[str, ...] = ()
     """The members of ``names`` that are rosdep keys."""
     none_needed: bool = False
-    """True if the language or the build tool provides the header, module or CMake package: nothing has to be declared."""
+    """True if the language or the build tool provides the header, module or CMake package, so that nothing has to be declared."""
     sure: bool = True
-    """False if most released packages with the header, module or CMake package declare none of the names, or if few have it."""
+    """False if few released packages use the header, module or CMake package, or if most of them declare none of ``names``."""
 
     @property
     def known(self) -> bool:
-        """True if there is a provider or none is needed. Otherwise rules report nothing."""
+        """True if there is a provider or none is needed. If it is False, rules report nothing."""
         return bool(self.names) or self.none_needed
 
 
 class Suggestion(NamedTuple):
-    """The name that a misspelled name certainly means."""
+    """The existing name that a misspelled name certainly means."""
 
     name: str
-    """The intended name: a package, or a rosdep key that resolves for the distribution."""
+    """The intended name: a package, or a rosdep key that resolves in the distribution."""
     by: Literal["spelling", "cmake", "header", "python", "system", "slip"]
     """Kind of the mistake.
 
-    * "spelling": other dashes or capitals, or the name of something in the package.
-    * "cmake", "header", "python": the name that is used in find_package(), #include or import.
+    * "spelling": other dashes or capitals, or the name of a message type or module of the package in place of the
+      package.
+    * "cmake", "header", "python": the name in find_package(), #include or import in place of the package or key.
     * "system": the name of the apt or pip package.
     * "slip": one wrong letter.
     """
 
 
 class Layers(Protocol):
-    """The look-ups that this module needs; :class:`ros_lint.knowledge.world.World` implements them."""
+    """The look-ups of names that this module needs, implemented by :class:`ros_lint.knowledge.world.World`."""
 
     @property
     def knowledge(self) -> Knowledge:
-        """Data about released packages."""
+        """Data about released packages of the distribution."""
 
     @property
     def underlays(self) -> Sequence[Underlay]:
-        """Underlays, the topmost first."""
+        """Install prefixes below the workspace, the topmost first."""
 
     @property
     def spelling(self) -> Spelling:
-        """Index of similar names."""
+        """Index of all names, for look-ups of similar names."""
 
     def layer(self, name: str) -> Layer | None:
-        """Return the topmost layer that contains a package, None if there is none."""
+        """Return the origin of a package; None if no layer (workspace, underlay, index) contains the package."""
 
     def is_package(self, name: str) -> bool:
-        """Return whether any layer contains a package."""
+        """Return whether the workspace, an underlay or the package index contains a package."""
 
     def is_key(self, name: str) -> bool:
         """Return whether a name is a rosdep key."""
@@ -95,23 +96,23 @@ class Layers(Protocol):
         """Return the top-level Python modules of a package."""
 
     def by_cmake(self, name: str) -> Providers:
-        """Return the providers of the argument of find_package()."""
+        """Return the providers of ``name``, the argument of find_package()."""
 
     def by_include_folder(self, folder: str) -> Providers:
-        """Return the providers of headers below an include folder."""
+        """Return the providers of headers below an include folder, e.g. of ``rclcpp/...``."""
 
     def meant(self, name: str, *, python: bool) -> Suggestion | None:
-        """Return the name that an unknown name certainly means, None if there is any doubt."""
+        """Return the existing name that an unknown name certainly means, None if there is any doubt."""
 
 
 _NONE_NEEDED = Providers(none_needed=True)
 
 _APT_PREFIX = re.compile(r"ros-[a-z]+-(?=[a-z])")
-"""Prefix of the names of apt packages of a distribution: "ros-humble-"."""
+"""Prefix of the apt packages of a distribution: "ros-humble-"."""
 
 
 def by_cmake(world: Layers, name: str) -> Providers:
-    """Return the providers of the argument of find_package()."""
+    """Return the providers of ``name``, the argument of find_package()."""
     owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
     if world.layer(name) == "workspace":
         return _existing(world, (name,))
@@ -131,7 +132,7 @@ def by_macro(world: Layers, package: str) -> Providers:
 
 
 def by_include(world: Layers, header: str) -> Providers:
-    """Return the providers of a header."""
+    """Return the providers of a header. ``header`` is the path in ``#include <header>``."""
     names = world.knowledge.names
     first, slash, rest = header.partition("/")
     if slash and not world.underlays and not names.maps(first):
@@ -155,7 +156,7 @@ def by_include(world: Layers, header: str) -> Providers:
 
 
 def by_include_folder(world: Layers, folder: str) -> Providers:
-    """Return the providers of headers below an include folder, by the name of the folder."""
+    """Return the package with the name of an include folder as the provider of headers below this folder."""
     return _existing(world, (folder,))
 
 
@@ -178,9 +179,9 @@ def by_import(world: Layers, module: str) -> Providers:
 
 
 def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the workspace packages with a module, and the released package of the same name if it may have the module.
+    """Return the workspace packages with a Python module. The released package named like the module is added if it may have it.
 
-    The released package comes first if it certainly has the module, else last.
+    The released package comes first if it certainly has the module, otherwise last.
     """
     if module in packages or world.layer(module) == "workspace":
         return packages
@@ -193,8 +194,8 @@ def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tup
 def importable_modules(script: BuildScript, files: Sequence[str]) -> tuple[str, ...] | None:
     """Return the names of the top-level Python modules that a package installs, None if unknown.
 
-    ``files`` are the files of the package. Folders without Python modules and folders with usual names of data are
-    left out, because ``find_namespace_packages()`` counts every folder as a package.
+    ``files`` are the files of the package. Folders without Python files and folders with usual names for data, such as
+    ``config``, are left out, because ``find_namespace_packages()`` counts every folder as a package.
     """
     tops = dict.fromkeys(name.partition(".")[0] for name in script.products.python_packages)
     modules: dict[str, bool] = {}
@@ -208,7 +209,7 @@ def importable_modules(script: BuildScript, files: Sequence[str]) -> tuple[str, 
 
 
 def _installed_modules(script: BuildScript) -> Iterator[str]:
-    """Yield the modules whose files CMake installs into a folder of ``sys.path``."""
+    """Yield the names of the modules whose files CMake installs into a folder of ``sys.path``."""
     for provided in script.products.installs:
         if provided.path.endswith(".py") and provided.importable:
             top = provided.path.partition("-packages/")[2].partition("/")[0].removesuffix(".py")
@@ -217,9 +218,9 @@ def _installed_modules(script: BuildScript) -> Iterator[str]:
 
 
 def _has_no_module(script: BuildScript, files: Iterable[str]) -> bool:
-    """Return whether a package certainly has no Python module.
+    """Return whether a package certainly provides no Python module.
 
-    That is the case if none of its files becomes a module and CMake finds no tool that generates bindings.
+    This holds if none of its files can become a module and CMake finds no tool that generates Python bindings.
     """
     if any(mention.name.lower().startswith(_BINDING_TOOLS) for mention in script.mentions if mention.via == "cmake"):
         return False
@@ -237,13 +238,13 @@ _DATA_FOLDERS = frozenset(
         "msg", "srv", "action", "build", "install", "log",
     }
 )  # fmt: skip
-"""Names of folders that usually contain no modules."""
+"""Names of folders that usually contain no Python modules."""
 
 
 def meant(world: Layers, name: str, *, python: bool) -> Suggestion | None:
-    """Return the name that an unknown name certainly means, None if there is any doubt.
+    """Return the existing name that an unknown name certainly means, None if there is any doubt.
 
-    With ``python`` the name is needed to run Python code, so names in find_package() do not count.
+    If ``python`` is True, the name is needed to run Python code, so names for find_package() are not considered.
     """
     names = world.knowledge.names
     package = name.replace(".", "/").partition("/")[0]
@@ -273,14 +274,14 @@ def _bare(names: Iterable[str]) -> Iterator[str]:
 
 
 def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
-    """Return at most three packages and keys that are similar to an unknown name, nearest first."""
+    """Return at most three packages and rosdep keys that resemble an unknown name, the most similar first."""
     intended = world.meant(name, python=python)
     candidates = _declarable(world, world.spelling.near(name))
     return tuple(dict.fromkeys([intended.name, *candidates] if intended else candidates))[:3]
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
-    """Yield a suggestion, or None, for each meaning of a name: CMake package, header folder, module, apt package, pip package."""
+    """Yield a suggestion or None for each way to read a name: CMake package, header folder, module, apt package, pip package."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
@@ -295,7 +296,7 @@ def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggesti
 
 
 def _libraries(names: Iterable[str]) -> Iterator[str]:
-    """Yield the names of libraries, without packages that only help CMake to find a library."""
+    """Yield the names of libraries, without packages that only contain a find module for CMake."""
     return (name for name in names if name != NOTHING_NEEDED and not name.endswith("_cmake_module"))
 
 
@@ -312,22 +313,22 @@ def _only_candidate(world: Layers, keys: Iterable[str]) -> Suggestion | None:
 
 
 def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
-    """Return the names that a manifest may declare: packages, and keys with a rule for the distribution."""
+    """Return the names that a manifest may declare: packages, and rosdep keys with a rule for the distribution."""
     resolves = world.knowledge.resolves
     return tuple(name for name in names if world.is_package(name) or (world.is_key(name) and resolves(name) is not False))
 
 
 def _has_module(world: Layers, package: str) -> bool:
-    """Return whether a released or installed package may have a Python module of its own name; False in the workspace."""
+    """Return whether a package may have a Python module of its own name; False for a package of the workspace."""
     if world.layer(package) == "workspace":
         return False  # the build script has been consulted already
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the packages of the topmost underlay with any of them. Packages that the workspace hides do not count.
+    """Return the packages of the first underlay that contributes any. Packages that the workspace overrides are left out.
 
-    ``owners`` has the packages of each underlay, the topmost first.
+    ``owners`` has a tuple of packages for each underlay, the topmost first.
     """
     for names in owners:
         visible = tuple(name for name in names if world.layer(name) == "underlay")
@@ -337,10 +338,10 @@ def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str,
 
 
 def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
-    """Return the existing packages among ``names``, and the rosdep keys that are also in ``keys``.
+    """Return the providers among ``names``: existing packages, and existing rosdep keys that are also in ``keys``.
 
-    Keys without a rule for the distribution come after them, because a declared name must resolve. The last names are
-    packages of other distributions, such as ``fastrtps``, the former name of ``fastdds``.
+    Keys without a rule for the distribution come after all others, because a declared name must resolve. Packages that
+    only other distributions have, such as ``fastrtps``, the former name of ``fastdds``, come last.
     """
     ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
     allowed = set(keys)

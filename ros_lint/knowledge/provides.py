@@ -1,6 +1,6 @@
-"""The contents of released packages, and their file format (``.prov``; docs/knowledge.md): a line for each package.
+"""The contents of released packages, such as executables, and their file format (``.prov``; docs/knowledge.md).
 
-A look-up of a name has three answers: the name exists, is missing, or is unknowable.
+The file has a line for each package. A look-up answers that a name exists, is missing, or cannot be known.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 Answer = Literal["exists", "missing", "unknowable"]
-"""Answer to the question whether a name exists. "unknowable": there is no data to decide it."""
+"""Answer to the question whether a name exists. "unknowable": there is no data to decide the question."""
 ContentKind = Literal["executables", "launch", "components", "plugins", "modules", "interfaces", "programs"]
 """Kinds of names that a package provides. "programs" are files in bin, "executables" are files in lib/<package>."""
 
@@ -26,7 +26,7 @@ LETTERS: Mapping[ContentKind, str] = {
     "interfaces": "I",
     "programs": "B",
 }
-"""The letter of each kind of contents, in their order in a line.
+"""The letter of each kind of names, in the order of the fields in a line.
 
 The names are: executables in lib/<package>; launch files relative to share/<package>; component classes; plugins as
 base=class; Python modules; interfaces as msg/Name; programs in bin.
@@ -34,20 +34,20 @@ base=class; Python modules; interfaces as msg/Name; programs in bin.
 
 
 class Known(NamedTuple):
-    """The names of one kind, such as executables, that a package provides, as far as they are known."""
+    """The known names of one kind, such as executables, that a package provides."""
 
     names: tuple[str, ...] = ()
-    """Names that exist."""
+    """Names that exist in every installation of the package."""
     maybe: tuple[str, ...] = ()
-    """Names that depend on how the package was built."""
+    """Names that exist or not, depending on how the package was built."""
     complete: bool = False
-    """True if there are no other names."""
+    """True if ``names`` and ``maybe`` are all names."""
     endings: tuple[str, ...] = ()
-    """If not empty, only names with these suffixes can be missing; other names are unknowable."""
+    """If not empty, only a name with one of these suffixes can be missing; any other unlisted name is unknowable."""
 
     @property
     def possible(self) -> tuple[str, ...]:
-        """All names that may exist."""
+        """All names that exist or may exist."""
         return (*self.names, *self.maybe)
 
     def ask(self, name: str) -> Answer:
@@ -59,10 +59,10 @@ class Known(NamedTuple):
         return "missing"
 
     def between(self, before: Iterable[Known], after: Iterable[Known]) -> Known:
-        """Return this list, completed by the lists of earlier (``before``) and later (``after``) distributions.
+        """Return this list of names, completed by the lists of earlier (``before``) and later (``after``) distributions.
 
-        If one earlier and one later list are complete, so is the result, and the names of all lists may exist. Otherwise
-        the list is returned unchanged.
+        If one earlier and one later list are complete, the result is complete, too, and the names of all lists may exist.
+        Otherwise this list is returned unchanged.
         """
         earlier, later = list(before), list(after)
         sides = [next((contents for contents in side if contents.complete), None) for side in (earlier, later)]
@@ -76,28 +76,28 @@ class Known(NamedTuple):
 
 NOTHING_KNOWN = Known()
 LAUNCH_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", ".launch")
-"""Suffixes of the names of launch files that the data list."""
+"""Endings of the names of launch files that the data files list."""
 
 
 class ReleasedContents(NamedTuple):
-    """The contents of a package, as far as they can be derived from its sources."""
+    """The contents of a released package that can be derived from its sources."""
 
     name: str
     origin: str
-    """The sources that were read: ``=`` the release, ``b`` the branch for the distribution, ``~`` the nearest tag."""
+    """The sources that were read: ``=`` those of the release, ``b`` the branch for the distribution, ``~`` the nearest tag."""
     fields: Mapping[str, tuple[str, ...]]
-    """Names by letter, see LETTERS.
+    """Names by the letter of their kind, see LETTERS.
 
-    The suffix ``?`` marks a name that depends on how the package was built.
+    The suffix ``?`` of a name means that its existence depends on how the package was built.
     """
 
     @property
     def complete(self) -> bool:
-        """True if ``fields`` lists all contents of the package."""
+        """True if ``fields`` has all contents of the package."""
         return self.origin in {"=", "b"}
 
     def known(self, kind: ContentKind) -> Known:
-        """Return the names of one kind, and whether the list is complete."""
+        """Return the names of one kind, such as executables, and whether the list is complete."""
         names = self.fields.get(LETTERS[kind], ())
         return Known(
             tuple(name for name in names if not name.endswith("?")),
@@ -108,9 +108,9 @@ class ReleasedContents(NamedTuple):
 
 
 def parse(fields: list[str]) -> ReleasedContents:
-    """Return the contents in a line, given its tab-separated fields.
+    """Return the contents of the package in a line, given the tab-separated fields of the line.
 
-    Raises ValueError if they are invalid.
+    Raises ValueError if the fields are invalid.
     """
     name, origin, *rest = fields
     names_of: dict[str, tuple[str, ...]] = {}
@@ -125,7 +125,7 @@ def parse(fields: list[str]) -> ReleasedContents:
 
 
 def render(package: ReleasedContents) -> str:
-    """Return the line of a package, without line end. The inverse of :func:`parse`."""
+    """Return the line for the contents of a package, without line end. The inverse of :func:`parse`."""
     fields = [package.name, package.origin]
     for letter in LETTERS.values():
         names = package.fields.get(letter, ())
@@ -139,14 +139,14 @@ def render(package: ReleasedContents) -> str:
 
 
 def _split_plugins(plugins: Iterable[str]) -> Iterator[str]:
-    """Yield base=class for each class in base=class,class."""
+    """Yield ``base=class`` for each class in texts such as ``base=class,class``."""
     for plugin in plugins:
         base, equals, classes = plugin.partition("=")
         yield from (f"{base}{equals}{name}" for name in classes.split(","))
 
 
 def _join_plugins(plugins: Iterable[str]) -> tuple[str, ...]:
-    """Return base=class,class for each base. The inverse of :func:`_split_plugins`."""
+    """Return ``base=class,class`` for each base, given texts such as ``base=class``. The inverse of :func:`_split_plugins`."""
     classes_of: dict[str, list[str]] = {}
     for plugin in plugins:
         base, _, name = plugin.partition("=")
@@ -155,7 +155,7 @@ def _join_plugins(plugins: Iterable[str]) -> tuple[str, ...]:
 
 
 def render_file(distro: str, packages: Iterable[ReleasedContents]) -> str:
-    """Return the contents of a ``.prov`` file."""
+    """Return the contents of a ``.prov`` file for a distribution and its packages."""
     lines = sorted(render(package) for package in packages)
     return "\n".join([f"#ros-provides 1 distro={distro} packages={len(lines)}", *lines, ""])
 
@@ -167,13 +167,13 @@ class Provides(Entries[ReleasedContents]):
         super().__init__(table, parse)
 
     def known(self, name: str, kind: ContentKind) -> Known:
-        """Return the names of one kind that a package provides; NOTHING_KNOWN if the file does not list the package."""
+        """Return the names of one kind that a package provides; NOTHING_KNOWN if the data file does not list the package."""
         contents = self.get(name)
         return contents.known(kind) if contents else NOTHING_KNOWN
 
 
 def load(store: Store, distro: str) -> Provides:
-    """Return the contents of the packages of a distribution: empty if there is no file.
+    """Return the contents of the packages of a distribution. The result is empty if there is no file.
 
     Raises KnowledgeError if the file is damaged.
     """

@@ -1,4 +1,4 @@
-"""The rosdep keys and the platforms on which they resolve (``rosdep.tsv``; docs/knowledge.md)."""
+"""The rosdep keys with the platforms on which they resolve, and their data file (``rosdep.tsv``; docs/knowledge.md)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PLATFORMS: Mapping[str, tuple[str, ...]] = {
 }
 """Tier 1 platforms with Debian packages, by distribution (REP 2000).
 
-Rolling is changing its platform, so a key has to resolve on one of two.
+rolling is changing its platform, so a rosdep key must resolve on one of its two platforms.
 """
 
 LETTERS: Mapping[str, str] = {
@@ -39,22 +39,22 @@ LETTERS: Mapping[str, str] = {
     "A": "arch:",
     "o": "osx:",
 }
-"""The platforms in the data, in the order of their letters in a line."""
+"""The platforms in the data file by letter. A line has the letters in this order."""
 
 
 class RosdepKey(NamedTuple):
-    """A rosdep key."""
+    """A rosdep key, with the platforms on which it resolves and its apt and pip packages."""
 
     name: str
     platforms: tuple[str, ...]
     """Platforms on which the key resolves, such as "ubuntu:noble"."""
     apt: tuple[str, ...]
-    """Packages that the key installs with apt, on any platform."""
+    """Packages that the key installs with apt on any platform."""
     pip: tuple[str, ...]
 
 
 def parse(fields: list[str]) -> RosdepKey:
-    """Return the key in a line, given its tab-separated fields. Raises ValueError if they are invalid."""
+    """Return the rosdep key in a line, given its tab-separated fields. Raises ValueError if the fields are invalid."""
     name, letters, apt, pip = (*fields, "", "", "")[:4]
     unknown = set(letters) - LETTERS.keys()
     if unknown:
@@ -63,34 +63,34 @@ def parse(fields: list[str]) -> RosdepKey:
 
 
 def render(key: RosdepKey) -> str:
-    """Return the line of a key, without line end. The inverse of :func:`parse`."""
+    """Return the line of a rosdep key, without line end. The inverse of :func:`parse`."""
     letters = "".join(letter for letter, platform in LETTERS.items() if platform in key.platforms)
     return "\t".join((key.name, letters, " ".join(key.apt), " ".join(key.pip))).rstrip("\t")
 
 
 def render_file(keys: Mapping[str, RosdepKey]) -> str:
-    """Return the contents of ``rosdep.tsv``."""
+    """Return the contents of the file ``rosdep.tsv``."""
     platforms = " ".join(f"{letter}={platform}" for letter, platform in LETTERS.items())
     lines = sorted(render(key) for key in keys.values())
     return "\n".join([f"# key\tresolves on: {platforms}\tapt\tpip", *lines, ""])
 
 
 class Rosdep(Entries[RosdepKey]):
-    """All rosdep keys."""
+    """All rosdep keys of the data file."""
 
     def __init__(self, table: Table) -> None:
         super().__init__(table, parse)
         self._installing_keys: dict[str, tuple[str, ...]] = {}
 
     def resolves(self, name: str, distro: str) -> bool | None:
-        """Return whether a key has a rule for a platform of a distribution; None if either is unknown."""
+        """Return whether a rosdep key has a rule for a platform of a distribution; None if the key or the platform is unknown."""
         key, platforms = self.get(name), PLATFORMS.get(distro)
         if key is None or platforms is None or not set(platforms) & set(LETTERS.values()):
             return None
         return not set(platforms).isdisjoint(key.platforms)
 
     def installing(self, name: str) -> tuple[str, ...]:
-        """Return the keys that install the apt or pip package of this name, sorted."""
+        """Return the rosdep keys that install the apt or pip package ``name``, sorted."""
         if name not in self._installing_keys:
             self._installing_keys[name] = self._installing(name) or self._installing(_pip_name(name))
         return self._installing_keys[name]
@@ -112,7 +112,7 @@ class Rosdep(Entries[RosdepKey]):
 
     @cached_property
     def _text(self) -> tuple[bytes, bytes]:
-        """All lines as bytes, and a copy in lower case. Both have the same length, so offsets are valid in both."""
+        """All lines of the data file as bytes, and a copy in lower case of the same length, so that offsets are valid in both."""
         text = "".join(f"{line}\n" for line in self._table.lines()).encode()
         return text, text.lower()
 
@@ -123,7 +123,7 @@ def _pip_name(requirement: str) -> str:
 
 
 def load(store: Store) -> Rosdep:
-    """Return the keys. Raises KnowledgeError if the file is damaged."""
+    """Return the rosdep keys of the data file. Raises KnowledgeError if the file is damaged."""
     head, table = store.table("rosdep.tsv")
     if head and not head.startswith("# key\t"):
         raise KnowledgeError(f"{store.find('rosdep.tsv')} is not a list of rosdep keys")

@@ -1,8 +1,8 @@
-"""Find names that are similar to an unknown name.
+"""Find existing package names and rosdep keys that are similar to an unknown name.
 
-A fix needs a name that is certainly meant (:meth:`Spelling.same`, :meth:`Spelling.one_slip`). A hint needs similar names
-(:meth:`Spelling.near`). Further functions recognize the name of the vendor package of a library, and the rosdep key of a part
-of a library.
+A fix needs a name that the unknown name certainly means (:meth:`Spelling.same`, :meth:`Spelling.one_slip`). A suggestion
+in a message needs similar names (:meth:`Spelling.near`). Further functions recognize the name of a library's vendor
+package, and the rosdep key for a part of a library.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 _MIN_LETTERS = 5
-"""Minimum length of a word with one wrong letter, because shorter ones such as pcl and pil are similar by chance."""
+"""Minimum length of a word with one wrong letter, because shorter words such as pcl and pil are similar by chance."""
 
 _MIN_SWAPPED = 4
-"""Minimum length of a word with two swapped letters. It may be shorter, because no two known names differ in this way."""
+"""Minimum length of a word with two swapped letters. It is smaller, because no two known names differ by swapped letters."""
 
 _MOST_NAMES_WITH_WORD = 150
 
@@ -30,21 +30,21 @@ _PACKAGE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 
 class Spelling:
-    """All existing names, for look-ups of names that are similar to an unknown name."""
+    """A set of existing names, for look-ups of names that are similar to an unknown name."""
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names = sorted(set(names))
         self._by_word: dict[str, list[str]] = {}
 
     def same(self, name: str) -> tuple[str, ...]:
-        """Return the names that differ only by dashes, underscores and capitals, sorted."""
+        """Return the existing names that differ from ``name`` only by dashes, underscores and capitals, sorted."""
         return tuple(self._plain.get(plain(name), ()))
 
     def one_slip(self, name: str) -> tuple[str, ...]:
-        """Return the names that differ by one letter, sorted.
+        """Return the existing names that differ from ``name`` by one letter, sorted.
 
-        The letter is omitted, added, changed, or swapped with the next letter. Digits must be equal, because ``lidar_2`` is
-        not a typo of ``lidar_1``.
+        The letter is omitted, added, changed, or swapped with the next letter. Digits must be equal, because ``lidar_2``
+        is not a typo of ``lidar_1``.
         """
         if len(name) < _MIN_LETTERS:
             return ()
@@ -54,7 +54,10 @@ class Spelling:
         return tuple(sorted([word for word in candidates if -2 < len(word) - len(name) < 2 and _is_slip(name, word)]))
 
     def near(self, name: str) -> tuple[str, ...]:
-        """Return at most three similar names, nearest first. Names with the same words in another order come first."""
+        """Return at most three existing names that resemble ``name``, the most similar first.
+
+        Names with the same words in another order come before all others.
+        """
         words = _words(name)
         alike = {candidate for word in words for candidate in self._names_with(word)}
         scored = [(-_overlap(words, _words(candidate)), candidate) for candidate in alike]
@@ -64,7 +67,7 @@ class Spelling:
         return tuple(dict.fromkeys([*reordered, *near_names(name, dict.fromkeys(candidates), 3, 0.8)]))[:3]
 
     def _names_with(self, word: str) -> list[str]:
-        """Return the names that contain a word; none for a very common word, which is not significant."""
+        """Return the existing names that contain a word; [] for a very common word, which is not significant."""
         cached = self._by_word.get(word)
         if cached is not None:
             return cached
@@ -104,9 +107,10 @@ class Spelling:
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
-    """Return the similar names that ``name`` may mean.
+    """Return at most ``most`` members of ``names`` that ``name`` may be a misspelling of, the most similar first.
 
-    The similar names of :func:`ros_lint.base.suggestions.similar_names`, except for
+    ``least`` is the minimum similarity, from 0 to 1. The result is that of
+    :func:`ros_lint.base.suggestions.similar_names`, except for
 
     * names with other words, such as rear_camera for front_camera, unless the differing words resemble each other or
       begin in the same way,
@@ -136,23 +140,23 @@ def may_be_package(name: str) -> bool:
 
 
 def package_name(repository: str) -> str:
-    """Return the name that a package of a repository most likely has: "BehaviorTree.CPP" -> "behaviortree_cpp"."""
+    """Return the name that a package in a repository most likely has: "BehaviorTree.CPP" -> "behaviortree_cpp"."""
     return re.sub("[-.]", "_", repository.lower())
 
 
 def plain(name: str) -> str:
-    """Return a name without dashes, underscores and capitals, which are its most frequent variations."""
+    """Return a name in lower case without dashes and underscores, because names often differ only in these and in capitals."""
     return name.replace("-", "").replace("_", "").lower()
 
 
 VENDOR = "_vendor"
-"""Suffix of packages that wrap a library but keep its headers, targets and CMake name."""
+"""Suffix of the names of vendor packages, which wrap a library but keep its headers, CMake targets and CMake name."""
 
 
 def is_vendor(package: str, library: str) -> bool:
-    """Return whether a package is named as the vendor package of ``library``, a name or a rosdep key.
+    """Return whether a package has the name of a vendor package for ``library``, the name or rosdep key of a library.
 
-    The name of the package may have a prefix: rviz_assimp_vendor and google_benchmark_vendor.
+    The package name may have a prefix: rviz_assimp_vendor is for assimp, and google_benchmark_vendor for benchmark.
     """
     if not package.endswith(VENDOR):
         return False
@@ -161,7 +165,10 @@ def is_vendor(package: str, library: str) -> bool:
 
 
 def is_part(part: str, key: str) -> bool:
-    """Return whether the rosdep key ``part`` is for a part of the library of ``key``: libboost-thread-dev of libboost."""
+    """Return whether the rosdep key ``part`` is for a part of the library of the rosdep key ``key``.
+
+    Example: libboost-thread-dev is for a part of libboost.
+    """
     words = _of_library(key)
     return words == _of_library(part)[: len(words)]
 
@@ -192,7 +199,7 @@ def _with_prefix(ordered: list[str], prefix: str) -> list[str]:
 
 
 def _is_slip(name: str, other: str) -> bool:
-    """Return whether two names differ by one wrong letter in a sufficiently long word."""
+    """Return whether two names differ by one wrong letter in a word that is long enough."""
     longer, shorter = (name, other) if len(name) >= len(other) else (other, name)
     if name == other or len(longer) - len(shorter) > 1:
         return False

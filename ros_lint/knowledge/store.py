@@ -1,7 +1,7 @@
-"""Data files about released packages: their folders, and look-ups of lines by name.
+"""Data files about released packages: the folders that contain them, and look-ups of their lines by name.
 
 A file is read and split into lines, but only the requested lines are parsed. This takes 1.3 ms for a distribution of
-2,300 packages. To parse all lines would take a tenth of a run.
+2,300 packages. Parsing all lines would take a tenth of a run.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
 
 
 class KnowledgeError(UserError):
-    """A data file cannot be read or is invalid. The message names the file and the remedy."""
+    """A data file cannot be read or is invalid. The message names the file and a remedy."""
 
 
 def user_directory(environ: Mapping[str, str]) -> str:
-    """Return the folder to which ``ros-lint index refresh`` writes (XDG base directories).
+    """Return the folder to which ``ros-lint index refresh`` writes data files, by the XDG base directory specification.
 
-    It may not exist.
+    The folder may not exist.
     """
     home = environ.get("HOME") or os.path.expanduser("~")
     base = environ.get("XDG_DATA_HOME", "")
@@ -42,7 +42,10 @@ def user_directory(environ: Mapping[str, str]) -> str:
 
 
 class Store:
-    """Folders with data files. If several have a file, the first one counts; the shipped files come last."""
+    """The folders with data files.
+
+    If several folders have a file, the first one counts; the folder shipped with ros-lint is last.
+    """
 
     __slots__ = ("places",)
 
@@ -50,7 +53,7 @@ class Store:
         self.places = (*places, SHIPPED)
 
     def find(self, name: str) -> str | None:
-        """Return the path of a data file by its name, or None."""
+        """Return the path of the data file ``name``, None if no folder has it."""
         for place in self.places:
             path = os.path.join(place, name)
             if os.path.isfile(path):
@@ -58,7 +61,7 @@ class Store:
         return None
 
     def names(self, suffix: str) -> tuple[str, ...]:
-        """Return the names of all data files with a suffix, without the suffix, sorted."""
+        """Return the names of all data files with a suffix, sorted, with the suffix removed."""
         names: set[str] = set()
         for place in self.places:
             try:
@@ -69,10 +72,10 @@ class Store:
         return tuple(sorted(names))
 
     def lines(self, name: str) -> tuple[str, list[str]]:
-        """Return the header line of a data file and its other lines; "" and no lines if there is no file.
+        """Return the header line of a data file, and a list of its other lines; "" and [] if there is no file.
 
-        Raises KnowledgeError if the file cannot be read, has no header line, or has not as many lines as its header
-        states.
+        Raises KnowledgeError if the file cannot be read, has no header line, or has another number of lines than its
+        header states.
         """
         path = self.find(name)
         if path is None:
@@ -117,7 +120,7 @@ def _advice(path: str) -> str:
 
 
 class Table:
-    """Lines of tab-separated fields, sorted by their first field. ``path`` is the path of their file."""
+    """Lines of tab-separated fields, sorted by their first field, the name. ``path`` is the path of the data file."""
 
     __slots__ = ("_lines", "path")
 
@@ -129,7 +132,7 @@ class Table:
         return len(self._lines)
 
     def line(self, name: str) -> str | None:
-        """Return the line of a name, or None."""
+        """Return the line whose first field is ``name``, None if there is none."""
         at = bisect_left(self._lines, name)
         if at < len(self._lines):
             line = self._lines[at]
@@ -138,7 +141,7 @@ class Table:
         return None
 
     def row(self, name: str) -> list[str] | None:
-        """Return the fields of the line of a name, the name first, or None."""
+        """Return the fields of the line whose first field is ``name``, None if there is none."""
         line = self.line(name)
         return None if line is None else line.split("\t")
 
@@ -146,16 +149,16 @@ class Table:
         return self.line(name) is not None
 
     def lines(self) -> Iterator[str]:
-        """Yield every line, sorted."""
+        """Yield all lines, sorted."""
         return iter(self._lines)
 
     def names(self) -> Iterator[str]:
-        """Yield every name, sorted."""
+        """Yield the first field of every line, sorted."""
         return (line.partition("\t")[0] for line in self._lines)
 
 
 class Entries(Generic[T]):
-    """The parsed lines of a table, by name. ``parse`` gets the fields of a line and may raise ValueError."""
+    """The lines of a table as parsed objects, by name. ``parse`` gets the fields of a line and may raise ValueError."""
 
     def __init__(self, table: Table, parse: Callable[[list[str]], T]) -> None:
         self._table = table
@@ -168,11 +171,11 @@ class Entries(Generic[T]):
         return name in self._table
 
     def names(self) -> Iterator[str]:
-        """Yield every name, sorted."""
+        """Yield the name of every entry, sorted."""
         return self._table.names()
 
     def get(self, name: str) -> T | None:
-        """Return the entry of a name, or None. Raises KnowledgeError if its line is invalid."""
+        """Return the parsed line of ``name``, None if there is none. Raises KnowledgeError if the line is invalid."""
         row = self._table.row(name)
         if row is None:
             return None

@@ -1,6 +1,6 @@
 """Underlays: the install prefixes that a workspace is built on. They are read without ROS.
 
-The packages of a prefix are listed at once; their contents are read at the first use of a package.
+The packages of a prefix are listed at once. The contents of a package are read when they are first needed.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _NEEDS_PARSING = re.compile(rb"condition|<!DOCTYPE|<!\[CDATA\[|&|\0")
 _IGNORED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<export\b.*?</export\s*>", re.DOTALL)
 _TAG = re.compile(rb"<(?:build_export_|buildtool_export_|exec_|run_)?depend\b")
 _DEPENDENCY = re.compile(_TAG.pattern + rb"(?:\s[^>]*)?>\s*([\w.+-]+)\s*</")
-"""Dependency tags of the kinds in RUNTIME."""
+"""Pattern of a tag for a dependency that also applies to dependents of the package (``RUNTIME``), with the dependency's name."""
 
 
 class UnderlayError(Exception):
-    """A folder that is not an install prefix. The message names the folder and a valid one."""
+    """The folder is not an install prefix. The message names the folder and suggests a valid one."""
 
 
 class Installed:
@@ -49,8 +49,8 @@ class Installed:
     def released(self) -> Released | None:
         """Version and dependencies of the package from ``share/<package>/package.xml``, None if unknown.
 
-        For a package without a manifest, such as plain CMake, the dependencies are the run-time dependencies that colcon or
-        ament recorded.
+        For a package without a manifest, such as a plain CMake project, the dependencies are the run-time dependencies
+        that colcon or ament recorded.
         """
         path = f"share/{self.name}/package.xml"
         data = self.prefix.read(path)
@@ -63,9 +63,9 @@ class Installed:
 
     @cached_property
     def runtime(self) -> tuple[str, ...] | None:
-        """Names that the package provides directly: its run-time and exported dependencies, sorted; None if unknown.
+        """The run-time and exported dependencies of the package, sorted; None if unknown.
 
-        Simple manifests are not fully parsed, because hundreds of them are read only for these names.
+        Simple manifests are not fully parsed, because only these names are needed of hundreds of manifests.
         """
         data = self.prefix.read(f"share/{self.name}/package.xml")
         if data is not None and not _NEEDS_PARSING.search(data):
@@ -77,14 +77,14 @@ class Installed:
 
     @cached_property
     def groups(self) -> tuple[str, ...]:
-        """Groups that the package is a member of, ``rosidl_interface_packages`` included."""
+        """Dependency groups that the package is a member of, including ``rosidl_interface_packages``."""
         return self.released.groups if self.released else ()
 
     def known(self, kind: ContentKind) -> Known:
-        """Return the names of one kind that the package provides.
+        """Return the names of one kind, such as executables, that the package provides.
 
-        The list of Python modules is never complete, because modules of develop installs are outside the prefix. Programs
-        are known only if the prefix has a single package.
+        The list of Python modules is never complete, because the modules of develop installs are outside the prefix.
+        Programs (files in bin) are known only if the prefix has a single package.
         """
         prefix = self.prefix
         match kind:
@@ -106,12 +106,12 @@ class Installed:
 
     @cached_property
     def share_files(self) -> Known:
-        """Paths of the files in share/<package> of this package, relative to this folder."""
+        """Paths of the files in share/<package>, relative to share/<package>."""
         return Known(self.prefix.share_files(self.name), complete=True)
 
 
 class Underlay:
-    """One install prefix, or the prefixes of all packages of a workspace. ``packages`` are sorted by name."""
+    """An install prefix, or the install prefixes of all packages of one workspace. ``packages`` are sorted by name."""
 
     def __init__(self, root: str, prefixes: Sequence[InstallPrefix], distro: str = "") -> None:
         self.root = root
@@ -131,7 +131,7 @@ class Underlay:
         return tuple(sorted({owner for prefix in self._prefixes for owner in prefix.modules.get(module, ())}))
 
     def cmake(self, name: str) -> tuple[str, ...]:
-        """Return the packages that install the configuration of a CMake package, sorted."""
+        """Return the packages that install the configuration file of the CMake package ``name``, sorted."""
         return tuple(sorted(self._cmake.get(name, ())))
 
     @cached_property
@@ -144,18 +144,18 @@ class Underlay:
 
 
 def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tree | None = None) -> tuple[Underlay, ...]:
-    """Return the underlays in ``prefixes``, in the given order. The first underlay that has a package provides it.
+    """Return the underlays in ``prefixes``, in the given order. If several underlays have a package, the first one counts.
 
-    A prefix is one of these; any other folder raises UnderlayError:
+    Each of ``prefixes`` is one of these folders; any other folder raises UnderlayError:
 
     * an install prefix such as ``/opt/ros/jazzy``,
     * the ``install`` folder of a workspace, of either layout,
-    * the folder of a package in it, as in AMENT_PREFIX_PATH,
+    * the folder of one package in an ``install`` folder, as in AMENT_PREFIX_PATH,
     * a workspace with an ``install`` folder.
 
-    Conditions in manifests are evaluated for ``distro``. ``base`` is the folder of the analysed workspace: its own
-    ``install`` folder is left out, because it was built from the analysed packages. ``machine`` is a tree of files by
-    absolute path; by default it is this machine.
+    Conditions in manifests are evaluated for the distribution ``distro``. ``base`` is the folder of the analysed
+    workspace: its own ``install`` folder is left out, because it was built from the analysed packages. ``machine`` is a
+    tree of files by absolute path; by default all files of this machine.
     """
     roots = [os.path.abspath(place) for place in prefixes]
     tree = machine or MachineTree()
@@ -168,7 +168,7 @@ def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
 
 
 def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:
-    """Yield the prefixes in a folder, see :func:`read`. Raises UnderlayError if there is none."""
+    """Yield the install prefixes in a folder, see :func:`read`. Raises UnderlayError if there is none."""
     try:
         names = [entry.name for entry in tree.list(root) if entry.kind == "directory"]
     except OSError as error:

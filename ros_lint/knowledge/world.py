@@ -1,7 +1,7 @@
-"""All packages and keys that a workspace can use, in layers: its own packages, underlays and released packages.
+"""Look up package names and rosdep keys in all layers: the workspace, its underlays, and released packages.
 
-A name is looked up in the workspace, then in the underlays, then in the index of the distribution. The first layer that has
-a package hides the others, as in a sourced overlay.
+A name is looked up in the workspace, then in the underlays, then in the package index of the distribution. The first
+layer with a package overrides the others, as when an overlay is sourced.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ros_lint.knowledge.underlays import Installed, Underlay
 
 _SHARED_LIBRARY = re.compile(r"lib(?!.*-dev\b).*[0-9][a-z]?\Z")
-"""Pattern of Debian packages with a shared library, whose name ends with a version; headers are in other packages."""
+"""Pattern of the names of Debian packages with shared libraries only, e.g. "libyaml-cpp0.8". Headers are in other packages."""
 
 Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable"]
 """Result of the look-up of a declared name.
@@ -37,7 +37,7 @@ Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable
 * "elsewhere": a package of other active distributions only.
 * "end-of-life": a package of distributions at their end of life only.
 * "unknown": none of these.
-* "unknowable": cannot be decided, because the distribution has no index or a repository is not cloned.
+* "unknowable": this cannot be decided, because the distribution has no package index or a repository is not cloned.
 """
 
 
@@ -47,7 +47,7 @@ class Member(NamedTuple):
     name: str
     version: str
     depends: Mapping[str, tuple[str, ...]]
-    """Declared names by letter of the tag, without tags whose condition is false.
+    """Declared names by the letter of the dependency kind, without tags whose condition is false.
 
     b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc, G groups
     (:data:`ros_lint.facts.manifest.DEPENDENCY_KINDS`).
@@ -59,10 +59,10 @@ class Member(NamedTuple):
 
 
 class World:
-    """Look-ups of names in all layers.
+    """Look-ups of names in the workspace, its underlays and the released packages.
 
-    Data files and underlays are read at their first use, which may raise KnowledgeError. If several packages of the workspace
-    have the same name, the first one counts. If several underlays have the same package, the first one counts.
+    Data files and underlays are read when they are first needed, which may raise KnowledgeError. If several packages of
+    the workspace have the same name, or several underlays have the same package, the first one counts.
     """
 
     def __init__(
@@ -73,11 +73,11 @@ class World:
         awaited: ExpectedRepositories = NOTHING_AWAITED,
     ) -> None:
         self.underlays = tuple(underlays)
-        """Install prefixes below the workspace, topmost first. Not for plugins."""
+        """Install prefixes below the workspace, topmost first. Plugins must not use this attribute."""
         self.knowledge = knowledge
-        """Data of released packages. Not for plugins."""
+        """Data about released packages. Plugins must not use this attribute."""
         self.awaited = awaited
-        """Repositories of the workspace that may be missing."""
+        """Repositories that the workspace lists, for example in a .repos file, but may not contain."""
         self._members: dict[str, Member] = {}
         for member in members:
             self._members.setdefault(member.name, member)
@@ -95,7 +95,7 @@ class World:
     # --- packages -------------------------------------------------------------------------------------------------
 
     def layer(self, name: str) -> Layer | None:
-        """Return the layer that provides a package, or None."""
+        """Return the first layer (workspace, underlay or index) that contains a package, None if there is none."""
         if name in self._members:
             return "workspace"
         if name in self._installed:
@@ -103,22 +103,22 @@ class World:
         return "index" if name in self.knowledge.index else None
 
     def is_package(self, name: str) -> bool:
-        """Return whether any layer contains a package."""
+        """Return whether the workspace, an underlay or the package index contains a package."""
         return self._look_up(name)[0]
 
     def is_key(self, name: str) -> bool:
-        """Return whether a name is a rosdep key, even if it resolves on other platforms only."""
+        """Return whether a name is a rosdep key, even if the key resolves only on platforms of other distributions."""
         return self._look_up(name)[1]
 
     def is_runtime_library(self, name: str) -> bool:
-        """Return whether a name is a rosdep key for shared libraries only, without the files to build against them."""
+        """Return whether a name is a rosdep key for shared libraries only, without the headers to build against them."""
         if not name.startswith("lib") or self.is_package(name):
             return False
         key = self.knowledge.rosdep.get(name)
         return key is not None and bool(key.apt) and all(map(_SHARED_LIBRARY.match, key.apt))
 
     def resolution(self, name: str) -> Resolution:
-        """Return how a declared name resolves, see :data:`Resolution`."""
+        """Return how a name declared in a manifest resolves, see :data:`Resolution`."""
         if self.is_package(name) or self.is_key(name):
             return "known"
         if not self.knowledge.covered:
@@ -130,25 +130,25 @@ class World:
         return "end-of-life" if self.knowledge.names.end_of_life(name) else "unknown"
 
     def _may_be_uncloned(self, name: str) -> bool:
-        """Return whether a package may be in a repository that is not cloned.
+        """Return whether a package may be in a listed repository that is not cloned.
 
-        The name of the package equals the name of the repository or begins with it: ``arm_msgs`` may be in the repository
-        ``arm`` or ``Arm-Msgs``. Any package may be in a repository of a list that cannot be read.
+        This holds if the name of the package equals the name of the repository or begins with it: ``arm_msgs`` may be in
+        the repository ``arm`` or ``Arm-Msgs``. If a list of repositories cannot be read, it holds for any package.
         """
         return not self.awaited.complete or name in self.awaited.uncloned or f"{name}_".startswith(self._uncloned)
 
     @cached_property
     def _uncloned(self) -> tuple[str, ...]:
-        """Beginnings of the names of packages in repositories that are not cloned."""
+        """Beginnings of the names of packages that may be in repositories that are not cloned, e.g. "arm_"."""
         return tuple([f"{package_name(name)}_" for name in self.awaited.uncloned])
 
     def successor(self, name: str) -> str:
-        """Return the successor of a package of ROS 1 or of a former ROS 2 distribution, or ""."""
+        """Return the existing package that replaces a package of ROS 1 or of a former ROS 2 distribution, "" if there is none."""
         successor = self.knowledge.names.successor(name)
         return successor if self.is_package(successor) else ""
 
     def is_declared(self, name: str) -> bool:
-        """Return whether a package of the workspace declares a name in any tag."""
+        """Return whether any package of the workspace declares a name, with any tag."""
         return name in self._declared
 
     @cached_property
@@ -156,7 +156,7 @@ class World:
         return frozenset([name for member in self._members.values() for names in member.depends.values() for name in names])
 
     def version(self, name: str) -> str | None:
-        """Return the version of a package in the layer that provides it, or None."""
+        """Return the version of a package in the first layer that contains it, None if unknown."""
         member = self._members.get(name)
         if member is not None:
             return member.version
@@ -164,16 +164,19 @@ class World:
         return released.version or None if released else None
 
     def released(self, name: str) -> Released | None:
-        """Return the data of a package in the topmost layer below the workspace, None if there is none."""
+        """Return the data of a package in the first layer below the workspace that contains it, None if there is none."""
         installed = self._installed.get(name)
         return installed.released if installed is not None else self.knowledge.index.get(name)
 
     def installed(self, name: str) -> Installed | None:
-        """Return a package in the topmost underlay that has it, even if the workspace hides it; else None."""
+        """Return a package of the topmost underlay that contains it, None if there is none.
+
+        The package is also returned if the workspace has a package of the same name.
+        """
         return self._installed.get(name)
 
     def depends(self, name: str, kinds: Iterable[str]) -> tuple[str, ...] | None:
-        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters as in Released."""
+        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters as in ``Released.depends``."""
         member = self._members.get(name)
         if member is not None:
             return tuple(sorted({dependency for kind in kinds for dependency in member.depends.get(kind, ())}))
@@ -181,9 +184,9 @@ class World:
         return released.on(kinds) if released is not None and released.described else None
 
     def dependents_below(self, name: str) -> tuple[str, ...]:
-        """Return the packages of the underlays that depend on a package at run time or by export, sorted.
+        """Return the packages of the underlays with a run-time or exported dependency on a package, sorted.
 
-        Packages that the workspace hides are left out.
+        Packages that the workspace overrides are left out.
         """
         dependents = []
         for dependent, installed in self._installed.items():
@@ -193,11 +196,11 @@ class World:
         return tuple(sorted(dependents))
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return ``names`` together with all names that these provide transitively.
+        """Return the closure of ``names``: these names and all names that they provide directly or indirectly.
 
-        A package provides its build_export, buildtool_export and exec dependencies. A package of the workspace also provides
-        the members, in the workspace, of the groups that it depends on. A rosdep key provides the keys of the system packages
-        on which its own system package depends.
+        A package provides its build_export, buildtool_export and exec dependencies. A package of the workspace also
+        provides the workspace packages in the groups that it depends on. A rosdep key provides the keys of the system
+        packages that its own system package depends on.
         """
         return self._reach.closure(names)
 
@@ -206,11 +209,11 @@ class World:
         return self._reach.closure_without(names, package, removed)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
-        """Return a shortest chain of dependencies from one of ``starts`` to ``goal``, with both ends, or ()."""
+        """Return a shortest chain of dependencies from one of ``starts`` to ``goal``, with both ends; () if there is none."""
         return self._reach.path(starts, goal)
 
     def group_members(self, group: str) -> tuple[str, ...]:
-        """Return the members of a group in all layers, sorted."""
+        """Return the packages of all layers that are members of a dependency group (REP 149), sorted."""
         names = set(self._members_of.get(group, ()))
         names.update(name for name, installed in self._installed.items() if group in installed.groups)
         names.update(self.knowledge.index.members(group))
@@ -219,40 +222,40 @@ class World:
     # --- what packages provide ------------------------------------------------------------------------------------
 
     def executables(self, name: str) -> Known:
-        """Return the executables of a package, by file name in lib/<package>; NOTHING_KNOWN for a package of the workspace."""
+        """Return the executables of a package as file names in lib/<package>; NOTHING_KNOWN for a package of the workspace."""
         return self._known(name, "executables")
 
     def lacks(self, name: str, kind: ContentKind, wanted: str, *, everywhere: bool) -> bool:
-        """Return whether a package certainly does not provide ``wanted``, a name of one kind such as an executable.
+        """Return whether a package certainly does not provide ``wanted``, a name of a kind such as "executables".
 
-        With ``everywhere``, ``wanted`` must be missing in every distribution that contains the package.
+        If ``everywhere`` is True, ``wanted`` must be missing in every distribution that contains the package.
         """
         if self._known(name, kind).ask(wanted) != "missing":
             return False
         return not (everywhere and self.knowledge.may_exist_elsewhere(name, kind, wanted))
 
     def launch_files(self, name: str) -> Known:
-        """Return the launch files of a package, relative to share/<package>."""
+        """Return the launch files of a package, relative to share/<package>; NOTHING_KNOWN for a package of the workspace."""
         return self._known(name, "launch")
 
     def components(self, name: str) -> Known:
-        """Return the component classes of a package."""
+        """Return the component classes of a package; NOTHING_KNOWN for a package of the workspace."""
         return self._known(name, "components")
 
     def plugins(self, name: str) -> Known:
-        """Return the plugins of a package as base=class."""
+        """Return the plugins of a package as base=class; NOTHING_KNOWN for a package of the workspace."""
         return self._known(name, "plugins")
 
     def programs(self, name: str) -> Known:
-        """Return the names of the programs of a package in bin."""
+        """Return the programs of a package as file names in bin; NOTHING_KNOWN for a package of the workspace."""
         return self._known(name, "programs")
 
     def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
-        """Return all interfaces that a package may have, as msg/Name; empty if some may be unknown.
+        """Return all interfaces that a package may have, as msg/Name; empty if the list may be incomplete.
 
-        Interfaces of the package in other distributions are included with ``everywhere``, or if nothing is known for the
-        target distribution. The list of the newest included distribution must be complete, because interfaces of older
-        distributions are rarely removed.
+        The interfaces of the package in other distributions are included if ``everywhere`` is True, or if nothing is
+        known for the distribution of the run. The list of the newest included distribution must be complete, because
+        interfaces of older distributions are rarely removed.
         """
         key = (name, everywhere)
         if key not in self._interfaces:
@@ -267,10 +270,10 @@ class World:
         return self._interfaces[key]
 
     def python_modules(self, name: str) -> Known:
-        """Return the top-level Python modules of a package. A package of interfaces has a module of its own name.
+        """Return the top-level Python modules of a package.
 
-        A package that has interfaces only in other distributions may have the module: interfaces of turtlesim, for
-        example, have moved to turtlesim_msgs.
+        A package with messages, services or actions has a module of its own name. A package with interfaces only in other
+        distributions may have such a module: interfaces of turtlesim, for example, have moved to turtlesim_msgs.
         """
         modules = self._known(name, "modules")
         released = self.released(name) if self.layer(name) in ("underlay", "index") else None
@@ -290,23 +293,24 @@ class World:
         return released is not None and (released.interfaces or self.knowledge.names.exports_targets(name))
 
     def by_cmake(self, name: str) -> Providers:
-        """Return the providers of the argument of find_package()."""
+        """Return the packages and keys that provide ``name``, the argument of find_package()."""
         key = ("cmake", name)
         if key not in self._providers:
             self._providers[key] = providers.by_cmake(self, name)
         return self._providers[key]
 
     def by_macro(self, package: str) -> Providers:
-        """Return the providers of the CMake macros of a package, including equivalent packages."""
+        """Return the packages and keys that provide the CMake macros of ``package``, including equivalent packages."""
         key = ("macro", package)
         if key not in self._providers:
             self._providers[key] = providers.by_macro(self, package)
         return self._providers[key]
 
     def by_include(self, header: str) -> Providers:
-        """Return the providers of a header. ``header`` is the path in ``#include <header>``.
+        """Return the packages and keys that provide a header. ``header`` is the path in ``#include <header>``.
 
-        Headers of the workspace are recognized by the package name only, so callers search its files first.
+        A header of the workspace is recognized only if its first folder is named like the package. Therefore callers
+        search the files of the workspace first.
         """
         key = ("include", header)
         if key not in self._providers:
@@ -314,21 +318,25 @@ class World:
         return self._providers[key]
 
     def by_include_folder(self, folder: str) -> Providers:
-        """Return the providers of headers below an include folder, by the name of the folder."""
+        """Return the package that provides the headers below an include folder, judging by the name of the folder."""
         key = ("folder", folder)
         if key not in self._providers:
             self._providers[key] = providers.by_include_folder(self, folder)
         return self._providers[key]
 
     def by_import(self, module: str) -> Providers:
-        """Return the providers of a Python module, which may be dotted."""
+        """Return the packages and keys that provide a Python module. ``module`` may be dotted."""
         key = ("import", module)
         if key not in self._providers:
             self._providers[key] = providers.by_import(self, module)
         return self._providers[key]
 
     def packages_with_module(self, module: str) -> tuple[str, ...]:
-        """Return the workspace packages with a Python module: by their build scripts, else by the package name."""
+        """Return the workspace packages with a top-level Python module.
+
+        The build scripts of the packages decide. If no script installs the module, the package of the same name counts,
+        provided that its modules are unknown or it generates interfaces.
+        """
         packages = self._modules.get(module, ())
         member = self._members.get(module)
         if not packages and member is not None and (member.modules is None or GROUP in member.groups):
@@ -340,7 +348,7 @@ class World:
         return self.knowledge.elsewhere(name)
 
     def meant(self, name: str, *, python: bool = False) -> Suggestion | None:
-        """Return the name that an unknown name certainly means, or None. The result is certain enough for a fix.
+        """Return the existing name that an unknown name certainly means, None if there is any doubt. A fix may use the result.
 
         ``python`` is True if the name is needed to run Python code.
         """
@@ -350,7 +358,10 @@ class World:
         return self._meant[key]
 
     def suggest(self, name: str, *, python: bool = False) -> tuple[str, ...]:
-        """Return at most three packages and keys that are similar to an unknown name, nearest first."""
+        """Return at most three packages and rosdep keys that resemble an unknown name, the most similar first.
+
+        ``python`` is True if the name is needed to run Python code.
+        """
         key = (name, python)
         if key not in self._near:
             self._near[key] = providers.near(self, name, python=python)
@@ -358,7 +369,7 @@ class World:
 
     @cached_property
     def spelling(self) -> Spelling:
-        """All names of packages and keys, for look-ups of similar names."""
+        """All names of packages and rosdep keys, for look-ups of similar names."""
         name_sources = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
         return Spelling(name for names in name_sources for name in names)
 

@@ -1,1 +1,1 @@
-"""Refresh the data about released packages from rosdistro and rosdep."""
+"""Create the data files about released packages from files of rosdistro and rosdep."""

@@ -1,10 +1,10 @@
-"""Table of the classes of launch and launch_ros with their arguments, from the sources of several distributions.
+"""Print a table of the classes of launch and launch_ros with their arguments, from the sources of several distributions.
 
-A script::
+Run it as a script::
 
     python -m ros_lint.knowledge.refresh.launch_signatures humble=DIR jazzy=DIR rolling=DIR > signatures.tsv
 
-Each DIR contains checkouts of ros2/launch and ros2/launch_ros on the branch of the distribution, in any subfolders. The
+Each DIR contains clones of ros2/launch and ros2/launch_ros at the branch of the distribution, in any subfolders. The
 sources are parsed, not imported. The format of the table is described in ``docs/knowledge.md``.
 """
 
@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 _PARTS = frozenset({"actions", "conditions", "descriptions", "event_handlers", "launch_description_sources", "substitutions"})
-"""Packages of launch and launch_ros with the classes that launch files use."""
+"""Python packages of launch and launch_ros with the classes that launch files use."""
 _MODULES = frozenset({"launch_description", "launch_description_source", "parameter_descriptions"})
-"""Modules with further such classes."""
+"""Python modules of launch and launch_ros with further classes that launch files use."""
 _LIBRARIES = frozenset({"launch", "launch_ros"})
 
 
@@ -28,22 +28,25 @@ class Parameter(NamedTuple):
 
     name: str
     positional: bool
-    """True if an argument without keyword sets it."""
+    """True if an argument can be passed by position, without a keyword."""
     required: bool
     kind: str
-    """What it accepts, judging by its annotation; "" for anything else."""
+    """Kind of the accepted values, judging by the annotation: "text", "texts", "float", "parameters", ...; "" for any other."""
 
 
 class Signature(NamedTuple):
-    """The arguments of a class."""
+    """The parameters of a class's constructor."""
 
     parameters: tuple[Parameter, ...]
     closed: bool
-    """False if the class accepts further arguments."""
+    """False if the constructor accepts further arguments (``*args`` or ``**kwargs``)."""
 
 
 def signatures(folder: Path) -> dict[str, Signature]:
-    """Return the signatures of the public classes below a folder, by name. OSError and SyntaxError are passed on."""
+    """Return the signatures of the public classes in the sources below a folder, by class name.
+
+    Raises OSError and SyntaxError for a source that cannot be read or parsed.
+    """
     classes: dict[str, ast.ClassDef] = {}
     public: set[str] = set()
     for path in sorted(folder.rglob("*.py")):
@@ -93,7 +96,7 @@ def _parameters(spec: ast.arguments) -> Iterator[Parameter]:
 
 
 def _passed(constructor: ast.FunctionDef) -> tuple[set[str], int]:
-    """Return the arguments that a constructor itself passes to the base class: keywords, and the number of the others."""
+    """Return what a constructor passes to the constructor of the base class: keywords, and the number of positional arguments."""
     for node in ast.walk(constructor):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "__init__":
             return {keyword.arg for keyword in node.keywords if keyword.arg}, len(node.args)
@@ -114,7 +117,7 @@ def _kind(annotation: ast.expr | None) -> str:
 
 
 def table(by_distro: Mapping[str, Mapping[str, Signature]]) -> Iterator[str]:
-    """Yield the lines of the table for the signatures of several distributions."""
+    """Yield the lines of the table, given the signatures of the classes by distribution."""
     yield f"#launch-signatures 1 distros={' '.join(by_distro)}"
     for name in sorted({name for classes in by_distro.values() for name in classes}):
         known = {distro: classes[name] for distro, classes in by_distro.items() if name in classes}

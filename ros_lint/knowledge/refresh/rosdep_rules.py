@@ -1,4 +1,4 @@
-"""Rule files of rosdep (``base.yaml``, ``python.yaml`` ...; REP 111), read as rosdep's resolver does."""
+"""Read rule files of rosdep (``base.yaml``, ``python.yaml`` ...; REP 111) as rosdep's resolver does."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ _ONLY_OSX = frozenset({"osx"})
 
 
 def keys(files: Iterable[tuple[str, object]]) -> dict[str, RosdepKey]:
-    """Return the rosdep keys of rule files. ``files`` are pairs: the path or URL of a file and its parsed contents.
+    """Return the rosdep keys in rule files. ``files`` are pairs of the path or URL of a file and its parsed contents.
 
-    The files are in the order of rosdep's sources: of several rules for a key, the first one counts, except that a rule
-    for macOS only does not hide the others. Raises KnowledgeError for a file that has no rules.
+    The files are in the order of rosdep's list of sources. If several files have a rule for a key, the first rule counts;
+    but a rule for macOS only is combined with the rules for other systems. Raises KnowledgeError for a file without
+    rules.
     """
     merged: dict[str, dict[str, object]] = {}
     for place, rules in files:
@@ -59,9 +60,9 @@ def _pip(rule: object) -> Iterator[str]:
 
 
 def _resolve(rule: Mapping[str, object], platform: str) -> tuple[tuple[str, str], ...] | None:
-    """Return pairs of installer and package for a platform; None if the rule does not apply to it.
+    """Return pairs of installer and package for a platform; None if the rule has no entry for the platform.
 
-    The installer is "" if the rule names none, which means the default installer of the platform.
+    The installer is "" if the rule names none. The default installer of the platform is then used.
     """
     system, _, version = platform.partition(":")
     entry = rule[system] if system in rule else rule.get("*")

@@ -1,4 +1,4 @@
-"""Files of rosdistro: the index (REP 153), distribution files (REP 143) and manifest caches.
+"""Read the files of rosdistro: the index (REP 153), distribution files (REP 143) and manifest caches.
 
 This is the only module that uses the network, and only for ``ros-lint index refresh`` with a URL.
 """
@@ -25,18 +25,18 @@ _MOST_BYTES = 1 << 28
 
 
 class DistributionSource(NamedTuple):
-    """The files that describe a distribution, as paths or URLs."""
+    """The files of rosdistro about one distribution, as paths or URLs."""
 
     name: str
     files: tuple[str, ...]
-    """Distribution files; later ones override earlier ones, as a private overlay is appended."""
+    """Distribution files. A later file overrides an earlier one; a private overlay, for example, is appended."""
     cache: str
     active: bool
     """True for a ROS 2 distribution before its end of life."""
 
 
 def sources(place: str) -> dict[str, DistributionSource]:
-    """Return the distributions in an index (``index-v4.yaml``, by path or URL) by name.
+    """Return the distributions in an ``index-v4.yaml``, by name. ``place`` is the path or URL of the file.
 
     Raises KnowledgeError if the file is unreadable or invalid.
     """
@@ -53,7 +53,7 @@ def sources(place: str) -> dict[str, DistributionSource]:
 
 
 def packages(source: DistributionSource) -> Iterator[Released]:
-    """Yield the packages of a distribution. Raises KnowledgeError if a file is unreadable or invalid."""
+    """Yield the package index entries of a distribution. Raises KnowledgeError if a file is unreadable or invalid."""
     if not source.cache:
         raise KnowledgeError(f"the index has no cache for '{source.name}', so its dependencies are unknown")
     cache = _with_mapping(source.cache, load_yaml(source.cache), "release_package_xmls")
@@ -87,7 +87,7 @@ def packages(source: DistributionSource) -> Iterator[Released]:
 def _described(
     source: DistributionSource, listed: Released, xml: object, variables: Mapping[str, str], end_of_life_flag: str
 ) -> Released:
-    """Return an entry of a distribution file, completed with the dependencies and flags of its manifest."""
+    """Return the entry ``listed`` of a distribution file, with the dependencies and flags from its manifest ``xml``."""
     manifest = collect.collect(Text(f"{source.cache}: {listed.name}", str(xml)))
     if manifest.name != listed.name:
         return listed._replace(flags="?-")
@@ -98,7 +98,7 @@ def _described(
 
 
 def load_yaml(place: str) -> Any:
-    """Return the contents of a YAML file, given by path or URL; gzip is unpacked.
+    """Return the contents of a YAML file as Python values. ``place`` is its path or URL, and a gzip file is unpacked.
 
     Raises KnowledgeError if the file is unreadable or invalid.
     """
@@ -110,7 +110,10 @@ def load_yaml(place: str) -> Any:
 
 
 def read(place: str) -> bytes:
-    """Return the bytes of a file, given by path or URL (http, https, file); gzip is unpacked. Raises KnowledgeError."""
+    """Return the bytes of a file. ``place`` is its path or URL (http, https, file). A gzip file is unpacked.
+
+    Raises KnowledgeError.
+    """
     try:
         data = _download(place) if _is_url(place) else _open(place)
         return gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
@@ -142,7 +145,10 @@ def _is_url(place: str) -> bool:
 
 
 def _resolve_place(index: str, place: str) -> str:
-    """Return the path or URL of a file that an index names: a relative ``place`` is relative to the folder of ``index``."""
+    """Return the path or URL of a file that the rosdistro index lists.
+
+    A relative ``place`` is relative to the folder of ``index``.
+    """
     if _is_url(place) or os.path.isabs(place):
         return place
     folder = index.rpartition("/")[0] if _is_url(index) else os.path.dirname(index)
