@@ -67,7 +67,7 @@ class Related(NamedTuple):
 
 
 class Consequence(NamedTuple):
-    """Reference to findings of the same package that need no report of their own, because another finding explains them."""
+    """The findings of a rule about a subject that need no report, because another finding in the package explains them."""
 
     rule: str
     """Name of the rule of the explained findings."""

@@ -12,7 +12,7 @@ T = TypeVar("T")
 
 
 def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
-    """Cache the results of a function of a workspace. This is a decorator for pure functions that several rules call."""
+    """Cache the results of a function with a workspace as argument: a decorator for pure functions that several rules call."""
 
     @wraps(function)
     def cached_function(workspace: Workspace) -> T:
@@ -25,7 +25,7 @@ def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspa
 
 
 def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[Package, Workspace], T]:
-    """Cache the results of a function of a package and its workspace. This is a decorator like ``cached_by_workspace``."""
+    """Cache the results of a function with a package and its workspace as arguments: a decorator for pure functions."""
 
     @wraps(function)
     def cached_function(package: Package, workspace: Workspace) -> T:

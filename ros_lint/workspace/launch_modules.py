@@ -161,7 +161,7 @@ class _InputFinder:
     # --- files ----------------------------------------------------------------------------------------------------
 
     def _installed_file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the path of the source file that is installed at ``path``, "" if it is ambiguous or missing."""
+        """Return the path of the one source file that is installed at ``path``; "" if there is none or if several are."""
         if path.startswith(f"{OWN_FOLDER}/"):
             return self._neighbour(path[len(OWN_FOLDER) + 1 :], file, package)
         place = installed_place(path)

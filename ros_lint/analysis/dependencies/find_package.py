@@ -106,7 +106,7 @@ _BUILT = Role.BUILD | Role.EXPORT | Role.TEST
 
 
 def macro_packages(script: BuildScript, *purposes: Purpose) -> Iterator[Mention]:
-    """Yield the places where a macro such as ament_export_dependencies() gets the name of a package, for one of ``purposes``."""
+    """Yield the places where a macro such as ament_export_dependencies() gets a package name, for a purpose such as "export"."""
     for mention in script.mentions:
         if mention.via == "target" and mention.purpose in purposes:
             yield mention

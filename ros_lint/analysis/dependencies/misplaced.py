@@ -106,7 +106,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
 
 
 def _outside(closure: Closure, uses: Iterable[Use]) -> list[Use]:
-    """Return the uses that no package of a closure satisfies."""
+    """Return the uses for which no package of the closure is a provider."""
     return [use for use in uses if not any(name in closure for name in use.providers)]
 
 

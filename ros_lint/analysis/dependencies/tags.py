@@ -111,7 +111,7 @@ def _is_only_run(workspace: Workspace, name: str) -> bool:
 
 
 _FEW = 40
-"""Released packages show a common practice only if more than half this number of them declare a name for run time."""
+"""More than half this number of released packages must declare a name only for run time to show a common practice."""
 
 
 def _is_only_for_building(workspace: Workspace, name: str) -> bool:
@@ -127,9 +127,9 @@ TEST_LIBRARIES = frozenset({
 """Packages and rosdep keys that provide test libraries for C++."""
 
 TEST_TOOLS = TEST_LIBRARIES | {"ament_cmake_pytest", "python3-pytest"}
-"""Packages and rosdep keys that run tests. They are often transitive dependencies of a package for a kind of test."""
+"""Packages and rosdep keys that run tests. Packages for a kind of test depend on them: ``ament_cmake_gtest`` on ``gtest``."""
 
 TEST_MODULES = TEST_TOOLS | {
     "launch", "launch_pytest", "launch_ros", "launch_testing", "launch_testing_ament_cmake", "launch_testing_ros",
 }  # fmt: skip
-"""Packages and rosdep keys that tests use. They are often transitive dependencies of a package for a kind of test."""
+"""Packages and rosdep keys that tests use. Packages for a kind of test depend on them: ``launch_testing`` on ``launch``."""

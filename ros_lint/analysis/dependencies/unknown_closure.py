@@ -70,11 +70,10 @@ def _is_far(unknown: Sequence[str], name: str, workspace: Workspace) -> bool:
 
 
 _CHANCE = 0.05
-"""Share of released packages up to which it is unlikely that an unknown name provides a package.
+"""If at most this share of the released packages provide a package, an unknown dependency probably does not provide it.
 
-Measured on packages without unknown dependencies, each dependency in turn treated as unknown. For a package that fewer
-released packages provide, the dependency provided an undeclared package in 0 of 180 cases (build tools aside); up to twice the
-share in 10 of 268 cases, mostly launch.
+Measured on packages without unknown dependencies, each dependency in turn treated as unknown. Up to this share, the dependency
+provided an undeclared package in 0 of 180 cases (build tools aside); up to twice this share, in 10 of 268 cases, mostly launch.
 """
 
 _EVERYDAY = frozenset({"ros", "ament", "cmake", "python", "lib", "dev", "msgs", "common", "utils", "tools"})

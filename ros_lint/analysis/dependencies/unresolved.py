@@ -65,7 +65,7 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield an unresolved dependency for each of ``packages`` that certainly declares the unresolved ``name``.
+    """Yield an unresolved dependency for each of ``packages`` that certainly declares ``name``, which cannot be resolved.
 
     A tag under a condition of unknown value is not certain.
     """

@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 _MOST_EXACT = 12
-"""Largest number of nodes for which all orders are compared. The time grows with n * 2**n."""
+"""Maximum number of nodes for which the cut is found by comparing all orders of the nodes. The time grows with n * 2**n."""
 _MOST_CUTS = 2
-"""Largest number of edges in a cut for which components of more than ``_MOST_EXACT`` nodes are searched exhaustively."""
+"""Maximum number of edges of the cuts that are tried exhaustively if there are more than ``_MOST_EXACT`` nodes."""
 
 
 class Cycle(NamedTuple):

@@ -72,7 +72,7 @@ class Graph:
 
     @property
     def edges(self) -> Iterator[Edge]:
-        """Each package with each of its dependencies."""
+        """Pairs of a package and one of its direct dependencies."""
         return ((name, dependency) for name, dependencies in self.needs.items() for dependency in dependencies)
 
     def reasons(self, edge: Edge) -> tuple[Reason, ...]:

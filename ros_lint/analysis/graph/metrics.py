@@ -64,7 +64,7 @@ def measure(graph: Graph) -> Mapping[str, Metrics]:
 
 
 def _knots(graph: Graph) -> dict[str, str]:
-    """Return, for each package, the first member of its strongly connected component: the package itself if on no cycle."""
+    """Return, for each package, the first member of its strongly connected component: the package itself if it is on no cycle."""
     first_members = {name: name for name in graph.names}
     if graph.order.stuck or graph.possible_cycles:
         for members in components(graph.arcs):

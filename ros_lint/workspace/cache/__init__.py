@@ -1,1 +1,1 @@
-"""Keep the facts and results of a run for later runs, in one file for each workspace in the user's cache folder."""
+"""Keep the results of a run and the data extracted from its files for later runs, in one cache file for each workspace."""

@@ -13,7 +13,7 @@ from ros_lint.facts.visibility import Opaque
 
 
 class PackageSource(NamedTuple):
-    """A package with its files and the facts in them, in the form that the resolution of names to packages needs."""
+    """A package with its files and the data extracted from them, in the form that the resolution of names to packages needs."""
 
     name: str
     path: str

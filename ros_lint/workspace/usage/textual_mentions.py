@@ -131,7 +131,7 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
 
 
 def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> frozenset[str]:
-    """Return those of the names with which a type, function or macro in C code begins, outside comments."""
+    """Return those package names with which a type, function or macro in the C code of ``files`` begins, outside comments."""
     result: set[str] = set()
     for path, data in files if names else ():
         for name in names:

@@ -16,7 +16,7 @@ def unused_finds(package: Package) -> Iterator[Mention]:
 
     To link or export a target of the package is not a use by code. These count as uses:
 
-    * plugins that a macro gets by name,
+    * packages that a macro gets by name to export plugins: ``pluginlib_export_plugin_description_file(nav2_core ...)``,
     * packages of interfaces, unless all interface files are read and no field has a type of the package.
 
     The result is empty if parts of the package that may use other packages could not be evaluated.
