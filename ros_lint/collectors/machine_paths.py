@@ -44,6 +44,7 @@ _WRITING_CALL = re.compile(
 _RELATIVE_ATTRIBUTE = re.compile(r"\b(?:mesh|texture|asset)dir\s*=\s*[\"']\Z")
 """Matches the text before the value of an attribute in a MuJoCo model that is relative to the folder of the model."""
 _PARAMETER_DEFAULT = re.compile(r"\bdeclare_parameter(?:<[\w:]+>)?\(\s*[\"'][\w./-]+[\"']\s*,\s*(?:std::string\(|\{)?\s*[\"']\Z")
+_DESCRIPTION_FILE = "Description File: "
 _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
 """Matches a file path that RViz stores in a display but does not read, because a topic gives the description."""
 
@@ -98,6 +99,7 @@ def _machine_path(text: Text, match: re.Match[str]) -> MachinePath:
         bool(is_relative),
         bool(is_default),
         generated[1] if generated else "",
+        text.path.endswith(".rviz") and text.text.endswith(_DESCRIPTION_FILE, window_start, start),
     )
 
 

@@ -25,12 +25,14 @@ def run_rules(
 ) -> tuple[tuple[Issue, ...], tuple[Crash, ...]]:
     """Return all findings of the rules about packages and files below ``folders``, sorted by place, and the crashes.
 
-    If a rule crashes for one package, its findings in other packages and the findings of other rules are still returned.
+    Packages of ROS 1 have no findings, because the rules are for ROS 2. If a rule crashes for one package, its findings in other
+    packages and the findings of other rules are still returned.
     """
     issues: set[Issue] = set()
     crashes: list[Crash] = []
-    packages = [package for package in workspace.packages if is_below_any(package.path, folders)]
-    names = {package.name for package in (*packages, *workspace.unusable) if is_below_any(package.path, folders)}
+    packages = [package for package in workspace.packages if is_below_any(package.path, folders) and not package.is_ros1]
+    unusable = [package for package in workspace.unusable if is_below_any(package.path, folders)]
+    names = {package.name for package in (*packages, *unusable)}
     for rule in rules:
         for package in packages if rule.package else (None,):
             try:

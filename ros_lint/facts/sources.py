@@ -109,6 +109,8 @@ class MachinePath(NamedTuple):
     """True if the path is the default of a parameter that a program declares."""
     generated_from: str = ""
     """The name of the file from which xacro generated the file with the path, "" if its header names none."""
+    is_rviz_description: bool = False
+    """True if RViz reads the robot description from this path. It opens the path as written, without ``package://``."""
 
     @property
     def distribution(self) -> str:

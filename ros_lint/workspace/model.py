@@ -168,10 +168,11 @@ class Package(NamedTuple):
 
     @property
     def is_ros1(self) -> bool:
-        """True for a package of ROS 1: its build type is catkin, and CMake does not find any ``ament_cmake*`` package."""
-        mentions = self.built.mentions if self.builds_with == "catkin" else ()
-        return self.builds_with == "catkin" and not any(
-            mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in mentions
+        """True for a package of ROS 1: its build type is catkin, it declares catkin, and it finds no ``ament_cmake*`` package."""
+        return (
+            self.builds_with == "catkin"
+            and bool(self.declares("catkin"))
+            and not any(mention.via == "cmake" and mention.name.startswith("ament_cmake") for mention in self.built.mentions)
         )
 
     def hidden(self, facet: Facet, place: str = "") -> tuple[Opaque, ...]:

@@ -37,14 +37,15 @@ from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, 
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    for name, same in graph.dependency_graph(workspace).places.items():
+    for name, places in graph.dependency_graph(workspace).places.items():
+        same = [package for package in places if not package.is_ros1]  # they are built in another workspace
         if len(same) < 2:
             continue
         first, *others = same
         *earlier, last = [package.path or "." for package in same]
-        places = f"{', '.join(earlier)} and {last}"
+        paths = f"{', '.join(earlier)} and {last}"
         yield Finding(
-            f"{len(same)} packages have the name '{name}': {places}; colcon rejects the workspace; rename one or put "
+            f"{len(same)} packages have the name '{name}': {paths}; colcon rejects the workspace; rename one or put "
             "COLCON_IGNORE into its folder",
             first.span,
             name,

@@ -162,6 +162,8 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
         return "all programs of the package would use it: write /usr/bin/env python3, or remove this option"
     if source := _source_of_generated(machine, package):
         return f"this file is generated from '{source}': remove it, and run xacro in the launch file"
+    if machine.is_rviz_description:
+        return "set 'Description Source' to Topic, because RViz does not resolve package:// in 'Description File'"
     if inside is None:
         return "make it an argument, or move the file to a package"
     if machine.is_written:

@@ -37,6 +37,7 @@ Not reported:
 
 Reported with medium confidence:
 
+- Packages that Python files import but do not use.
 - All files that use the package may not be built or installed, or colcon rejects `package.xml`.
 - The package depends on this one, with any tag, so declaring it would close a cycle that colcon rejects. There is no fix.
 
@@ -98,7 +99,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         if not (package.declares(_LAUNCHER) and dependencies.is_part_of_launch(package, workspace, need.uses)):
             may_be_unused = all(map(_is_in_cmake, need.uses)) and (uses_are_hidden or len(need.uses) == 1)
-            certain = need.sure and not may_be_unused and not _is_one_type(need)
+            is_unused = all(use.unused for use in need.uses)  # an import to remove rather than to declare
+            certain = need.sure and not (may_be_unused or is_unused or _is_one_type(need))
             yield _finding(package, workspace, need, Confidence.HIGH if certain else Confidence.MEDIUM)
     for wish in dependencies.optional_needs(package, workspace):
         if wish.is_transitive and not _is_command(wish):

@@ -162,15 +162,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 f"'{need.name}'"
             )
             finding = finding._replace(message=message, fix=finding.fix._replace(safe=False))
-        elif call := _leftover(package, workspace, need):
-            message = f"package.xml does not declare '{need.name}', and nothing in this package uses it; remove {call}"
-            finding = finding._replace(message=message, fix=None)
-        elif call := _unused_find(package, workspace, need):
-            message = (
-                f"package.xml does not declare '{need.name}', and no code uses it; remove {call}, or declare '{need.name}' "
-                "if the code needs it"
-            )
-            finding = finding._replace(message=message, fix=None)
+        elif advice := _removal(package, workspace, need):
+            finding = finding._replace(message=advice, fix=None)
         if finding.fix:
             finding = finding._replace(explains=_brought(package, workspace, need, by_name))
         yield finding._replace(severity=severity or finding.severity)
@@ -178,7 +171,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         tag = lack.depend.tag
         problem = f"is used here, but comes only with <{tag}>{lack.depend.name}</{tag}>, which is not installed {lack.purpose}"
         uses = (*lack.uses, *(use for use in lack.need.uses if use not in lack.uses))
-        yield _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
+        finding = _finding(package, workspace, lack.need._replace(uses=uses), problem, Confidence.HIGH)
+        if advice := _removal(package, workspace, lack.need):
+            finding = finding._replace(message=advice, fix=None, severity=Severity.WARNING)
+        yield finding
     for wish in dependencies.optional_needs(package, workspace):
         if not wish.is_transitive:
             problem = "is used here if it is available, but package.xml does not declare it"
@@ -318,6 +314,18 @@ def _is_left_to_pip(package: Package, workspace: Workspace, need: dependencies.N
     modules = {use.name.partition(".")[0].lower() for use in need.uses}
     is_required = not package.pip_requirements.isdisjoint({library, *modules})
     return is_required and bool(dependencies.availability_remark(workspace, need.name))
+
+
+def _removal(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
+    """Return the message that advises to remove an unused find_package(), "" if the package may use the needed package."""
+    if call := _leftover(package, workspace, need):
+        return f"package.xml does not declare '{need.name}', and nothing in this package uses it; remove {call}"
+    if call := _unused_find(package, workspace, need):
+        return (
+            f"package.xml does not declare '{need.name}', and no code uses it; remove {call}, or declare '{need.name}' "
+            "if the code needs it"
+        )
+    return ""
 
 
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:

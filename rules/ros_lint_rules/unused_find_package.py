@@ -81,8 +81,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             name,
             first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
-            explains=(Consequence("wrong-dependency-kind", name),) if sure else (),
+            explains=tuple(Consequence(rule, name) for rule in _EXPLAINED) if sure else (),
         )
+
+
+_EXPLAINED = ("wrong-dependency-kind", "unexported-dependency")
+"""Rules that ask to declare or export the package. Without find_package() there is nothing to declare or export."""
 
 
 def _call(package: Package, find: Mention) -> str:

@@ -42,6 +42,7 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
     - packages declared under a false condition, unless CMake needs them, because the files that use them may be unused then,
     - metapackages whose files are looked up, because a metapackage has no files, so the name is probably wrong,
     - packages that package.xml probably declares by a misspelled name, because another rule reports that name,
+    - packages that the workspace has only for ROS 1, because a package of ROS 2 cannot depend on them,
     - packages that a declared dependency may provide, because its own dependencies are unknown,
     - packages whose headers are included without find_package(), if the script finds a dependency with unknown dependencies.
     """
@@ -62,7 +63,8 @@ def undeclared(package: Package, workspace: Workspace) -> tuple[tuple[Need, bool
             continue
         sure = need.sure and any(use.via != "launch" or use.role is _TEST for use in need.uses)
         sure = sure and (need.name not in elsewhere or any(use.via in _BUILT and use.certain for use in need.uses))
-        sure = sure and not (_looks_into_nothing(need, workspace) or is_declared_misspelled(package, workspace, need))
+        sure = sure and not (_looks_into_nothing(need, workspace) or _is_only_for_ros1(need.name, workspace))
+        sure = sure and not is_declared_misspelled(package, workspace, need)
         if workspace.world.resolution(need.name) != "known":
             if distros_providing(package, workspace, need.name) or _is_declared_as_key(package, workspace, need.name):
                 continue
@@ -105,6 +107,12 @@ def _looks_into_nothing(need: Need, workspace: Workspace) -> bool:
     if need.name in workspace.by_name or any(use.via not in ("package", "launch") for use in need.uses):
         return False
     return only_brings(workspace.world, need.name)
+
+
+def _is_only_for_ros1(name: str, workspace: Workspace) -> bool:
+    """Return whether the workspace has a package of ROS 1 with this name, and ROS 2 has no such package."""
+    namesakes = workspace.by_name.get(name, ())
+    return bool(namesakes) and all(package.is_ros1 for package in namesakes) and workspace.world.released(name) is None
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:

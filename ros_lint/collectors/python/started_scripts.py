@@ -34,9 +34,9 @@ def runs_when_started(source: Text, *, is_program: bool) -> bool:
 
 
 def _calls(body: Sequence[ast.stmt]) -> Iterator[ast.Call]:
-    """Yield the calls in statements that run when a module is imported. Values of assignments are left out."""
+    """Yield the calls in statements that run when a module is imported. Assignments are left out, also by ``setattr()``."""
     for statement in body:
-        if isinstance(statement, ast.Expr):
+        if isinstance(statement, ast.Expr) and not _is_setattr(statement.value):
             yield from (node for node in ast.walk(statement) if isinstance(node, ast.Call))
         elif isinstance(statement, (ast.If, ast.For, ast.While)):
             yield from _calls([*statement.body, *statement.orelse])
@@ -44,3 +44,7 @@ def _calls(body: Sequence[ast.stmt]) -> Iterator[ast.Call]:
             yield from _calls(statement.body)
         elif isinstance(statement, ast.Try):
             yield from _calls([*statement.body, *statement.orelse, *statement.finalbody])
+
+
+def _is_setattr(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "setattr"
