@@ -75,7 +75,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _dashed(keys: Sequence[Problem]) -> Finding:
-    """Return one finding for all keys with a dash, because they have the same reason."""
+    """Return one finding for all deprecated keys of setup.cfg, those with a dash in their name."""
     first, *others = keys
     better = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject.replace("-", "_") for key in keys))
     fix = Fix(f"write {better}", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))

@@ -285,7 +285,7 @@ def _folder_and_suffix(path: str) -> tuple[str, str]:
 
 
 def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: Workspace) -> bool:
-    """Return whether nothing looks up ``file`` of package ``owner``, but other files of its folder and suffix are looked up."""
+    """Return whether nothing looks up ``file`` of package ``owner``, but other files with its folder and suffix are looked up."""
     wanted = {look_up.path for look_up in launch.files_looked_up(workspace).get(owner, ())}
     return file not in wanted and any(
         _folder_and_suffix(other) == _folder_and_suffix(file) for other in wanted.intersection(all_names)

@@ -72,7 +72,7 @@ _DONE = {
     "file": "used",
     "package": "looked up",
 }
-"""The verb for each kind of reference of a launch file, in the order of the strength of the evidence."""
+"""The verb for each kind of reference of a launch file. The kind with the strongest evidence is first."""
 _ORDER = tuple(_DONE)
 _LINES_OF_CALL = 1
 """Maximum number of lines between the package and the file name in one call.

@@ -53,7 +53,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _undeclared(arguments: launch.ArgumentUse, *, included: bool) -> Iterator[Finding]:
-    """Yield the findings for configurations read without a default; ``included``: another file includes the launch file."""
+    """Yield the findings for undeclared configurations that a launch file reads without a default.
+
+    ``included``: whether another launch file includes the file.
+    """
     for name, span in arguments.undeclared.items() if len(arguments.undeclared) <= _MOST_MISSING else ():
         near = names.similar_names(name, sorted(arguments.declared), 1, 0.85)
         yield Finding(

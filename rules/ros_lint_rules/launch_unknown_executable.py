@@ -194,7 +194,7 @@ def _hint(name: str, meant: str, all_names: tuple[str, ...]) -> str:
 
 
 _LIBRARY = (".a", ".so")
-"""Suffixes of libraries: a build script that installs all targets into one folder puts them next to the executables."""
+"""Suffixes of libraries, which a build script may install next to the executables."""
 
 
 _SUFFIX = re.compile(r"(?:\.py|\.sh|_?node|_?exe|_?main)+$")

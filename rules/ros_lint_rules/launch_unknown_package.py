@@ -135,7 +135,7 @@ def _hint_to_declare(name: str, package: Package, workspace: Workspace) -> str:
 
 
 def _is_outside_dependencies(name: str, package: Package, workspace: Workspace) -> bool:
-    """Return whether no declared dependency of ``package`` is ``name`` or may depend on it, directly or indirectly.
+    """Return whether ``package`` certainly does not depend on ``name``, directly or indirectly.
 
     A tag with a false condition counts as a declaration, because the package is not needed in this distribution. An unknown
     dependency is assumed not to depend on a package that ROS 2 replaced by another package.

@@ -91,7 +91,7 @@ class _Early(NamedTuple):
     sure: bool
     """True if the configuration is certainly read at ``span``."""
     holds: bool | None
-    """The result of the condition that compares the missing configuration; None outside of such conditions: launch stops."""
+    """The result of the condition that compares the missing configuration; None if launch stops, as outside of conditions."""
 
 
 _OUTCOMES = {None: "the launch file stops", False: "the condition is never true", True: "the condition is always true"}

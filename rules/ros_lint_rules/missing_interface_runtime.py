@@ -34,7 +34,7 @@ from ros_lint.api import Confidence, Finding, Package, Role, Rule, Severity, Wor
 
 _RUNTIME = "rosidl_default_runtime"
 _CORE = "rosidl_core_runtime"
-"""The package that an interface package declares in its place if rosidl_default_runtime depends on the interface package."""
+"""The package to declare in place of rosidl_default_runtime, in interface packages on which rosidl_default_runtime depends."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:

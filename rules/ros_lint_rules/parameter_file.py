@@ -129,7 +129,7 @@ def _may_be_of(passed: launch.NodeParameterFile, rewrites: bool) -> bool:
 
 
 def _is_container(passed: launch.NodeParameterFile) -> bool:
-    """Return whether a node is a component container: its command line applies to all components that it loads."""
+    """Return whether a node is a component container, whose parameter files apply to all components that it loads."""
     package = passed.action.package
     return package is not None and "rclcpp_components" in package.texts
 

@@ -382,7 +382,7 @@ def _brought(
 
 
 def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Need, need: dependencies.Need) -> bool:
-    """Return whether packages that declare the package of ``need`` rarely declare that of ``other``, which comes with it."""
+    """Return whether packages that declare the package of ``need`` rarely declare its dependency, the package of ``other``."""
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False
@@ -436,7 +436,7 @@ def _suggestion(name: str, workspace: Workspace) -> str:
 
 
 def _module_of_declared_name(package: Package, name: str, use: Use) -> str:
-    """Return the module that ``use`` imports from the package ``name`` if another declared package is called like it; else ""."""
+    """Return the module that ``use`` imports from package ``name`` if a different, declared package has its name; else ""."""
     module = use.name.partition(".")[0] if use.via == "import" else ""
     return module if module != name and package.tags(module) else ""
 

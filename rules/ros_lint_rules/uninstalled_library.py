@@ -133,7 +133,7 @@ def _names(package: Package, texts: tuple[str, ...]) -> Iterator[str]:
 
 
 def _is_shared(calls: Sequence[Call], *, by_default: bool) -> bool:
-    """Return whether the first of the calls that create a library certainly creates a shared one."""
+    """Return whether the first of ``calls``, the commands that create a library, certainly creates a shared library."""
     if not calls:
         return False
     kinds = {"STATIC", "OBJECT", "INTERFACE"}.intersection(calls[0].texts)
@@ -208,7 +208,7 @@ def _links(script: BuildScript) -> Mapping[str, Sequence[_User]]:
 
 
 def _exports(package: Package) -> Mapping[str, Span]:
-    """Return the first unconditional ament_export_libraries() for each library, by the name of the library."""
+    """Return the place of the first unconditional ament_export_libraries() for each library, by the name of the library."""
     exports: dict[str, Span] = {}
     for call in package.calls("ament_export_libraries", anywhere=True):
         if not call.blocks:
