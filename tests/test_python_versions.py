@@ -250,7 +250,7 @@ error[ROS506 launch-invalid]: type statements need Python 3.12; humble runs 3.10
 8 |              executable=f'{d["b"]!r:>3}{'er'}'),
   |                         ---------------------- f-strings with their own quotes inside need Python 3.12; humble runs 3.10
 
-error[ROS506 launch-invalid]: 'undefined' is not defined
+error[ROS506 launch-invalid]: 'undefined' is not defined; define or import it
  --> launch/e.launch.py:4:5
   |
 4 | \U0001fae8\U0001e08f {undefined}'''])

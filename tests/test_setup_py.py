@@ -234,7 +234,8 @@ def test_imports_are_mentions() -> None:
         ),
         (
             "data_files=[['share/pkg', ['package.xml']]]",
-            [("data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", "'share/pkg'")],
+            [("data-files-form", "an entry of data_files must be a tuple of a folder and a list of files; "
+                    "write ('folder', ['file'])", "'share/pkg'")],
         ),
         (
             "data_files=[('/etc', ['package.xml'])]",

@@ -47,7 +47,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if call.name == "catkin_package":
             yield Finding("catkin_package() belongs to ROS 1; use ament_package()", call.name_span, call.name)
         elif call.texts[:1] == ("catkin",) and "REQUIRED" in call.texts:
-            message = "find_package(catkin) stops CMake, because ROS 2 has no catkin; call find_package() for each package"
+            message = (
+                "find_package(catkin) stops CMake, because ROS 2 has no catkin; call find_package() for each package that you use"
+            )
             yield Finding(message, call.span(0), "catkin")
     exports = package.manifest.exports
     if any(element.tag == "build_type" and element.text == "catkin" for element in exports):

@@ -62,7 +62,9 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 end = call
         elif end is not None and (effect := _effect(call)):
             related = Related(f"{end.name}() is called here", end.name_span)
-            yield Finding(f"{_quoted(call)} after {end.name}() {effect}; call it earlier", call.name_span, call.name, (related,))
+            yield Finding(
+                f"{_quoted(call)} after {end.name}() {effect}; move it before {end.name}()", call.name_span, call.name, (related,)
+            )
 
 
 def _effect(call: Call) -> str:

@@ -62,7 +62,7 @@ def _confused(call: Call, strays: Sequence[tuple[int, int]]) -> Finding:
 RULE = Rule(
     name="component-keyword",
     code="ROS422",
-    summary="rclcpp_components_register_nodes() is passed only class names",
+    summary="only class names are passed to rclcpp_components_register_nodes()",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -107,7 +107,9 @@ def _plain(name: str) -> str:
 
 
 def _without_macro(component: Component, alike: list[Registration]) -> Finding:
-    hint = names.did_you_mean([alike[0].name]) if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name})"
+    hint = (
+        names.did_you_mean([alike[0].name]) if alike else f"; add RCLCPP_COMPONENTS_REGISTER_NODE({component.name}) to a source"
+    )
     place = component.span.inner(component.name) if len(alike) == 1 else None
     fix = Fix(f"write '{alike[0].name}'", (Edit(place, alike[0].name),)) if place else None
     related = first_related(Related("the source registers this class", macro.span) for macro in alike)

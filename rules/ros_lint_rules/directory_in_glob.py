@@ -41,7 +41,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="directory-in-glob",
     code="ROS411",
-    summary="data_files list files, not folders",
+    summary="entries of data_files name files, not folders",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -33,7 +33,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if earlier.name == call.name and not earlier.args:
             fix = Fix(f"remove the first {earlier.name}()", (Edit(earlier.extent, ""),), safe=False)
         yield Finding(
-            f"{call.name}() is called after {earlier.name}(), which already ended the package; keep only the last call",
+            f"{call.name}() is called after {earlier.name}(), but only one call is allowed; keep only the last one",
             call.name_span,
             call.name,
             (Related("the first call", earlier.name_span),),

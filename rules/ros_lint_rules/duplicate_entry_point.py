@@ -32,8 +32,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             continue
         earlier = first.setdefault((entry.group, entry.name), entry)
         if earlier.span != entry.span:
-            remedy = "remove one" if earlier.target == entry.target else "rename one"
-            message = f"'{entry.name}' is already defined as {earlier.target}; setuptools stops at a second definition: {remedy}"
+            change = "remove" if earlier.target == entry.target else "rename"
+            message = (
+                f"entry point '{entry.name}' is already defined as {earlier.target}; setuptools stops at a second definition: "
+                f"{change} one of them"
+            )
             yield Finding(message, entry.span, entry.name, (Related("the first definition", earlier.span),))
 
 

@@ -36,7 +36,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="duplicate-find-package",
     code="ROS317",
-    summary="each package is found once",
+    summary="no call of find_package() is repeated",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

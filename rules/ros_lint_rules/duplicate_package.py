@@ -45,8 +45,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         *earlier, last = [package.path or "." for package in same]
         paths = f"{', '.join(earlier)} and {last}"
         yield Finding(
-            f"{len(same)} packages have the name '{name}': {paths}; colcon rejects the workspace; rename one or put "
-            "COLCON_IGNORE into its folder",
+            f"{len(same)} packages have the name '{name}': {paths}; colcon rejects the workspace; rename one, or put "
+            "an empty file COLCON_IGNORE into its folder",
             first.span,
             name,
             tuple(Related(f"another '{name}'", package.span) for package in others),

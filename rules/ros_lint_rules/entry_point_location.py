@@ -80,11 +80,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     programs = names.shorten_list(entry.name for entry in nodes)
     yield Finding(
         f"{programs} {'are' if len(nodes) > 1 else 'is'} installed to bin/, where ros2 run does not look; "
-        f"{'write' if exists else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name}",
+        f"{'write' if exists else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name} under [install]",
         config if exists else nodes[0].span,
         "setup.cfg",
         first_related(Related("this entry point", entry.span) for entry in nodes[0 if exists else 1 :]),
-        Fix.of(f"{'complete' if exists else 'add'} setup.cfg", *changes),
+        Fix.of("add the missing settings to setup.cfg" if exists else "add setup.cfg", *changes),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
 
@@ -102,7 +102,7 @@ def _without_symlinks_only(package: Package, inside: Container[str]) -> Iterator
             folders["install.install_scripts"],
             "setup.cfg",
             first_related(Related("this entry point", entry.span) for entry in entries),
-            Fix.of("complete setup.cfg", *edits.setup_py.programs_to(script, package.name)),
+            Fix.of("add the missing setting to setup.cfg", *edits.setup_py.programs_to(script, package.name)),
             severity=Severity.WARNING,
         )
 

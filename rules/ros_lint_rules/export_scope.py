@@ -41,7 +41,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     first, *others = package.built.cmake.lost_exports
     yield Finding(
         f"{first.name}() has no effect here, because ament_package() does not read variables of a function or subfolder; "
-        "call it in the top CMakeLists.txt",
+        "call it in the top CMakeLists.txt, outside functions",
         first.span,
         first.name,
         first_related(Related("has no effect here either", call.span) for call in others),

@@ -147,7 +147,7 @@ def _targets(call: Call, all_names: Mapping[str, int]) -> Iterator[Finding]:
             f"{_TARGET_COMMANDS[call.name]}()",
             call.span(at),
             name,
-            first_related(Related(f"also '{other}'", call.span(index)) for other, index in others),
+            first_related(Related(f"'{other}' is a target, too", call.span(index)) for other, index in others),
         )
 
 

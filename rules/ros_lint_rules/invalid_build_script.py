@@ -64,7 +64,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 RULE = Rule(
     name="invalid-build-script",
     code="ROS312",
-    summary="build scripts parse",
+    summary="build scripts have no syntax errors or other errors that stop CMake or Python",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

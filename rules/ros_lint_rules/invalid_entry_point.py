@@ -50,7 +50,8 @@ def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
     if entry.target.rstrip().endswith("()"):
         message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"
         return Finding(message, entry.span, entry.name, fix=_without_call(entry))
-    return Finding(f"'{entry.name} = {entry.target}' is not of the form 'name = module:function'", entry.span, entry.name)
+    message = f"'{entry.name} = {entry.target}' is not of the form 'name = module:function'; write it in this form"
+    return Finding(message, entry.span, entry.name)
 
 
 def _without_call(entry: EntryPoint) -> Fix | None:

@@ -97,7 +97,7 @@ def _fix(path: str, problems: Iterable[Problem]) -> Fix | None:
     if any(problem.kind != "removed-keyword" for problem in problems):
         return None
     edits = dict.fromkeys(Edit(problem.span, problem.subject) for problem in problems)
-    return Fix("write the current keywords", tuple(edits), safe=not _is_for_old(path))
+    return Fix("rename the removed keywords", tuple(edits), safe=not _is_for_old(path))
 
 
 def _is_for_old(path: str) -> bool:
@@ -121,7 +121,24 @@ def _also(first: Problem, other: Problem) -> str:
 
 
 def _message(problem: Problem) -> str:
-    return f"{problem.message}; ROS 2 uses {problem.instead}" if problem.instead else problem.message
+    if problem.instead:
+        return f"{problem.message}; ROS 2 uses {problem.instead}"
+    remedy = "" if any(mark in problem.message for mark in ";?") else _REMEDIES.get(problem.kind, "")
+    return f"{problem.message}{remedy}"
+
+
+_REMEDIES = {
+    "missing-argument": "; add it",
+    "missing-attribute": "; add it",
+    "too-many-arguments": "; pass the other values as keyword arguments",
+    "undefined-name": "; define or import it",
+    "unexpected-attribute": "; correct or remove it",
+    "unexpected-child": "; move or remove it",
+    "unexpected-keyword": "; correct or remove it",
+    "unknown-substitution": "; correct the name",
+    "unknown-tag": "; correct the name, or remove it",
+}
+"""Remedies for problems whose message contains none, by the kind of the problem."""
 
 
 def _confidence(problem: Problem, path: str, workspace: Workspace) -> Confidence:

@@ -34,7 +34,10 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             if len(value.texts) == 1 and value.texts[0] not in action.choices:
                 name = action.target.texts[0] if action.target is not None else ""
                 choices = ", ".join(f"'{choice}'" for choice in action.choices)
-                message = f"the default '{value.texts[0]}' of launch argument '{name}' is not one of its choices {choices}"
+                message = (
+                    f"the default '{value.texts[0]}' of launch argument '{name}' is not one of its choices {choices}; "
+                    "change the default, or add it to the choices"
+                )
                 yield Finding(message, value.span, name)
 
 

@@ -38,7 +38,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _finding(failing: launch.FailingExpression, confidence: Confidence) -> Finding:
-    reason = "not a valid Python expression"
+    reason = "which is not a valid Python expression; change the default or the expression"
     if failing.name:
         remedy = f"write {failing.name.capitalize()}" if failing.name in ("true", "false") else "put it in quotes"
         reason = f"but Python has no name '{failing.name}'; {remedy}"

@@ -113,7 +113,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for (owner, _, sure), missing in groups.items():
         (path, hint, first, repeated), *more = missing
         yield Finding(
-            f"{_message(owner, path, len(more))}{hint}",
+            f"{_message(owner, path, len(more))}{hint or _OTHERWISE}",
             first,
             path,
             first_related(
@@ -156,7 +156,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
         meant = written or _is_left_over(twin, owner, existing, workspace)
         sure = meant and workspace.surely_lacks(owner, "launch", path)
         yield Finding(
-            f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace)}",
+            f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace) or _OTHERWISE}",
             best.span,
             path,
             first_related([*_look_up(best, names_at), *(Related("also named here", other.span) for other in others)]),
@@ -202,7 +202,8 @@ def _passed(workspace: Workspace) -> Iterator[Finding]:
         sure = passed.sure and key in missing.passed_by(file, settled=True)
         hint = _hint(passed.path, _files_without(passed.package, passed.path, passed.kind, workspace) or ())
         yield Finding(
-            f"{_message(passed.package, passed.path)}; the included file forms this path from an argument passed here{hint}",
+            f"{_message(passed.package, passed.path)}; the included file forms this path from an argument passed here"
+            f"{hint or '; correct the argument, or add the file'}",
             passed.via,
             passed.path,
             (Related("named here", passed.span),),
@@ -250,6 +251,8 @@ class _Missing:
 
 
 _Key = tuple[Span, str, str]
+_OTHERWISE = "; correct the path, or add the file"
+"""The remedy for a missing file without a suggestion."""
 
 
 def _message(owner: str, path: str, more: int = 0) -> str:

@@ -65,7 +65,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         (installed, first), *others = sorted(places, key=lambda place: not place[0])
         yield Finding(
             f"'{path}' is only found if ros2 launch runs in the folder of '{package.name}'; "
-            f"{install}look it up in the share directory",
+            f"{install}look it up in the share directory of the package",
             first,
             path,
             tuple(Related("also named here", span) for _, span in others),

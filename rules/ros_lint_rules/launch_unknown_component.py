@@ -51,7 +51,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             ][:2]
         )
         hint = names.did_you_mean(near) or (
-            f"; it registers {names.shorten_list(all_names)}" if all_names else "; it registers no components"
+            f"; it registers {names.shorten_list(all_names)}"
+            if all_names
+            else "; it registers no components: correct the package, or register the class"
         )
         only = meant[0] if len(meant) == 1 else ""
         sure = workspace.surely_lacks(owner, "components", name)

@@ -89,6 +89,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             and _is_outside_dependencies(name, package, workspace)
         )
         hint = _hint_to_declare(name, package, workspace) if left_out and not verdict.known else ""
+        if not (hint or verdict.meant or verdict.known or verdict.hint.endswith("?")):
+            hint = "; correct the name, or add the sources of the package to the workspace"
         yield Finding(
             f"there is no package '{name}'{_joined(verdict.hint, hint)}",
             best.reference.package_span,

@@ -69,7 +69,7 @@ def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collec
     for (name, holds), reads in places.items():
         (first, _), *others = reads
         yield Finding(
-            f"launch argument '{name}' is read before it is declared, so {_OUTCOMES[holds]} unless it is passed; "
+            f"launch argument '{name}' is read before it is declared, so {_OUTCOMES[holds]} unless the argument is passed; "
             "declare it earlier",
             first,
             name,

@@ -165,7 +165,7 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
     if machine.is_rviz_description:
         return "set 'Description Source' to Topic, because RViz does not resolve package:// in 'Description File'"
     if inside is None:
-        return "make it an argument, or move the file to a package"
+        return "make the path an argument, or move the file to a package"
     if machine.is_written:
         place = f"it is '{inside.rest}' of" if inside.rest else "it leads into the sources of"
         return f"{place} '{inside.package}' but is written at run time: {_without_file(machine, inside, file, package)}"
@@ -264,7 +264,7 @@ def _without_file(machine: MachinePath, inside: _Inside, file: str, package: Pac
     if _is_yaml(file) and not launch.is_launch_file(package, machine.span.path):
         return "pass the path from the launch file"
     program = file.endswith(_PROGRAMS) and not file.endswith(_BUILDING) and not launch.is_launch_file(package, machine.span.path)
-    return "make it a parameter" if program else "make it an argument"
+    return "make the path a parameter" if program else "make the path an argument"
 
 
 def _scheme(inside: _Inside, file: str) -> str:
@@ -339,7 +339,7 @@ def _folders(workspace: Workspace) -> Mapping[str, Package]:
 RULE = Rule(
     name="machine-path",
     code="ROS418",
-    summary="paths lead to the same file on every machine and from every folder",
+    summary="paths do not depend on the machine or on the current folder",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

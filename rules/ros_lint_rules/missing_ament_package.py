@@ -69,7 +69,7 @@ def _fix(package: Package) -> Fix | None:
 RULE = Rule(
     name="missing-ament-package",
     code="ROS301",
-    summary="ament_cmake packages call ament_package()",
+    summary="packages of type ament_cmake call ament_package()",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

@@ -82,6 +82,8 @@ def _message(package: Package, workspace: Workspace, problem: Problem, path: str
         return f"'{path}' exists, but git does not track it, so a clone lacks it; run git add"
     hint = _hint(package, path) if problem.kind != "file-is-directory" else ""
     message = f"'{path}' does not exist" if path in _KINDS_OF_INSTALL else problem.message
+    if not hint and ";" not in message:  # the message has no remedy
+        hint = f"; correct the path, or add the {'folder' if problem.kind == 'missing-folder' else 'file'}"
     return f"{message}{hint}"
 
 
@@ -166,11 +168,12 @@ def _python_packages(package: Package) -> Iterator[Finding]:
         folder = name.replace(".", "/")
         if f"{folder}/__init__.py" in package.files or _is_unseen(package, folder):
             continue
-        what = "has no __init__.py" if any(file.startswith(f"{folder}/") for file in package.files) else "does not exist"
+        exists = any(file.startswith(f"{folder}/") for file in package.files)
+        what = "has no __init__.py; add one" if exists else "does not exist; correct the name, or add the folder"
         yield Finding(
             f"ament_python_install_package() fails because the folder '{folder}' {what}",
             call.span(0),
-            folder if what.startswith("does") else f"{folder}/__init__.py",
+            f"{folder}/__init__.py" if exists else folder,
         )
 
 

@@ -37,11 +37,11 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     group = names.interfaces.GROUP
     if group not in package.groups and not _skips_check(package, generation.span):
         yield Finding(
-            f"{build.GENERATING}() fails without <member_of_group>{group}</member_of_group> in package.xml",
+            f"{build.GENERATING}() fails without <member_of_group>{group}</member_of_group> in package.xml; add this tag",
             generation.span,
             group,
             (),
-            Fix(f"join the group '{group}'", _join(manifest)),
+            Fix(f"add <member_of_group>{group}</member_of_group>", _join(manifest)),
             Confidence.HIGH if generation.certain else Confidence.MEDIUM,
         )
 

@@ -82,7 +82,7 @@ def _add(slot: EditableList, element: str) -> Fix:
 RULE = Rule(
     name="missing-marker",
     code="ROS408",
-    summary="ament_python packages install their marker and manifest",
+    summary="packages of type ament_python install their marker and package.xml",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -98,12 +98,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             reported.add(lack.name)
             remedy = _remedy(package, lack.folder, lack.name, slot)
             yield Finding(
-                f"{lack.message}{remedy}",
+                f"{lack.message}{remedy or _TO_LIST}",
                 lack.span,
                 lack.name,
                 fix=None if remedy else _fix(slot, lack.name, package.name),
                 confidence=Confidence.HIGH if lack.sure else Confidence.MEDIUM,
             )
+
+
+_TO_LIST = "; add it to the option 'packages' of setup()"
+"""The remedy for a folder with an __init__.py that setup.py does not install."""
 
 
 class _Lack(NamedTuple):
@@ -126,7 +130,7 @@ def _unlisted(package: Package, script: BuildScript, slot: EditableList | None, 
     for name, folder in _packages(package):
         inside = name.rpartition(".")[0] in installed and f"{folder}/__init__.py" in package.files
         if inside and name not in installed and folder not in as_data:
-            message = f"the Python package '{name}' is not installed; add it to the option 'packages' of setup()"
+            message = f"the Python package '{name}' is not installed"
             yield _Lack(name, folder, message, place)
 
 
@@ -179,7 +183,7 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
             continue
         reported.add(item.source)
         place, slash, _ = item.program.rpartition("/")
-        why = f"is not installed to {place}, where Python looks for it"
+        why = f"is not installed to {place}, where Python looks for it; install it there"
         if not slash:
             why = f"is installed as {item.program.rpartition('.')[0]}.{module}; import it by that name"
         yield Finding(

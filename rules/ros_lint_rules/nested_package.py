@@ -113,7 +113,8 @@ def _remedy(package: Package, inside: list[Manifest], it: str) -> str:
     that script may be intended.
     """
     folders = dict.fromkeys(folder for nested in inside for folder in _between(package, nested)[:1])
-    remedies = f"move {it} out, or mark {it} with COLCON_IGNORE"
+    place = "its folder" if it == "it" else "their folders"
+    remedies = f"move {it} out, or put an empty file COLCON_IGNORE into {place}"
     return remedies if package.path or not folders else f"build with --base-paths {' '.join(folders)}, {remedies}"
 
 

@@ -84,7 +84,7 @@ def _of_others(uses: list[launch.NodeParameterFile]) -> Finding:
     all_names = names.shorten_list(dict.fromkeys(name for name, _ in first.file.nodes))
     return Finding(
         f"'{_name(first)}' has parameters for {all_names}, but none for the node '{_full_name(first)}', which receives it here; "
-        "correct the name or write /**",
+        "correct the name of the node in the file, or write /** instead",
         first.value.span,
         first.file.path,
         (Related("the parameter file", first.file.nodes[0][1]), *_more(uses)),

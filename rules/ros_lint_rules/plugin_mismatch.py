@@ -71,7 +71,11 @@ def _of_other_package(plugin: str, workspace: Workspace) -> str:
     """Return the message for a described class that another package registers."""
     owner = _registering_packages(workspace)[plugin]
     described = {entry.type for file in owner.built.files.plugin_files for library in file.libraries for entry in library.classes}
-    remedy = "remove the entry, because that package describes the class" if plugin in described else "describe it there"
+    remedy = (
+        "remove the entry, because that package describes the class"
+        if plugin in described
+        else f"move the entry to a plugin description of '{owner.name}'"
+    )
     return f"no source of this package registers the plugin '{plugin}', only package '{owner.name}' does; {remedy}"
 
 

@@ -117,7 +117,7 @@ def _whole_version(manifest: Manifest, problem: Problem) -> Fix | None:
 RULE = Rule(
     name="rejected-manifest",
     code="ROS101",
-    summary="catkin_pkg accepts every package.xml",
+    summary="every package.xml is accepted by catkin_pkg",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,

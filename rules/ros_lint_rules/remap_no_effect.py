@@ -74,7 +74,7 @@ def _is_invalid(name: str) -> bool:
 RULE = Rule(
     name="remap-no-effect",
     code="ROS512",
-    summary="remappings lead from one name to another",
+    summary="remappings have an effect",
     severity=Severity.INFO,
     since="0.1",
     doc=__doc__,

@@ -40,7 +40,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if generating and not call.blocks and name == package.name:
             yield Finding(
                 f"the Python package '{name}' has the same name as the package generated for the interfaces, "
-                "so Python finds only one of them; rename this package",
+                "so Python finds only one of them; rename this Python package",
                 call.span(0),
                 name,
                 (Related("this generates the Python package for the interfaces", generating[0].name_span),),

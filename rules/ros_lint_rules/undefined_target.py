@@ -74,6 +74,8 @@ _USERS = (
     "target_link_libraries",
     "target_sources",
 )
+_UNDEFINED = "; correct the name, or define the target before"
+"""The remedy for an undefined target if no target has a similar name."""
 _DEFINING = ("add_custom_target", "rosidl_generate_interfaces", "ament_vendor", "add_executable", "add_library")
 
 
@@ -104,7 +106,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if is_wrong:
                 wrong.setdefault(name, []).append((call, index))
     for name, places in wrong.items():
-        yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, all_names, places)
+        yield _finding(f"{places[0][0].name}() fails because '{name}' is not a target", name, all_names, places, _UNDEFINED)
     if hidden:
         return
     for problem in script.cmake.errors:  # these include computed names
@@ -112,7 +114,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if problem.kind == "undefined-target" and name not in defined and name not in wrong:
             near = names.similar_names(name, all_names, 1, 0.8)
             if near or not finds_unknown or workspace.world.is_package(name):  # targets do not have the plain name of a package
-                yield Finding(problem.message + names.ask_if_meant(near), problem.span, name)
+                yield Finding(problem.message + (names.ask_if_meant(near) or _UNDEFINED), problem.span, name)
     yield from _unfilled(package)
     yield from _of_others(package, script, workspace)
     yield from _no_libraries(package, defined)
@@ -137,7 +139,7 @@ def _unfilled(package: Package) -> Iterator[Finding]:
             if text == "HAS_LIBRARY_TARGET" or name is None or call.blocks or "__rosidl" in name or name in filled:
                 continue
             message = f"{call.name}() exports '{name}', but no install(TARGETS ... EXPORT {name}) adds a target to it"
-            yield _finding(message, name, filled, [(call, index)])
+            yield _finding(message, name, filled, [(call, index)], "; add it there, or correct the name")
 
 
 def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> Iterator[Finding]:

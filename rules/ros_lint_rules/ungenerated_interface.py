@@ -171,7 +171,7 @@ def _fix(calls: list[Call], files: list[str]) -> Fix | None:
             quote = '"' if span.end_column - span.column == len(call.texts[at]) + 2 else ""
             gap = " " if at and span.line == call.span(at - 1).line else "\n" + " " * (span.column - 1)
             added = "".join(f"{gap}{quote}{file}{quote}" for file in files)
-            return Fix(f"generate {names.shorten_list(files)}", (Edit(span.end(), added),), safe=False)
+            return Fix(f"add {names.shorten_list(files)} to {_GENERATE}()", (Edit(span.end(), added),), safe=False)
     return None
 
 

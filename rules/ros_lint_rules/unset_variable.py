@@ -95,7 +95,7 @@ def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str],
     advice = names.did_you_mean(similar) or f"; set it, or remove ${{{name}}}"
     fix = [Edit(reference.span, similar[0]) for reference in places] if len(similar) == 1 else []
     return Finding(
-        f"'{name}' is never set, so {first.command}() {_effect(first.command)} for it{advice}",
+        f"the variable '{name}' is never set, so {first.command}() {_effect(first.command)} for it{advice}",
         first.span,
         name,
         first_related(Related("also read here", reference.span) for reference in others),

@@ -62,7 +62,7 @@ def _fix(manifest: Manifest, version: str, span: Span, place: Span) -> Fix | Non
 RULE = Rule(
     name="version-mismatch",
     code="ROS110",
-    summary="setup.py and package.xml have the same version",
+    summary="versions in setup.py and package.xml are equal",
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,

@@ -63,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if failed and len(packages) < 2:
             yield Finding(
                 f"'{depend.name}' has version {version}, but '{package.name}' requires version {' and '.join(failed)}; "
-                "use another version, or correct the attribute",
+                "use a version that satisfies this, or correct the attribute",
                 depend.span,
                 depend.name,
                 tuple(Related(f"'{depend.name}' {version}", package.span) for package in packages),

@@ -44,7 +44,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             fix = Fix(f"export it for '{asked[0]}'", (edits.cmake.write(call, 0, asked[0]),), safe=False)
             yield Finding(
                 f"'{path}' is exported for '{exported_for}', which is not a package; "
-                f"the class loader only reads descriptions exported for {names.shorten_list(asked)}",
+                f"export it for {names.shorten_list(asked)}, where the class loader looks for it",
                 call.span(0),
                 path,
                 first_related(Related("loaded here", loader.span) for loader in loaders),

@@ -53,7 +53,8 @@ def remedy(package: Package, workspace: Workspace, name: str, role: Role) -> Rem
     written = " and ".join(f"<{needed_tag}{condition}>{name}</{needed_tag}>" for needed_tag in tags_for(package, tag))
     if way := cycle_through(package, workspace, name):
         between = f", through {' > '.join(map(repr, way[1:-1]))}" if len(way) > 2 else ""
-        return Remedy(written, None, f"'{name}' depends on this package itself{between}", circular=True, certain=False)
+        obstacle = f"'{name}' depends on this package itself{between}; move what uses '{name}' to another package"
+        return Remedy(written, None, obstacle, circular=True, certain=False)
     usable = not (package.manifest and package.manifest.problems)
     if (bare := workspace.by_name.get(name)) and all(namesake.manifest is None for namesake in bare):
         obstacle = f"the folder '{bare[0].path}' has no package.xml, so rosdep cannot resolve '{name}'; add package.xml"

@@ -176,9 +176,9 @@ def _element(line: str) -> _Element | None:
             return None
         raise _LineError("rosidl does not accept spaces at the beginning of a line; remove them", 0, line[: -len(rest)], "")
     if kind.startswith("//"):
-        raise _LineError("a comment begins with '#', not '//'", 0, "//", "#")
+        raise _LineError("a comment begins with '#', not '//'; write '#'", 0, "//", "#")
     if not rest:
-        raise _LineError(f"a field consists of a type and a name, but this line only contains '{kind}'", 0, kind)
+        raise _LineError(f"a field consists of a type and a name, but this line only contains '{kind}'; add the name", 0, kind)
     start = len(line) - len(rest)
     name, equals, value = rest.partition("=")
     if equals:
@@ -190,7 +190,7 @@ def _element(line: str) -> _Element | None:
 def _constant(kind: str, name: str, value: str, start: int, value_start: int) -> _Element:
     if kind not in _PLAIN:
         message = _type(kind)
-        raise _LineError(f"a constant must be a number, a string or a bool, not '{message or kind}'", 0, kind)
+        raise _LineError(f"a constant must be a number, a string or a bool, not '{message or kind}'; correct its type", 0, kind)
     if not naming.is_constant(name):
         if naming.is_field(name):
             remedy = f"write '{name.upper()}={value}', or '{name} {value}' for a field with a default value"
@@ -206,7 +206,7 @@ def _field(kind: str, name: str, value: str, start: int, value_start: int) -> _E
     message = _type(kind)
     if not naming.is_field(name):
         if name[-1] in ";," and naming.is_field(name[:-1]):
-            raise _LineError(f"a line must not end with '{name[-1]}'", start + len(name) - 1, name[-1], "")
+            raise _LineError(f"a line must not end with '{name[-1]}'; remove it", start + len(name) - 1, name[-1], "")
         if name[0] == "[":
             raise _LineError(f"there must be no space before the brackets; write '{kind}{name}'", start, name)
         better = re.sub("__+", "_", naming.snake(name)).strip("_")
@@ -217,7 +217,9 @@ def _field(kind: str, name: str, value: str, start: int, value_start: int) -> _E
     if value:
         if message:
             raise _LineError(
-                f"a field of a message type cannot have a default value, but this one has '{value}'", value_start, value
+                f"a field of a message type cannot have a default value, but this one has '{value}'; remove it",
+                value_start,
+                value,
             )
         _check_value(kind, value, value_start)
     return _Element(name, start, message)
@@ -246,7 +248,7 @@ def _type(kind: str) -> str:
         raise _LineError(f"there is no type '{base}'; write {suggestion}", 0, base)
     if (scoped := _SCOPED.fullmatch(base)) and naming.is_message(scoped[2]):
         replacement = f"{scoped[1]}/{scoped[2]}"
-        raise _LineError(f"in an interface file '{base}' is written '{replacement}'", 0, base, replacement)
+        raise _LineError(f"'{base}' is not a valid type in an interface file; write '{replacement}'", 0, base, replacement)
     package, slash, name = base.rpartition("/")
     if slash and not naming.is_field(package):
         raise _LineError(f"'{base}' is not a valid type; write a message of another package as package/Name", 0, base)
@@ -291,8 +293,8 @@ def _check_value(kind: str, value: str, start: int) -> None:
     elif _is_value(base, value):
         return
     if comment >= 0 and not base.startswith(_STRINGS):
-        raise _LineError("a comment begins with '#', not '//'", start + comment, "//", "#")
-    raise _LineError(f"'{value}' is not a valid value of type '{kind}'", start, value)
+        raise _LineError("a comment begins with '#', not '//'; write '#'", start + comment, "//", "#")
+    raise _LineError(f"'{value}' is not a valid value of type '{kind}'; correct the value or the type", start, value)
 
 
 def _is_value(kind: str, value: str) -> bool:

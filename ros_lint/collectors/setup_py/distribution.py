@@ -160,7 +160,11 @@ class Distribution:
                 self._data_file("", entry, maybe)
                 continue
             if not isinstance(entry, (tuple, list)) or len(entry) != 2:
-                self._problem("data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry)
+                self._problem(
+                    "data-files-form",
+                    "an entry of data_files must be a tuple of a folder and a list of files; write ('folder', ['file'])",
+                    entry,
+                )
                 continue
             folder, sources = entry
             if isinstance(folder, Unknown):
@@ -176,7 +180,9 @@ class Distribution:
                 continue
             if not isinstance(sources, (list, Unknown)) or not isinstance(entry, tuple):
                 self._problem(
-                    "data-files-form", "an entry of data_files must be a tuple of a folder and a list of files", entry[0]
+                    "data-files-form",
+                    "an entry of data_files must be a tuple of a folder and a list of files; write ('folder', ['file'])",
+                    entry[0],
                 )
             if isinstance(sources, Globbed) and not sources:
                 message = (

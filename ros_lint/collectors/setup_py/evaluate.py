@@ -131,7 +131,7 @@ def _failing(program: Program, tree: ast.Module, source: Text) -> Iterator[Probl
     Errors that a try statement catches are omitted.
     """
     for name in unbound(tree, (name for name, _ in program.unbound)):
-        yield Problem("undefined-name", f"'{name.id}' is not defined", span_of(source, name))
+        yield Problem("undefined-name", f"'{name.id}' is not defined; define or import it", span_of(source, name))
     if not program.no_functions:
         return
     caught = {node for statement in ast.walk(tree) if isinstance(statement, ast.Try) for node in tried(statement)}

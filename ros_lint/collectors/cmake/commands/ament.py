@@ -144,7 +144,12 @@ def _interfaces(run: Run, args: list[str]) -> None:
     if not run.muted and len(args) > 1:
         run.results.python_packages[package] = None
     elif not run.any_variable_may_be_set:
-        run.add_problem("no-interfaces", f"{_GENERATES}() is called without interface files", run.current_place(), package)
+        run.add_problem(
+            "no-interfaces",
+            f"{_GENERATES}() is called without interface files; add a file, or remove the call",
+            run.current_place(),
+            package,
+        )
 
 
 def _python(run: Run, args: list[str]) -> None:
