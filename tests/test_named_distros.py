@@ -55,6 +55,22 @@ def test_a_readme_counts_only_if_no_other_file_names_a_distribution() -> None:
     assert named(readme) == [("jazzy", "README.md", 1)]
 
 
+@pytest.mark.parametrize(
+    ("branch", "places"),
+    [
+        ("humble", [("humble", ".git/HEAD", 1)]),
+        ("jazzy-devel", [("jazzy", ".git/HEAD", 1)]),
+        ("feature/humble", []),
+        ("humbler", []),
+        ("main", []),
+    ],
+)
+def test_the_branch_counts_only_if_no_file_names_a_distribution(branch: str, places: list[tuple[str, str, int]]) -> None:
+    head = {".git/HEAD": f"ref: refs/heads/{branch}\n"}
+    assert named(head) == places
+    assert named({**head, "Dockerfile": "FROM ros:rolling\n"}) == [("rolling", "Dockerfile", 1)]
+
+
 def test_only_a_bounded_number_of_small_files_is_read() -> None:
     assert named({"Dockerfile": "#" * (1 << 16) + "\nFROM ros:humble\n"}) == []
     files = {f".github/workflows/{number:03}.yml": "a: b\n" for number in range(40)}

@@ -1,4 +1,4 @@
-"""Find the distributions that a repository builds for: their names are in CI configuration, container files or the README."""
+"""Find the distributions that a repository builds for: CI configuration, container files, the branch or the README name them."""
 
 from __future__ import annotations
 
@@ -35,12 +35,13 @@ def named_distros(tree: Tree, roots: Sequence[str], known: Mapping[str, bool]) -
     """Return each distribution that the repository names, with the place of the first occurrence, in the order of the files.
 
     ``known`` has the distributions to search for; the value is True if ros-lint has an index of the distribution's packages.
-    Searched are the base folder, the ``roots``, and a few subfolders of both, e.g. ``.github/workflows``. A README counts only if
-    no other file names a distribution.
+    Searched are the base folder, the ``roots``, and a few subfolders of both, e.g. ``.github/workflows``. The branch of git counts
+    only if no file names a distribution, a README only if the branch does not name one either.
     """
     tops = dict.fromkeys(("", *roots))
     files = [path for top in tops for folder in _FOLDERS for path in _files(tree, join(top, folder) if folder else top)]
     places = [named for path in files for named in _in_build_file(path, _lines(tree, path), known)]
+    places = places or [named for top in tops for named in _in_branch(tree, join(top, ".git/HEAD"), known)]
     if not places:
         readmes = [path for top in tops for path in _matching(tree, top, _README)]
         places = [named for path in readmes for named in _in_readme(path, _lines(tree, path), known)]
@@ -89,6 +90,18 @@ def _in_build_file(path: str, lines: Sequence[str], known: Mapping[str, bool]) -
         names = [match[1] or match[2] for match in _PLACE.finditer(code)]
         names += [word.lower() for word in _WORD.findall(text)]
         yield from (NamedDistro(name, path, number, known[name]) for name in names if name in known)
+
+
+_BRANCH = re.compile(r"ref: refs/heads/([a-z]+)(?:[-_/]|\Z)")
+"""Matches the branch in ``.git/HEAD``: ``humble``, ``humble-devel``."""
+
+
+def _in_branch(tree: Tree, path: str, known: Mapping[str, bool]) -> Iterator[NamedDistro]:
+    """Yield the distribution with which the name of the current branch of git begins."""
+    for line in _lines(tree, path)[:1]:
+        branch = _BRANCH.match(line)
+        if branch and branch[1] in known:
+            yield NamedDistro(branch[1], path, 1, known[branch[1]])
 
 
 def _in_readme(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
