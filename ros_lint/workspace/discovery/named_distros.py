@@ -35,8 +35,8 @@ def named_distros(tree: Tree, roots: Sequence[str], known: Mapping[str, bool]) -
     """Return each distribution that the repository names, with the place of the first occurrence, in the order of the files.
 
     ``known`` has the distributions to search for; the value is True if ros-lint has an index of the distribution's packages.
-    Searched are the base folder, the ``roots``, and a few subfolders of both, e.g. ``.github/workflows``. The branch of git counts
-    only if no file names a distribution, a README only if the branch does not name one either.
+    Searched are the base folder, the ``roots``, and a few subfolders of both, e.g. ``.github/workflows``. The branch of git
+    counts only if none of these files names a distribution, and a README only if the branch does not name one either.
     """
     tops = dict.fromkeys(("", *roots))
     files = [path for top in tops for folder in _FOLDERS for path in _files(tree, join(top, folder) if folder else top)]
